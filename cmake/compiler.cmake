@@ -1,0 +1,18 @@
+# Compiler settings shared by every target. deal.II's own flags carry -g, which doubles the
+# time and memory of each translation unit; a Release build does without.
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+add_library(stockwork_options INTERFACE)
+target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-g0>)
+if(STOCKWORK_NATIVE)
+  target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-O3 -march=native>)
+endif()
+
+find_program(STOCKWORK_CCACHE ccache)
+if(STOCKWORK_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${STOCKWORK_CCACHE})
+endif()
