@@ -1,0 +1,52 @@
+#pragma once
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace stockwork
+{
+/// A cell that a discontinuity passes through: its own quadrature, and the extra shape functions
+/// that jump inside it. The displacement in the cell is the ordinary one plus
+/// sum_c a_c value(c, q) e_component(c).
+template <int dim>
+struct CutCell
+{
+  std::vector<dealii::Point<dim>> points;  ///< in unit-cell coordinates
+  std::vector<double>             weights; ///< times the Jacobian: they sum to the cell's volume
+
+  std::vector<unsigned int> extra;     ///< index of the unknown, one per column
+  std::vector<unsigned int> component; ///< direction of displacement, one per column
+  std::vector<double>       values;    ///< [q * n_columns + c]
+  std::vector<dealii::Tensor<1, dim>> gradients; ///< real space, [q * n_columns + c]
+
+  unsigned int
+  n_columns() const
+  {
+    return extra.size();
+  }
+};
+
+/// How the bulk kernel treats a cell. Default: an ordinary one.
+template <int dim>
+struct CellRole
+{
+  const CutCell<dim> *cut = nullptr;
+
+  /// Momentum rows (one flag per vertex) whose stiffness and inertia somebody else provides
+  /// (peridynamic nodes). Pressure coupling and loads stay with the bulk.
+  const std::vector<bool> *skip_stiffness = nullptr;
+};
+
+/// Coefficients of the bulk at one quadrature point, for models that change them.
+template <int dim>
+struct BulkCoefficients
+{
+  dealii::SymmetricTensor<4, dim> stiffness;
+  dealii::SymmetricTensor<2, dim> biot;
+  double                          storage; ///< 1/M [1/Pa]
+  dealii::SymmetricTensor<2, dim> mobility; ///< k/mu [m^2/(Pa s)]
+};
+} // namespace stockwork

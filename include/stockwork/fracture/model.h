@@ -1,0 +1,180 @@
+#pragma once
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include "stockwork/fracture/cell_role.h"
+#include "stockwork/fracture/collectives.h"
+#include "stockwork/fracture/scene.h"
+#include "stockwork/fracture/segment.h"
+#include "stockwork/fracture/sink.h"
+#include "stockwork/fracture/state.h"
+#include "stockwork/fracture/summary.h"
+#include "stockwork/mesh/discretization.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// What a model needs of the others. What nobody asks for is never allocated.
+struct Requirements
+{
+  bool pore_pressure     = false; ///< cannot run in dry, elastic rock
+  bool symmetric         = true;  ///< its own terms keep the matrix symmetric
+  bool changes_bulk      = false; ///< bulk_coefficients() has something to say
+  bool newton            = true;  ///< assemble() gives the exact derivative (else a secant)
+  bool quasi_static_only = false;
+};
+
+/// An unknown of the model's own. Unknowns are recognised by their key when the mesh or the crack
+/// has changed, so a key must not depend on numbering, rank or refinement elsewhere.
+struct ExtraUnknown
+{
+  std::uint64_t key;
+  double        initial = 0.; ///< value, and rate reference, when it appears for the first time
+  double        scale   = 1.; ///< typical size, for the convergence test
+};
+
+/// What a model says about a converged solution.
+struct Verdict
+{
+  enum class Kind
+  {
+    accept,
+    topology_changed, ///< the fracture has grown: solve again at the same time
+    reject            ///< not admissible: the driver rolls back and cuts the step
+  };
+  Kind        kind     = Kind::accept;
+  double      dt_limit = std::numeric_limits<double>::infinity(); ///< for the next attempt or step
+  std::string reason;                                             ///< said to the user
+};
+
+/// A fracture model. Few functions are pure; a model overrides what it needs. The order of calls
+/// within a time step is
+///
+///   begin_step; { assemble…, update_iterate } until converged; advance; commit or rollback
+///
+/// with everything after begin_step repeated while advance() reports a changed topology. `setup`
+/// is called whenever the mesh has changed, never inside a step. A model owns no clock, no file
+/// and no communicator. doc/architecture.md walks three models through a step.
+template <int dim>
+class FractureModel
+{
+public:
+  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  virtual ~FractureModel() = default;
+
+  virtual Requirements
+  requirements() const
+  {
+    return {};
+  }
+
+  /// The mesh or the numbering of the bulk unknowns is new.
+  virtual void
+  setup(const Discretization<dim> &, const Collectives &)
+  {}
+
+  virtual void
+  begin_step(const StepContext &)
+  {}
+
+  /// The model's own unknowns, in the order of their indices, the same on every rank. Fluid
+  /// pressures are not among them.
+  virtual std::vector<ExtraUnknown>
+  extra_unknowns() const
+  {
+    return {};
+  }
+
+  /// Locally owned segments.
+  virtual dealii::ArrayView<const Segment<dim>>
+  segments() const
+  {
+    return {};
+  }
+
+  /// How the bulk kernel shall treat a locally owned cell.
+  virtual CellRole<dim>
+  role(const CellIterator &) const
+  {
+    return {};
+  }
+
+  /// Change the coefficients at the quadrature points of a cell; only called where
+  /// requirements().changes_bulk.
+  virtual void
+  bulk_coefficients(const CellIterator &,
+                    const std::vector<dealii::Point<dim>> &,
+                    std::vector<BulkCoefficients<dim>> &) const
+  {}
+
+  /// Pairs of bulk dofs that assemble() couples beyond those of a common cell.
+  virtual void
+  add_couplings(
+    const std::function<void(const std::vector<dealii::types::global_dof_index> &)> &) const
+  {}
+
+  /// Add the model's own terms (cohesive tractions, bonds); not the fluid, not the bulk. A
+  /// function of committed history and of the state alone: it may be called any number of times.
+  virtual void
+  assemble(const StepContext &, const State &, Sink &) const
+  {}
+
+  /// Between two linear solves: move trial quantities (damage, contact sets) along with the
+  /// iterate. Returns the relative change, which counts in the convergence test.
+  virtual double
+  update_iterate(const StepContext &, const State &, const Collectives &)
+  {
+    return 0.;
+  }
+
+  /// The unknowns have converged: grow?
+  virtual Verdict
+  advance(const StepContext &, const State &, const Collectives &)
+  {
+    return {};
+  }
+
+  /// The step is accepted: trial history becomes history.
+  virtual void
+  commit(const StepContext &, const State &)
+  {}
+
+  /// The step is rejected: back to the state at begin_step, as if it had never been.
+  virtual void
+  rollback()
+  {}
+
+  /// Raise the wanted size of cells (by active cell index, [m]) where the fracture is or may soon
+  /// be. Called between steps.
+  virtual void
+  wanted_cell_size(std::vector<float> &) const
+  {}
+
+  virtual void
+  save(boost::archive::binary_oarchive &) const
+  {}
+
+  virtual void
+  load(boost::archive::binary_iarchive &)
+  {}
+
+  virtual FractureSummary
+  summary(const State &, const Collectives &) const
+  {
+    return {};
+  }
+
+  virtual void
+  write_fields(const State &, FieldSink<dim> &) const
+  {}
+};
+} // namespace stockwork

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/base/types.h>
+
+#include <boost/serialization/vector.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace stockwork
+{
+/// A linear functional of the unknowns, w = sum_j coefficient_j x_j + constant.
+struct LinearFunctional
+{
+  std::vector<dealii::types::global_dof_index> bulk;
+  std::vector<double>                          bulk_coefficients;
+  std::vector<unsigned int>                    extra;
+  std::vector<double>                          extra_coefficients;
+  double                                       constant = 0.;
+};
+
+/// A piece of a fracture, as the fluid sees it: a place, an area, a normal, neighbours, and the
+/// linear functional of the unknowns that opens it. The same functional gives the volume A w and,
+/// transposed, the load A p_f on the rock, so work and volume are conserved by construction.
+template <int dim>
+struct Segment
+{
+  struct Neighbour
+  {
+    std::uint64_t key;      ///< the neighbour's key
+    double        distance; ///< from this segment's centre to the shared edge [m]
+    double        width;    ///< length of the shared edge [m]; 1 in 2-D
+
+    template <class Archive>
+    void
+    serialize(Archive &ar, const unsigned int)
+    {
+      ar &key &distance &width;
+    }
+  };
+
+  std::uint64_t           key = 0; ///< the same on every rank, on every mesh, after a restart
+  dealii::Point<dim>      centre;
+  dealii::Tensor<1, dim>  normal; ///< unit, from the minus to the plus side
+  double                  area = 0.; ///< [m^2]; [m] per unit thickness in 2-D
+  std::vector<Neighbour>  neighbours;
+
+  /// Mean aperture [m]. Known on the rank that owns the host cell only.
+  LinearFunctional opening;
+
+  /// Fluid pressure where it is given and not solved for [Pa]; NaN: an unknown of its own.
+  double given_pressure = std::numeric_limits<double>::quiet_NaN();
+
+  /// Value that starts the iteration for a new fluid pressure unknown [Pa], e.g. the old tip's.
+  double initial_pressure = 0.;
+};
+} // namespace stockwork

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
+#include <vector>
+
+namespace stockwork
+{
+/// Which step this is, and how the time scheme forms rates from the unknowns:
+///
+///   du/dt   = rate            (u - rate_reference u)
+///   dp/dt   = pressure_rate   (p - rate_reference p)
+///   d2u/dt2 = acceleration    (u - acceleration_reference u)
+///
+/// Backward Euler has rate = pressure_rate = 1/dt and the last accepted state as reference; BDF2
+/// and Newmark differ in the numbers only, so nobody below the time scheme asks which one runs.
+struct StepContext
+{
+  double       time    = 0.; ///< time at the end of the step [s]
+  double       dt      = 0.; ///< length of the step [s]
+  unsigned int step    = 0;  ///< number of the step, from 1
+  unsigned int attempt = 0;  ///< 0 for the first attempt at this step
+  double       rate          = 0.; ///< [1/s]
+  double       pressure_rate = 0.; ///< [1/s]
+  double       acceleration  = 0.; ///< [1/s^2], zero when quasi-static
+
+  /// 1/rate [s]. Mass balances are integrated over this time, see Sink.
+  double
+  effective_dt() const
+  {
+    return 1. / rate;
+  }
+};
+
+/// One set of values of all unknowns.
+/// `bulk` is ghosted: locally relevant dofs and what the fracture model asked for besides.
+/// `extra` holds the fracture unknowns (the model's own first, then one fluid pressure per
+/// segment) and is the same on every rank.
+struct Unknowns
+{
+  dealii::TrilinosWrappers::MPI::BlockVector bulk;
+  std::vector<double>                        extra;
+};
+
+/// What an assembly may depend on, besides the committed history of the model.
+struct State
+{
+  const Unknowns &current;                ///< the iterate
+  const Unknowns &committed;              ///< the last accepted step
+  const Unknowns &rate_reference;         ///< see StepContext
+  const Unknowns &acceleration_reference; ///< see StepContext; empty when quasi-static
+};
+} // namespace stockwork

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <deal.II/lac/trilinos_block_sparse_matrix.h>
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
+#include <vector>
+
+namespace stockwork
+{
+/// Entries of a sparse matrix as they come; repeated entries add up.
+struct Triplets
+{
+  std::vector<dealii::types::global_dof_index> rows;
+  std::vector<dealii::types::global_dof_index> columns;
+  std::vector<double>                          values;
+
+  void
+  add(const dealii::types::global_dof_index row,
+      const dealii::types::global_dof_index column,
+      const double                          value)
+  {
+    rows.push_back(row);
+    columns.push_back(column);
+    values.push_back(value);
+  }
+
+  void
+  clear()
+  {
+    rows.clear();
+    columns.clear();
+    values.clear();
+  }
+};
+
+/// One linear system J dx = -R in the bulk unknowns (blocks: displacement and, if present, pore
+/// pressure) and the extra unknowns of the fracture.
+///
+///   [ bulk         bulk_extra  ]
+///   [ extra_bulk   extra_extra ]
+///
+/// Rows and columns of constrained bulk dofs have a diagonal entry and nothing else. The triplets
+/// hold this rank's contributions only, in global bulk dof indices and extra indices; the system is
+/// the sum over ranks. `residual_extra` is summed already and the same on all ranks.
+struct LinearSystem
+{
+  dealii::TrilinosWrappers::BlockSparseMatrix bulk;
+  Triplets                                    bulk_extra;
+  Triplets                                    extra_bulk;
+  Triplets                                    extra_extra;
+
+  dealii::TrilinosWrappers::MPI::BlockVector residual_bulk; ///< owned entries only
+  std::vector<double>                        residual_extra;
+
+  bool symmetric      = true;  ///< as assembled
+  bool definite       = false; ///< the bulk alone is symmetric positive definite
+};
+
+/// What has changed since a solver last looked. A number grows when the thing it names changes.
+struct SystemStamps
+{
+  unsigned int mesh         = 0; ///< size and sparsity of the bulk block
+  unsigned int bulk_values  = 0; ///< values of the bulk block
+  unsigned int extra        = 0; ///< number or meaning of the extra unknowns, or their bulk columns
+  unsigned int extra_values = 0; ///< values of extra_extra
+};
+} // namespace stockwork
