@@ -37,19 +37,19 @@ double parse_quantity(const std::string &text, const Dimension &expected)
 {
   UnitValue result;
   try
-    {
-      result = evaluate_unit_expression(text);
-    }
+  {
+    result = evaluate_unit_expression(text);
+  }
   catch (const InputError &error)
-    {
-      throw InputError(std::string(error.what()) + "; " + what_is_expected(expected));
-    }
+  {
+    throw InputError(std::string(error.what()) + "; " + what_is_expected(expected));
+  }
 
   if (std::isnan(result.value))
     throw InputError("\"" + text + "\" is not a number; " + what_is_expected(expected));
   if (result.has_unit && result.dimension != expected)
-    throw InputError("\"" + text + "\" is " + with_article(dimension_name(result.dimension)) + "; " +
-                     what_is_expected(expected));
+    throw InputError("\"" + text + "\" is " + with_article(dimension_name(result.dimension)) +
+                     "; " + what_is_expected(expected));
   return result.value;
 }
 
@@ -67,14 +67,14 @@ std::string Range::text(const Dimension &dimension) const
 {
   const bool has_min = std::isfinite(min), has_max = std::isfinite(max);
   if (has_min && has_max)
-    {
-      std::string ends;
-      if (min_open && max_open)
-        ends = ", both excluded";
-      else if (min_open || max_open)
-        ends = ", " + to_string(min_open ? min : max, dimension) + " excluded";
-      return "from " + to_string(min, dimension) + " to " + to_string(max, dimension) + ends;
-    }
+  {
+    std::string ends;
+    if (min_open && max_open)
+      ends = ", both excluded";
+    else if (min_open || max_open)
+      ends = ", " + to_string(min_open ? min : max, dimension) + " excluded";
+    return "from " + to_string(min, dimension) + " to " + to_string(max, dimension) + ends;
+  }
   if (has_min)
     return (min_open ? "> " : ">= ") + to_string(min, dimension);
   if (has_max)
@@ -92,38 +92,37 @@ double Quantity::parse(const std::string &text) const
 {
   const double value = parse_quantity(text, dimension);
   if (!range.contains(value))
-    throw InputError(
-      "\"" + text + "\" is out of range; allowed is " +
-      (std::isinf(value) && range.text(dimension).empty() ? "a finite value" :
-                                                            range.text(dimension)));
+    throw InputError("\"" + text + "\" is out of range; allowed is " +
+                     (std::isinf(value) && range.text(dimension).empty() ? "a finite value"
+                                                                         : range.text(dimension)));
   return value;
 }
 
 bool Quantity::match(const std::string &text) const
 {
   try
-    {
-      parse(text);
-      return true;
-    }
+  {
+    parse(text);
+    return true;
+  }
   catch (const InputError &)
-    {
-      return false;
-    }
+  {
+    return false;
+  }
 }
 
 std::string Quantity::description(const OutputStyle style) const
 {
   if (style == Machine)
-    {
-      std::string text = "[Quantity " + std::string(dimension.name) + " in " +
-                         (range.min_open ? "(" : "[") + number_text(range.min) + ", " +
-                         number_text(range.max) + (range.max_open ? ")" : "]");
-      if (dimension.unit[0] != '\0')
-        text += std::string(" ") + dimension.unit;
-      return text + "]";
-    }
-  std::string       text = with_article(dimension.name);
+  {
+    std::string text = "[Quantity " + std::string(dimension.name) + " in " +
+                       (range.min_open ? "(" : "[") + number_text(range.min) + ", " +
+                       number_text(range.max) + (range.max_open ? ")" : "]");
+    if (dimension.unit[0] != '\0')
+      text += std::string(" ") + dimension.unit;
+    return text + "]";
+  }
+  std::string text = with_article(dimension.name);
   const std::string ends = range.text(dimension);
   if (!ends.empty())
     text += (ends.find("from") == 0 ? " " : " ") + ends;
@@ -140,27 +139,23 @@ std::unique_ptr<dealii::Patterns::PatternBase> Quantity::clone() const
 std::unique_ptr<Quantity> Quantity::create(const std::string &description)
 {
   const std::string begin = "[Quantity ";
-  const auto        in    = description.rfind(" in ");
+  const auto in = description.rfind(" in ");
   if (description.compare(0, begin.size(), begin) != 0 || in == std::string::npos)
     return nullptr;
-  const Dimension *dimension =
-    named_dimension(description.substr(begin.size(), in - begin.size()));
+  const Dimension *dimension = named_dimension(description.substr(begin.size(), in - begin.size()));
   const auto comma = description.find(", ", in);
-  const auto end   = description.find_first_of(")]", in);
+  const auto end = description.find_first_of(")]", in);
   if (dimension == nullptr || comma == std::string::npos || end == std::string::npos)
     return nullptr;
-  const auto bound = [&](const std::size_t first, const std::size_t last) {
-    return evaluate_unit_expression(description.substr(first, last - first)).value;
-  };
+  const auto bound = [&](const std::size_t first, const std::size_t last)
+  { return evaluate_unit_expression(description.substr(first, last - first)).value; };
   return std::make_unique<Quantity>(*dimension,
-                                    Range{bound(in + 5, comma),
-                                          bound(comma + 2, end),
-                                          description[in + 4] == '(',
-                                          description[end] == ')'});
+                                    Range{bound(in + 5, comma), bound(comma + 2, end),
+                                          description[in + 4] == '(', description[end] == ')'});
 }
 
-Quantities::Quantities(const Dimension &  dimension,
-                       const Range &      range,
+Quantities::Quantities(const Dimension &dimension,
+                       const Range &range,
                        const unsigned int min_size,
                        const unsigned int max_size)
   : element(dimension, range)
@@ -183,23 +178,23 @@ std::vector<double> Quantities::parse(const std::string &text) const
 bool Quantities::match(const std::string &text) const
 {
   try
-    {
-      parse(text);
-      return true;
-    }
+  {
+    parse(text);
+    return true;
+  }
   catch (const InputError &)
-    {
-      return false;
-    }
+  {
+    return false;
+  }
 }
 
 std::string Quantities::description(const OutputStyle style) const
 {
   const bool unlimited = max_size == std::numeric_limits<unsigned int>::max();
-  const std::string count =
-    min_size == max_size ? std::to_string(min_size) :
-    unlimited            ? std::to_string(min_size) + " or more" :
-                           std::to_string(min_size) + " to " + std::to_string(max_size);
+  const std::string count = min_size == max_size ? std::to_string(min_size)
+                            : unlimited
+                              ? std::to_string(min_size) + " or more"
+                              : std::to_string(min_size) + " to " + std::to_string(max_size);
   if (style == Machine)
     return "[Quantities " + count + " of " + element.description(Machine) + "]";
   return "a list separated by commas" + (min_size == 0 && unlimited ? "" : " of " + count) +
@@ -214,16 +209,16 @@ std::unique_ptr<dealii::Patterns::PatternBase> Quantities::clone() const
 std::unique_ptr<Quantities> Quantities::create(const std::string &description)
 {
   const std::string begin = "[Quantities ";
-  const auto        of    = description.find(" of ");
+  const auto of = description.find(" of ");
   if (description.compare(0, begin.size(), begin) != 0 || of == std::string::npos)
     return nullptr;
   const auto element = Quantity::create(description.substr(of + 4, description.size() - of - 5));
   if (!element)
     return nullptr;
 
-  Quantities         result(dimension::number);
+  Quantities result(dimension::number);
   std::istringstream count(description.substr(begin.size(), of - begin.size()));
-  std::string        word;
+  std::string word;
   result.element = *element;
   count >> result.min_size;
   if (!(count >> word))
@@ -234,40 +229,41 @@ std::unique_ptr<Quantities> Quantities::create(const std::string &description)
 }
 
 double get_quantity(const dealii::ParameterHandler &prm,
-                    const std::string &             entry,
-                    const Dimension &               dimension)
+                    const std::string &entry,
+                    const Dimension &dimension)
 {
   try
-    {
-      return parse_quantity(prm.get(entry), dimension);
-    }
+  {
+    return parse_quantity(prm.get(entry), dimension);
+  }
   catch (const InputError &error)
-    {
-      throw InputError("'" + entry + "': " + error.what());
-    }
+  {
+    throw InputError("'" + entry + "': " + error.what());
+  }
 }
 
 std::vector<double> get_quantities(const dealii::ParameterHandler &prm,
-                                   const std::string &             entry,
-                                   const Dimension &               dimension)
+                                   const std::string &entry,
+                                   const Dimension &dimension)
 {
   try
-    {
-      return Quantities(dimension, Range::any()).parse(prm.get(entry));
-    }
+  {
+    return Quantities(dimension, Range::any()).parse(prm.get(entry));
+  }
   catch (const InputError &error)
-    {
-      throw InputError("'" + entry + "': " + error.what());
-    }
+  {
+    throw InputError("'" + entry + "': " + error.what());
+  }
 }
 
 std::vector<std::string> split_list(const std::string &text)
 {
   std::vector<std::string> parts;
-  std::string              part;
-  const auto               finish = [&]() {
+  std::string part;
+  const auto finish = [&]()
+  {
     const auto first = part.find_first_not_of(" \t");
-    const auto last  = part.find_last_not_of(" \t");
+    const auto last = part.find_last_not_of(" \t");
     parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
     part.clear();
   };
@@ -276,10 +272,10 @@ std::vector<std::string> split_list(const std::string &text)
     if ((c == ',' || c == ';') && depth == 0)
       finish();
     else
-      {
-        depth += (c == '(' || c == '{') - (c == ')' || c == '}');
-        part += c;
-      }
+    {
+      depth += (c == '(' || c == '{') - (c == ')' || c == '}');
+      part += c;
+    }
   finish();
   if (parts.size() == 1 && parts[0].empty())
     parts.clear();

@@ -16,7 +16,7 @@ namespace
 {
 struct Unit
 {
-  double    factor;
+  double factor;
   Dimension dimension;
 };
 
@@ -25,7 +25,7 @@ using UnitTable = std::map<std::string, Unit>;
 constexpr double minute = 60, hour = 3600, day = 24 * hour, year = 365.25 * day;
 constexpr double foot = 0.3048, inch = 0.0254;
 constexpr double pound = 0.45359237, pound_force = pound * 9.80665;
-constexpr double darcy  = 9.869233e-13;
+constexpr double darcy = 9.869233e-13;
 constexpr double barrel = 0.158987294928; // 42 US gallons
 constexpr double degree = 3.14159265358979323846 / 180;
 
@@ -45,43 +45,37 @@ const UnitTable &prefixed_units()
 
 const UnitTable &plain_units()
 {
-  static const UnitTable table = {
-    {"%", {0.01, dimension::number}},
-    {"deg", {degree, dimension::angle}},
-    {"min", {minute, dimension::time}},
-    {"h", {hour, dimension::time}},
-    {"hour", {hour, dimension::time}},
-    {"hours", {hour, dimension::time}},
-    {"d", {day, dimension::time}},
-    {"day", {day, dimension::time}},
-    {"days", {day, dimension::time}},
-    {"year", {year, dimension::time}},
-    {"years", {year, dimension::time}},
-    {"ft", {foot, dimension::length}},
-    {"in", {inch, dimension::length}},
-    {"t", {1000, dimension::mass}},
-    {"lb", {pound, dimension::mass}},
-    {"lbf", {pound_force, dimension::force}},
-    {"atm", {101325, dimension::pressure}},
-    {"md", {1e-3 * darcy, dimension::permeability}},
-    {"darcy", {darcy, dimension::permeability}},
-    {"millidarcy", {1e-3 * darcy, dimension::permeability}},
-    {"cp", {1e-3, dimension::viscosity}},
-    {"bbl", {barrel, dimension::volume}},
-    {"gal", {barrel / 42, dimension::volume}}};
+  static const UnitTable table = {{"%", {0.01, dimension::number}},
+                                  {"deg", {degree, dimension::angle}},
+                                  {"min", {minute, dimension::time}},
+                                  {"h", {hour, dimension::time}},
+                                  {"hour", {hour, dimension::time}},
+                                  {"hours", {hour, dimension::time}},
+                                  {"d", {day, dimension::time}},
+                                  {"day", {day, dimension::time}},
+                                  {"days", {day, dimension::time}},
+                                  {"year", {year, dimension::time}},
+                                  {"years", {year, dimension::time}},
+                                  {"ft", {foot, dimension::length}},
+                                  {"in", {inch, dimension::length}},
+                                  {"t", {1000, dimension::mass}},
+                                  {"lb", {pound, dimension::mass}},
+                                  {"lbf", {pound_force, dimension::force}},
+                                  {"atm", {101325, dimension::pressure}},
+                                  {"md", {1e-3 * darcy, dimension::permeability}},
+                                  {"darcy", {darcy, dimension::permeability}},
+                                  {"millidarcy", {1e-3 * darcy, dimension::permeability}},
+                                  {"cp", {1e-3, dimension::viscosity}},
+                                  {"bbl", {barrel, dimension::volume}},
+                                  {"gal", {barrel / 42, dimension::volume}}};
   return table;
 }
 
 /// The prefixes that rocks and fluids need; without "d", "h" and "da", which nobody writes here.
 const std::map<std::string, double> &prefixes()
 {
-  static const std::map<std::string, double> table = {{"n", 1e-9},
-                                                      {"u", 1e-6},
-                                                      {"m", 1e-3},
-                                                      {"c", 1e-2},
-                                                      {"k", 1e3},
-                                                      {"M", 1e6},
-                                                      {"G", 1e9}};
+  static const std::map<std::string, double> table = {
+    {"n", 1e-9}, {"u", 1e-6}, {"m", 1e-3}, {"c", 1e-2}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}};
   return table;
 }
 
@@ -91,11 +85,11 @@ std::vector<std::string> all_unit_names()
   for (const auto &[unit, value] : plain_units())
     names.push_back(unit);
   for (const auto &[unit, value] : prefixed_units())
-    {
-      names.push_back(unit);
-      for (const auto &[prefix, factor] : prefixes())
-        names.push_back(prefix + unit);
-    }
+  {
+    names.push_back(unit);
+    for (const auto &[prefix, factor] : prefixes())
+      names.push_back(prefix + unit);
+  }
   return names;
 }
 
@@ -106,7 +100,7 @@ Unit find_unit(const std::string &name)
   if (const auto unit = prefixed_units().find(name); unit != prefixed_units().end())
     return unit->second;
   const auto prefix = prefixes().find(name.substr(0, 1));
-  const auto unit   = prefixed_units().find(name.substr(1));
+  const auto unit = prefixed_units().find(name.substr(1));
   if (prefix != prefixes().end() && unit != prefixed_units().end())
     return {prefix->second * unit->second.factor, unit->second.dimension};
 
@@ -122,8 +116,8 @@ Dimension scaled_sum(const Dimension &a, const double s, const Dimension &b)
 /// Symbols that people type, in ASCII.
 std::string plain_ascii(std::string text)
 {
-  static const std::vector<std::pair<std::string, std::string>> symbols = {
-    {"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b7", "*"}, {"\u00b0", " deg"},
+  static const std::vector<std::pair<std::string, std::string> > symbols = {
+    {"\u00b5", "u"},  {"\u03bc", "u"},  {"\u00b7", "*"}, {"\u00b0", " deg"},
     {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00d7", "*"}, {"\u2212", "-"}};
   for (const auto &[symbol, ascii] : symbols)
     for (auto at = text.find(symbol); at != std::string::npos; at = text.find(symbol, at))
@@ -196,56 +190,56 @@ private:
   {
     UnitValue result = product();
     while (peek() == '+' || peek() == '-')
-      {
-        const double    sign = accept('+') ? 1 : (accept('-'), -1);
-        const UnitValue term = product();
-        if (term.has_unit != result.has_unit || term.dimension != result.dimension)
-          fail("a " + dimension_name(result.dimension) + " and a " +
-               dimension_name(term.dimension) + " cannot be added");
-        result.value += sign * term.value;
-      }
+    {
+      const double sign = accept('+') ? 1 : (accept('-'), -1);
+      const UnitValue term = product();
+      if (term.has_unit != result.has_unit || term.dimension != result.dimension)
+        fail("a " + dimension_name(result.dimension) + " and a " + dimension_name(term.dimension) +
+             " cannot be added");
+      result.value += sign * term.value;
+    }
     return result;
   }
 
   UnitValue product()
   {
-    UnitValue result           = power();
-    bool      divided_by_units = false;
+    UnitValue result = power();
+    bool divided_by_units = false;
     while (true)
+    {
+      double exponent = 1;
+      if (accept('*'))
+        divided_by_units = false;
+      else if (accept('/'))
+        exponent = -1;
+      else if (at_word() || peek() == '(' || at_reciprocal())
       {
-        double exponent = 1;
-        if (accept('*'))
-          divided_by_units = false;
-        else if (accept('/'))
-          exponent = -1;
-        else if (at_word() || peek() == '(' || at_reciprocal())
-          {
-            // Some read "m/Pa s" as m/(Pa s), some as (m/Pa) s.
-            if (divided_by_units)
-              fail("a unit after a quotient needs parentheses or a '*', as in \"m/(Pa s)\"");
-          }
-        else if (at_number())
-          fail("an operator is missing before \"" + text.substr(position) + "\"");
-        else
-          return result;
-
-        const UnitValue factor = power();
-        if (exponent < 0)
-          divided_by_units = factor.has_unit;
-        result.value     = exponent < 0 ? result.value / factor.value : result.value * factor.value;
-        result.dimension = scaled_sum(result.dimension, exponent, factor.dimension);
-        result.has_unit  = result.has_unit || factor.has_unit;
+        // Some read "m/Pa s" as m/(Pa s), some as (m/Pa) s.
+        if (divided_by_units)
+          fail("a unit after a quotient needs parentheses or a '*', as in \"m/(Pa s)\"");
       }
+      else if (at_number())
+        fail("an operator is missing before \"" + text.substr(position) + "\"");
+      else
+        return result;
+
+      const UnitValue factor = power();
+      if (exponent < 0)
+        divided_by_units = factor.has_unit;
+      result.value = exponent < 0 ? result.value / factor.value : result.value * factor.value;
+      result.dimension = scaled_sum(result.dimension, exponent, factor.dimension);
+      result.has_unit = result.has_unit || factor.has_unit;
+    }
   }
 
   UnitValue power()
   {
     if (accept('-'))
-      {
-        UnitValue result = power();
-        result.value     = -result.value;
-        return result;
-      }
+    {
+      UnitValue result = power();
+      result.value = -result.value;
+      return result;
+    }
     if (accept('+'))
       return power();
 
@@ -260,33 +254,32 @@ private:
 
   static UnitValue raise(const UnitValue &base, const double exponent)
   {
-    return {std::pow(base.value, exponent),
-            scaled_sum(dimension::number, exponent, base.dimension),
+    return {std::pow(base.value, exponent), scaled_sum(dimension::number, exponent, base.dimension),
             base.has_unit};
   }
 
   UnitValue primary()
   {
     if (accept('('))
-      {
-        const UnitValue result = sum();
-        if (!accept(')'))
-          fail("a ')' is missing");
-        return result;
-      }
+    {
+      const UnitValue result = sum();
+      if (!accept(')'))
+        fail("a ')' is missing");
+      return result;
+    }
     if (at_number())
       return {number(), dimension::number, false};
     if (!at_word())
-      fail(peek() == '\0' ? "it ends too early" :
-                            "a number or a unit is expected at \"" + text.substr(position) + "\"");
+      fail(peek() == '\0' ? "it ends too early"
+                          : "a number or a unit is expected at \"" + text.substr(position) + "\"");
 
     const std::string name = word();
     if (name == "sqrt")
-      {
-        if (peek() != '(')
-          fail("sqrt needs parentheses");
-        return raise(primary(), 0.5);
-      }
+    {
+      if (peek() != '(')
+        fail("sqrt needs parentheses");
+      return raise(primary(), 0.5);
+    }
     if (name == "inf" || name == "infinity")
       return {std::numeric_limits<double>::infinity(), dimension::number, false};
     if (name == "nan")
@@ -294,13 +287,13 @@ private:
 
     Unit unit;
     try
-      {
-        unit = find_unit(name);
-      }
+    {
+      unit = find_unit(name);
+    }
     catch (const InputError &error)
-      {
-        fail(error.what());
-      }
+    {
+      fail(error.what());
+    }
     UnitValue result{unit.factor, unit.dimension, true};
     // "m2", "ft3": a digit right after the unit is its power.
     if (position < text.size() && std::isdigit(static_cast<unsigned char>(text[position])))
@@ -321,40 +314,41 @@ private:
   double number()
   {
     const std::size_t begin = position;
-    const auto        digits = [&]() {
+    const auto digits = [&]()
+    {
       while (position < text.size() && std::isdigit(static_cast<unsigned char>(text[position])))
         ++position;
     };
     digits();
     if (position < text.size() && text[position] == '.')
-      {
-        ++position;
-        digits();
-      }
+    {
+      ++position;
+      digits();
+    }
     if (position < text.size() && (text[position] == 'e' || text[position] == 'E'))
-      {
-        // Only with digits is it an exponent; otherwise the letter begins a unit.
-        const std::size_t before = position++;
-        if (position < text.size() && (text[position] == '+' || text[position] == '-'))
-          ++position;
-        const std::size_t first_digit = position;
-        digits();
-        if (position == first_digit)
-          position = before;
-      }
+    {
+      // Only with digits is it an exponent; otherwise the letter begins a unit.
+      const std::size_t before = position++;
+      if (position < text.size() && (text[position] == '+' || text[position] == '-'))
+        ++position;
+      const std::size_t first_digit = position;
+      digits();
+      if (position == first_digit)
+        position = before;
+    }
     const std::string literal = text.substr(begin, position - begin);
     try
-      {
-        return std::stod(literal);
-      }
+    {
+      return std::stod(literal);
+    }
     catch (const std::exception &)
-      {
-        fail("\"" + literal + "\" is not a number");
-      }
+    {
+      fail("\"" + literal + "\" is not a number");
+    }
   }
 
   const std::string given, text;
-  std::size_t       position = 0;
+  std::size_t position = 0;
 };
 
 const std::vector<Dimension> &named_dimensions()
@@ -406,7 +400,8 @@ std::string dimension_name(const Dimension &dimension)
       return named.name;
   std::ostringstream out;
   out << "quantity in";
-  const auto base = [&](const char *unit, const double exponent) {
+  const auto base = [&](const char *unit, const double exponent)
+  {
     if (exponent == 1)
       out << " " << unit;
     else if (exponent != 0)

@@ -9,9 +9,9 @@ namespace stockwork
 /// A number with its dimension; has_unit tells "1" from "1 m/m".
 struct UnitValue
 {
-  double    value = 0;
+  double value = 0;
   Dimension dimension;
-  bool      has_unit = false;
+  bool has_unit = false;
 };
 
 /// Evaluate an arithmetic expression of numbers and units with + - * / ^ ( ) and sqrt; a blank

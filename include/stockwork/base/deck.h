@@ -16,9 +16,9 @@ namespace stockwork
 /// Where an entry's value comes from.
 struct Origin
 {
-  std::string  file; ///< empty: not from a file
+  std::string file; ///< empty: not from a file
   unsigned int line = 0;
-  bool         command_line = false;
+  bool command_line = false;
 
   /// "rock.part.prm:12", "command line" or "default value"
   std::string text() const;
@@ -39,8 +39,8 @@ public:
 
   /// The same from text; @p name stands for the file in messages, and includes are resolved
   /// against its directory.
-  static Deck read_text(const std::string &             text,
-                        const std::string &             name      = "deck",
+  static Deck read_text(const std::string &text,
+                        const std::string &name = "deck",
                         const std::vector<std::string> &overrides = {});
 
   /// Declare the entries the deck itself knows: Resolution.
@@ -73,14 +73,14 @@ private:
   struct Entry
   {
     std::string value;
-    Origin      origin;
+    Origin origin;
   };
 
   void read_overrides(const std::vector<std::string> &overrides, std::vector<std::string> &errors);
   void expand_alternatives(std::vector<std::string> &errors);
 
-  std::string                  file_name;
-  std::map<std::string, Entry> entries;    ///< by "Section/Sub/Entry"
+  std::string file_name;
+  std::map<std::string, Entry> entries;   ///< by "Section/Sub/Entry"
   std::map<std::string, Origin> sections; ///< every section seen, by "Section/Sub"
 
   friend class DeckReader;

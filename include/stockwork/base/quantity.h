@@ -19,12 +19,12 @@ namespace stockwork
 /// unit and example only serve messages and the manual.
 struct Dimension
 {
-  double      length  = 0;
-  double      mass    = 0;
-  double      time    = 0;
-  double      angle   = 0;
-  const char *name    = "";
-  const char *unit    = "";
+  double length = 0;
+  double mass = 0;
+  double time = 0;
+  double angle = 0;
+  const char *name = "";
+  const char *unit = "";
   const char *example = "";
 };
 
@@ -90,10 +90,10 @@ std::string to_string(double value, const Dimension &dimension);
 /// An interval of allowed values in SI units.
 struct Range
 {
-  double min      = -std::numeric_limits<double>::infinity();
-  double max      = std::numeric_limits<double>::infinity();
-  bool   min_open = false; ///< min itself is not allowed
-  bool   max_open = false; ///< max itself is not allowed
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_open = false; ///< min itself is not allowed
+  bool max_open = false; ///< max itself is not allowed
 
   static Range any()
   {
@@ -154,7 +154,7 @@ public:
 
 private:
   Dimension dimension;
-  Range     range;
+  Range range;
 };
 
 /// A list of physical quantities of one kind, separated by ',' or ';'. An empty text is the
@@ -162,12 +162,12 @@ private:
 class Quantities : public dealii::Patterns::PatternBase
 {
 public:
-  explicit Quantities(const Dimension &  dimension,
-                      const Range &      range    = Range::finite(),
+  explicit Quantities(const Dimension &dimension,
+                      const Range &range = Range::finite(),
                       const unsigned int min_size = 0,
                       const unsigned int max_size = std::numeric_limits<unsigned int>::max());
 
-  bool        match(const std::string &text) const override;
+  bool match(const std::string &text) const override;
   std::string description(const OutputStyle style = Machine) const override;
   std::unique_ptr<dealii::Patterns::PatternBase> clone() const override;
 
@@ -176,19 +176,19 @@ public:
   std::vector<double> parse(const std::string &text) const;
 
 private:
-  Quantity     element;
+  Quantity element;
   unsigned int min_size, max_size;
 };
 
 /// The SI value of an entry of the current subsection. @throws EntryError
 double get_quantity(const dealii::ParameterHandler &prm,
-                    const std::string &             entry,
-                    const Dimension &               dimension);
+                    const std::string &entry,
+                    const Dimension &dimension);
 
 /// The SI values of a list entry of the current subsection. @throws EntryError
 std::vector<double> get_quantities(const dealii::ParameterHandler &prm,
-                                   const std::string &             entry,
-                                   const Dimension &               dimension);
+                                   const std::string &entry,
+                                   const Dimension &dimension);
 
 /// The parts of a list separated by ',' or ';', trimmed; separators inside parentheses or braces
 /// do not count. An empty text gives no parts.

@@ -23,11 +23,11 @@ struct RunContext
   /// repeated. To be called on all ranks, or on rank 0 only.
   void warn(const std::string &message);
 
-  MPI_Comm                   communicator;
-  unsigned int               rank;
-  unsigned int               n_ranks;
+  MPI_Comm communicator;
+  unsigned int rank;
+  unsigned int n_ranks;
   dealii::ConditionalOStream out;
-  PhaseTimers                timers;
-  std::vector<std::string>   warnings;
+  PhaseTimers timers;
+  std::vector<std::string> warnings;
 };
 } // namespace stockwork

@@ -51,14 +51,14 @@ public:
 private:
   std::size_t column_index(const std::string &name, const std::string &unit);
   std::string header() const;
-  void        rewrite();
-  void        write(const std::string &text, bool append);
+  void rewrite();
+  void write(const std::string &text, bool append);
 
-  std::string                           file_name;
-  std::vector<std::string>              names, units;
-  std::vector<std::string>              rows; ///< formatted, without the columns added later
-  std::map<std::size_t, double>         current;
-  std::map<std::string, double>         last_row;
-  bool                                  header_is_current = false;
+  std::string file_name;
+  std::vector<std::string> names, units;
+  std::vector<std::string> rows; ///< formatted, without the columns added later
+  std::map<std::size_t, double> current;
+  std::map<std::string, double> last_row;
+  bool header_is_current = false;
 };
 } // namespace stockwork

@@ -50,15 +50,15 @@ private:
 
   struct Phase
   {
-    double        seconds = 0;
-    unsigned long calls   = 0;
+    double seconds = 0;
+    unsigned long calls = 0;
   };
 
   /// Charge the time since the last event to the innermost phase.
   void charge();
 
-  Clock::time_point             start, last;
-  std::map<std::string, Phase>  phases;
-  std::vector<Phase *>          running;
+  Clock::time_point start, last;
+  std::map<std::string, Phase> phases;
+  std::vector<Phase *> running;
 };
 } // namespace stockwork
