@@ -1,0 +1,368 @@
+#!/usr/bin/env python3
+"""Run Stockwork on a deck and check what it did. Python standard library only.
+
+    run_case.py --program build/source/stockwork --scratch DIR MODE ...
+
+    case     one run; every --expect must hold. With --negative, runs again with the reference
+             solution off by twice the tolerance: every expectation on `errors/` must then fail.
+    order    one run per --series value; the observed order of a quantity in the last pair of runs
+    same     two runs on different numbers of ranks (or with different settings) agree
+    restart  a run that is interrupted and restarted agrees with the run that is not
+    error    a deck which must be refused with given sentences, before anything is computed
+
+An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
+(`errors/pore_pressure/final`); OP is one of < <= > >= ==, or = which needs the relative TOLERANCE;
+VALUE is a number or another path. A list stands for its length (`warnings == 0`), and what is
+missing, null or not finite fails.
+"""
+import argparse
+import math
+import operator
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "contrib"))
+from results import lookup, read_statistics, read_summary  # noqa: E402
+
+MPIRUN = "mpirun --allow-run-as-root --oversubscribe -np"
+
+# Columns and finals that differ between equal computations.
+NOT_PHYSICS = re.compile(r"wall|second|iteration|memory|relative_error|residual|time_left")
+
+OPERATORS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge,
+             "==": operator.eq}
+
+
+class Failure(Exception):
+    """The test failed; the message says why."""
+
+
+# ---------------------------------------------------------------------------------- expectations
+
+class Expectation:
+    """One line of what must hold in summary.json."""
+
+    def __init__(self, text):
+        self.text = text
+        match = re.fullmatch(
+            r"\s*([^\s<>=]+)\s*(<=|>=|==|<|>|=)\s*(\S+)(?:\s+within\s+(\S+))?\s*", text)
+        if not match:
+            raise Failure(f"'{text}' is not of the form PATH OP VALUE [within TOLERANCE]")
+        self.path, self.operator, self.value, self.within = match.groups()
+        if (self.operator == "=") != (self.within is not None):
+            raise Failure(f"'{text}': '=' and 'within' belong together")
+
+    def tolerance(self):
+        """The relative tolerance of an upper bound on an error, or None if this is none."""
+        if self.path.startswith("errors/") and self.operator in ("<", "<="):
+            return float(self.value)
+        return None
+
+    def check(self, summary):
+        """(holds, what was found)."""
+        try:
+            found = _measure(lookup(summary, self.path))
+            try:
+                wanted = float(self.value)
+            except ValueError:
+                wanted = _measure(lookup(summary, self.value))
+        except (KeyError, TypeError) as error:
+            return False, str(error).strip('"')
+        if not (math.isfinite(found) and math.isfinite(wanted)):
+            return False, f"{self.path} is {found}"
+        if self.operator == "=":
+            holds = abs(found - wanted) <= float(self.within) * abs(wanted)
+        else:
+            holds = OPERATORS[self.operator](found, wanted)
+        return holds, f"{self.path} is {found:.6g}"
+
+
+def _measure(entry):
+    """A number for any entry that has one; TypeError for the others."""
+    if isinstance(entry, (list, dict)):
+        return len(entry)
+    if entry is None or isinstance(entry, str):
+        raise TypeError(f"{entry!r} is not a number")
+    return float(entry)
+
+
+def check_all(expectations, summary):
+    """The expectations which do not hold, each with what was found instead."""
+    failed = []
+    for expectation in expectations:
+        holds, found = expectation.check(summary)
+        print(f"  {'holds' if holds else 'FAILS'}: {expectation.text}   ({found})")
+        if not holds:
+            failed.append(f"{expectation.text}: {found}")
+    return failed
+
+
+# ------------------------------------------------------------------------------------------ runs
+
+class Runner:
+    """Starts the program in a scratch directory which is empty at the beginning."""
+
+    def __init__(self, options):
+        self.program = os.path.abspath(options.program)
+        self.scratch = os.path.abspath(options.scratch)
+        self.mpirun = options.mpirun.split()
+        self.timeout = options.timeout
+        shutil.rmtree(self.scratch, ignore_errors=True)
+        os.makedirs(self.scratch)
+
+    def output(self, name):
+        return os.path.join(self.scratch, name)
+
+    def command(self, name, deck, settings=(), ranks=1, extra=()):
+        command = [self.program, os.path.abspath(deck), "--output", self.output(name), *extra]
+        for setting in settings:
+            command += ["--set", setting]
+        return ([*self.mpirun, str(ranks)] if ranks > 1 else []) + command
+
+    def start(self, name, command):
+        print("$ " + " ".join(f"'{a}'" if " " in a or "=" in a else a for a in command), flush=True)
+        environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
+                           DEAL_II_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none")
+        with open(self.output(name + ".stdout"), "w") as out, \
+                open(self.output(name + ".stderr"), "w") as err:
+            return subprocess.Popen(command, stdout=out, stderr=err, cwd=self.scratch,
+                                    env=environment)
+
+    def wait(self, process, command):
+        try:
+            return process.wait(self.timeout)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            raise Failure(f"not finished after {self.timeout} s: {' '.join(command)}") from None
+
+    def text(self, name, stream):
+        with open(self.output(f"{name}.{stream}"), encoding="utf-8", errors="replace") as file:
+            return file.read()
+
+    def run(self, name, *args, **kwargs):
+        """Run to the end, which must be reached; the summary."""
+        command = self.command(name, *args, **kwargs)
+        started = time.time()
+        status = self.wait(self.start(name, command), command)
+        if status != 0:
+            raise Failure(f"exit status {status}\n{self.tail(name)}")
+        try:
+            summary = read_summary(self.output(name))
+        except (OSError, ValueError) as error:
+            raise Failure(f"exit status 0, but no readable summary.json: {error}") from None
+        print(f"  {name}: {time.time() - started:.1f} s, {summary.get('steps')} steps, "
+              f"{summary.get('unknowns')} unknowns")
+        return summary
+
+    def tail(self, name, lines=25):
+        return "\n".join(
+            f"--- {stream}\n" + "\n".join(self.text(name, stream).splitlines()[-lines:])
+            for stream in ("stdout", "stderr"))
+
+
+# ----------------------------------------------------------------------------------------- modes
+
+def run_case(runner, options):
+    expectations = [Expectation(text) for text in options.expect]
+    summary = runner.run("run", options.deck, options.set, options.ranks)
+    failed = check_all(expectations, summary)
+    if failed:
+        raise Failure("\n".join(failed))
+    if options.negative:
+        check_negative(runner, options, expectations)
+
+
+def check_negative(runner, options, expectations):
+    """A comparison that cannot fail proves nothing: with the reference off by twice the tolerance
+    every bound on an error must be violated. A result on one side of the reference may by chance
+    be as close to the wrong reference on that side, hence a second attempt on the other."""
+    bounds = [e for e in expectations if e.tolerance() is not None]
+    if not bounds:
+        raise Failure("--negative needs an expectation like errors/QUANTITY/final < TOLERANCE")
+    tolerance = max(e.tolerance() for e in bounds)
+    left = bounds
+    for name, factor in (("above", 1 + 2 * tolerance), ("below", 1 - 2 * tolerance)):
+        setting = f"Verification/Reference factor={factor!r}"
+        summary = runner.run(name, options.deck, [*options.set, setting], options.ranks)
+        left = [e for e in left if e.check(summary)[0]]
+        if not left:
+            print(f"  negative: fails as it must with the reference times {factor:g}")
+            return
+    raise Failure("these hold although the reference is off by twice the tolerance: "
+                  + "; ".join(e.text for e in left))
+
+
+def run_order(runner, options):
+    """Errors e(h) of successive runs, each finer by --ratio: order = log(e1/e2) / log(ratio)."""
+    summaries = [runner.run(f"run{i}", options.deck, [*options.set, *setting.split(",")],
+                            options.ranks)
+                 for i, setting in enumerate(options.series)]
+    failed = []
+    for text in options.order:
+        path, wanted = text.split("=")
+        errors = [_measure(lookup(summary, path)) for summary in summaries]
+        orders = [math.log(a / b) / math.log(options.ratio) if a > 0 and b > 0 else math.nan
+                  for a, b in zip(errors, errors[1:])]
+        print(f"  {path}: errors {' '.join(f'{e:.3e}' for e in errors)}"
+              f"  orders {' '.join(f'{o:.2f}' for o in orders)}  expected {wanted}")
+        if not orders[-1] >= float(wanted) - options.tolerance:
+            failed.append(f"{path}: order {orders[-1]:.2f}, expected {wanted}")
+    if failed:
+        raise Failure("\n".join(failed))
+
+
+def differences(first, second, tolerance, ignore=None):
+    """Where two output directories differ by more than `tolerance`, relative to the greatest value
+    in a column (a single value: to itself)."""
+    def skip(name):
+        return NOT_PHYSICS.search(name) or (ignore and re.search(ignore, name))
+
+    found = []
+    one, two = read_summary(first)["final"], read_summary(second)["final"]
+    table_one, table_two = read_statistics(first), read_statistics(second)
+    pairs = {f"final/{k}": ([one.get(k)], [two.get(k)]) for k in {**one, **two} if not skip(k)}
+    pairs.update({f"column {k}": (table_one.get(k, []), table_two.get(k, []))
+                  for k in {**table_one, **table_two} if not skip(k)})
+    compared, greatest = 0, 0.
+    for name, (a, b) in sorted(pairs.items()):
+        if len(a) != len(b):
+            found.append(f"{name}: {len(a)} against {len(b)} values")
+            continue
+        numbers = [(x, y) for x, y in zip(a, b)
+                   if isinstance(x, (int, float)) and isinstance(y, (int, float))]
+        if len(numbers) < len(a) and a != b:
+            found.append(f"{name}: {a[-1]} against {b[-1]}")
+        if not all(math.isfinite(x) and math.isfinite(y) for x, y in numbers):
+            found.append(f"{name}: not finite")
+            continue
+        scale = max((abs(x) for x, _ in numbers), default=0.)
+        worst = max((abs(x - y) for x, y in numbers), default=0.)
+        compared += len(numbers)
+        if scale > 0:
+            greatest = max(greatest, worst / scale)
+        if not worst <= tolerance * scale:
+            found.append(f"{name}: differ by {worst:.3e}, {worst / scale if scale else math.inf:.1e}"
+                         f" of the greatest value")
+    if not compared:
+        found.append("nothing to compare")
+    print(f"  {compared} values compared, greatest difference {greatest:.1e}")
+    return found
+
+
+def run_same(runner, options):
+    first, second = options.ranks_pair
+    runner.run("first", options.deck, options.set, first)
+    runner.run("second", options.deck, [*options.set, *options.second_set], second)
+    _require_same(runner, "first", "second", options)
+
+
+def _require_same(runner, first, second, options):
+    found = differences(runner.output(first), runner.output(second), options.tolerance,
+                        options.ignore)
+    if found:
+        raise Failure("\n".join(found[:20]))
+
+
+def run_restart(runner, options):
+    first, second = options.ranks_pair
+    runner.run("straight", options.deck, options.set, first)
+    command = runner.command("restarted", options.deck, [*options.set, *options.interrupt_set],
+                             first)
+    process = runner.start("restarted", command)
+    if options.interrupt_after:
+        _terminate_after(runner, process, "restarted", options.interrupt_after)
+    status = runner.wait(process, command)
+    print(f"  interrupted: exit status {status}")
+    if options.interrupt_after and status == 0:
+        raise Failure("the run reached its end before it was interrupted")
+    runner.run("restarted", options.deck, options.set, second, extra=["--restart"])
+    _require_same(runner, "straight", "restarted", options)
+
+
+def _terminate_after(runner, process, name, steps):
+    """SIGTERM once the statistics hold `steps` rows."""
+    while process.poll() is None:
+        try:
+            rows = len(next(iter(read_statistics(runner.output(name)).values())))
+        except (OSError, IndexError, StopIteration):
+            rows = 0
+        if rows >= steps:
+            process.send_signal(signal.SIGTERM)
+            return
+        time.sleep(0.01)
+
+
+def run_error(runner, options):
+    """NAME.message holds one sentence per line; all must be on stderr, in any line breaks."""
+    with open(os.path.splitext(options.deck)[0] + ".message", encoding="utf-8") as file:
+        sentences = [line.strip() for line in file if line.strip()]
+    if not sentences:
+        raise Failure("the .message file is empty")
+    for name, extra in (("check", ["--check"]), ("run", [])):
+        command = runner.command(name, options.deck, options.set, options.ranks, extra)
+        status = runner.wait(runner.start(name, command), command)
+        said = " ".join(runner.text(name, "stderr").split())
+        if status != 1:
+            raise Failure(f"exit status {status}, should be 1\n{runner.tail(name)}")
+        for sentence in sentences:
+            if " ".join(sentence.split()) not in said:
+                raise Failure(f"stderr does not say\n  {sentence}\nbut\n{runner.tail(name)}")
+        if os.path.exists(runner.output(name)):
+            raise Failure("a refused deck left an output directory behind")
+    print(f"  refused with {len(sentences)} expected sentence(s)")
+
+
+MODES = {"case": run_case, "order": run_order, "same": run_same, "restart": run_restart,
+         "error": run_error}
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True, help="the stockwork executable")
+    parser.add_argument("--scratch", required=True, help="directory of this test; emptied first")
+    parser.add_argument("--mpirun", default=MPIRUN, help="how to start several ranks")
+    parser.add_argument("--timeout", type=float, default=1500., help="seconds per run")
+    parser.add_argument("mode", choices=MODES)
+    parser.add_argument("--deck", required=True)
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION/ENTRY=VALUE")
+    parser.add_argument("--ranks", default="1", help="N, or FIRST,SECOND where two runs compare")
+    parser.add_argument("--expect", action="append", default=[])
+    parser.add_argument("--negative", action="store_true")
+    parser.add_argument("--series", action="append", default=[], metavar="SETTING[,SETTING]")
+    parser.add_argument("--order", action="append", default=[], metavar="PATH=ORDER")
+    parser.add_argument("--ratio", type=float, default=2.)
+    parser.add_argument("--tolerance", type=float, default=None)
+    parser.add_argument("--ignore", help="regular expression of columns not to compare")
+    parser.add_argument("--second-set", action="append", default=[])
+    parser.add_argument("--interrupt-set", action="append", default=[],
+                        help="setting that ends the first part early")
+    parser.add_argument("--interrupt-after", type=int, default=0, metavar="STEPS",
+                        help="send SIGTERM after so many steps instead")
+    options = parser.parse_args(arguments)
+    ranks = [int(n) for n in options.ranks.split(",")]
+    options.ranks, options.ranks_pair = ranks[0], (ranks[0], ranks[-1])
+    if options.tolerance is None:
+        options.tolerance = 0.2 if options.mode == "order" else 1e-8
+    return options
+
+
+def main(arguments=None):
+    options = parse(arguments)
+    try:
+        MODES[options.mode](Runner(options), options)
+    except Failure as failure:
+        print(f"FAILED: {failure}")
+        return 1
+    print("passed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
