@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# From a bare Debian 12 to a hydraulic fracture:
+#   contrib/quickstart.sh          install what is missing, build, run the demo, show the result
+#   contrib/quickstart.sh --test   the same build, then the test suite instead of the demo
+#   contrib/quickstart.sh --install-only | --build-only
+# Needs root or sudo only where packages are missing. JOBS=n sets the number of compilers.
+set -Eeuo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+packages=(g++ cmake ninja-build git openmpi-bin libdeal.ii-dev libmumps-dev libopenblas0-serial
+          libboost-program-options-dev doctest-dev python3 python3-numpy python3-matplotlib)
+deck=prm/kgd/toughness/cohesive_xfem.prm
+output=build/demo
+python=/usr/bin/python3
+
+stage="" advice=""
+begin() { stage=$1 advice=$2; printf '\n== %s\n' "$stage"; }
+trap 'printf "\nquickstart: \"%s\" failed (line %s).\n%s\n" "$stage" "$LINENO" "$advice" >&2' ERR
+
+install_packages() {
+  local missing=() package
+  for package in "${packages[@]}"; do
+    dpkg-query -W -f '${Status}\n' "$package" 2>/dev/null | grep -q '^install ok installed' ||
+      missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  local line="apt-get install --no-install-recommends ${missing[*]}"
+  begin "installing ${missing[*]}" "Run as root: apt-get update && $line"
+  command -v apt-get >/dev/null || { advice="This is not Debian. Install deal.II >= 9.4 with MPI, Trilinos, p4est
+and muParser, then: cmake --preset release && cmake --build build"; false; }
+  local sudo=()
+  [ "$(id -u)" -eq 0 ] || sudo=(sudo)
+  "${sudo[@]}" apt-get update
+  DEBIAN_FRONTEND=noninteractive "${sudo[@]}" ${line/install/install -y}
+}
+
+build() { # build DIRECTORY TYPE
+  begin "configuring $1 ($2)" "If deal.II was not found: cmake -S . -B $1 -DDEAL_II_DIR=/path/to/deal.II.
+After a change of compiler or deal.II, remove $1 first."
+  cmake -S . -B "$1" -G Ninja -DCMAKE_BUILD_TYPE="$2" >"$1.log" 2>&1 || { cat "$1.log"; false; }
+  # One compiler needs up to 1.7 GB.
+  local memory jobs=${JOBS:-$(nproc)}
+  memory=$(awk '/MemAvailable/ {print int($2 / 1800000)}' /proc/meminfo)
+  [ -n "${JOBS:-}" ] || [ "$jobs" -le "$memory" ] || jobs=$((memory > 1 ? memory : 1))
+  begin "building $1 ($2) with $jobs compiler(s)" "If the compiler was killed, memory ran out: JOBS=1 contrib/quickstart.sh.
+Otherwise the first line with 'error:' above says what is wrong."
+  cmake --build "$1" -j "$jobs"
+}
+
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+
+install_packages
+[ "${1:-}" = --install-only ] && exit
+build build Release
+
+case "${1:-}" in
+  --build-only) ;;
+  --test)
+    begin "tests, Release" "One of them again, with what it says: ctest --test-dir build -R NAME -V"
+    ctest --test-dir build --output-on-failure -j "$(nproc)"
+    build build-debug Debug
+    begin "quick tests, Debug" "One of them again, with what it says: ctest --test-dir build-debug -R NAME -V"
+    ctest --test-dir build-debug --output-on-failure -j "$(nproc)" -L quick
+    printf '\nAll tests passed.\n' ;;
+  "")
+    begin "running $deck" "The same by hand: build/source/stockwork $deck --output $output"
+    build/source/stockwork "$deck" --set 'Resolution=coarse' --output "$output"
+    begin "drawing" "Pictures need python3-numpy and python3-matplotlib; the run itself is complete."
+    "$python" contrib/plot/history.py "$output"
+    "$python" contrib/plot/field.py "$output"
+    "$python" contrib/plot/profile.py "$output"
+    "$python" contrib/report.py "$output"
+    printf '\nPictures: %s\nFields for ParaView: %s\n' "$(echo $output/*.png)" "$(echo $output/*.pvd)" ;;
+  *)
+    echo "usage: contrib/quickstart.sh [--test | --install-only | --build-only]" >&2
+    exit 2 ;;
+esac

@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""Print what a run ended with, beside the reference where there is one.
+
+    contrib/report.py OUTPUT_DIRECTORY
+"""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from results import read_summary  # noqa: E402
+
+
+def show(value):
+    return f"{value:.6g}" if isinstance(value, (int, float)) else "-"
+
+
+def percent(value):
+    return f"{100 * value:.3g} %" if isinstance(value, (int, float)) else "-"
+
+
+def report(summary):
+    """The lines of the table."""
+    errors, final = summary.get("errors", {}), summary.get("final", {})
+    rows = [("quantity at the end", "computed", "reference", "error", "mean error")]
+    for name in [*errors, *(n for n in final if n not in errors)]:
+        error = errors.get(name, {})
+        rows.append((name, show(final.get(name)), show(error.get("reference")),
+                     percent(error.get("final")), percent(error.get("mean"))))
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    lines = ["  ".join(cell.ljust(w) if i == 0 else cell.rjust(w)
+                       for i, (cell, w) in enumerate(zip(row, widths))) for row in rows]
+    lines.insert(1, "-" * len(lines[0]))
+    balance = summary.get("fluid_balance", {})
+    if balance.get("injected"):
+        lines.append(f"fluid: {show(balance['injected'])} injected, balanced to "
+                     f"{balance.get('relative_error', float('nan')):.1e}")
+    wall = summary.get("wall_seconds", {}).get("total")
+    lines.append(f"{summary.get('case', '')} ({summary.get('fracture_model', '')}): "
+                 f"{summary.get('steps')} steps, {summary.get('unknowns')} unknowns, "
+                 f"{show(wall)} s on {summary.get('ranks')} rank(s)")
+    lines += [f"warning: {text}" for text in summary.get("warnings", [])]
+    return lines
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    print("\n".join(report(read_summary(sys.argv[1]))))
