@@ -8,6 +8,7 @@
 
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/collectives.h"
+#include "stockwork/fracture/extra_unknown.h"
 #include "stockwork/fracture/scene.h"
 #include "stockwork/fracture/segment.h"
 #include "stockwork/fracture/sink.h"
@@ -30,15 +31,6 @@ struct Requirements
   bool changes_bulk      = false; ///< bulk_coefficients() has something to say
   bool newton            = true;  ///< assemble() gives the exact derivative (else a secant)
   bool quasi_static_only = false;
-};
-
-/// An unknown of the model's own. Unknowns are recognised by their key when the mesh or the crack
-/// has changed, so a key must not depend on numbering, rank or refinement elsewhere.
-struct ExtraUnknown
-{
-  std::uint64_t key;
-  double        initial = 0.; ///< value, and rate reference, when it appears for the first time
-  double        scale   = 1.; ///< typical size, for the convergence test
 };
 
 /// What a model says about a converged solution.

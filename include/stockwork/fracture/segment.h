@@ -51,6 +51,10 @@ struct Segment
   /// Mean aperture [m]. Known on the rank that owns the host cell only.
   LinearFunctional opening;
 
+  /// Pore pressure of the rock at the segment [Pa], the mean of both faces, for leak-off. Where the
+  /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.
+  LinearFunctional pore_pressure;
+
   /// Fluid pressure where it is given and not solved for [Pa]; NaN: an unknown of its own.
   double given_pressure = std::numeric_limits<double>::quiet_NaN();
 
