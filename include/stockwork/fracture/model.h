@@ -145,6 +145,14 @@ public:
   rollback()
   {}
 
+  /// Sentences for the user since the last call: values the model has chosen by itself, warnings, a
+  /// tip that has stopped. The same on every rank.
+  virtual std::vector<std::string>
+  take_messages()
+  {
+    return {};
+  }
+
   /// Raise the wanted size of cells (by active cell index, [m]) where the fracture is or may soon
   /// be. Called between steps.
   virtual void

@@ -2,6 +2,8 @@
 
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace stockwork
@@ -49,5 +51,9 @@ struct State
   const Unknowns &committed;              ///< the last accepted step
   const Unknowns &rate_reference;         ///< see StepContext
   const Unknowns &acceleration_reference; ///< see StepContext; empty when quasi-static
+
+  /// Fluid pressure in the segment with this key [Pa], solved for or given, of the iterate; the
+  /// same on every rank. Zero where there is no fluid; empty function: no fluid anywhere.
+  std::function<double(std::uint64_t key)> segment_pressure;
 };
 } // namespace stockwork
