@@ -13,6 +13,8 @@ class ParameterHandler;
 
 namespace stockwork
 {
+class DeckReader;
+
 /// Where an entry's value comes from.
 struct Origin
 {
@@ -76,14 +78,15 @@ private:
     Origin origin;
   };
 
+  static Deck from_reader(const DeckReader &reader,
+                          const std::string &file,
+                          const std::vector<std::string> &overrides);
   void read_overrides(const std::vector<std::string> &overrides, std::vector<std::string> &errors);
   void expand_alternatives(std::vector<std::string> &errors);
 
   std::string file_name;
   std::map<std::string, Entry> entries;   ///< by "Section/Sub/Entry"
   std::map<std::string, Origin> sections; ///< every section seen, by "Section/Sub"
-
-  friend class DeckReader;
 };
 
 /// A number that two runs share exactly when all their effective values agree (quantities are

@@ -1,0 +1,372 @@
+#include "stockwork/base/deck.h"
+
+#include "base/deck_reader.h"
+#include "base/parameter_tree.h"
+#include "stockwork/base/error.h"
+#include "stockwork/base/nearest.h"
+#include "stockwork/base/quantity.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace stockwork
+{
+namespace
+{
+const std::string resolution_entry = "Resolution";
+
+const std::vector<std::string> &resolutions()
+{
+  static const std::vector<std::string> names = {"coarse", "medium", "fine"};
+  return names;
+}
+
+[[noreturn]] void throw_all(const std::string &file, const std::vector<std::string> &errors)
+{
+  std::string text =
+    errors.size() == 1 ? errors[0] : std::to_string(errors.size()) + " errors in '" + file + "':";
+  if (errors.size() > 1)
+    for (const std::string &error : errors)
+      text += "\n  " + error;
+  throw InputError(text);
+}
+
+std::string section_of(const std::string &path)
+{
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+std::string name_of(const std::string &path)
+{
+  return path.substr(path.rfind('/') + 1);
+}
+
+/// Replace each {a|b|c} by its alternative.
+std::string expand(const std::string &value, const unsigned int alternative)
+{
+  std::string result;
+  std::size_t position = 0;
+  for (auto open = value.find('{'); open != std::string::npos; open = value.find('{', position))
+  {
+    const auto close = value.find('}', open);
+    if (close == std::string::npos)
+      throw InputError("a '}' is missing in '" + value + "'");
+    std::vector<std::string> parts(1);
+    for (const char c : value.substr(open + 1, close - open - 1))
+      if (c == '|')
+        parts.emplace_back();
+      else
+        parts.back() += c;
+    if (parts.size() != resolutions().size())
+      throw InputError("'" + value.substr(open, close - open + 1) + "' has " +
+                       std::to_string(parts.size()) +
+                       " alternatives; three are expected: {coarse|medium|fine}");
+    std::string part = parts[alternative];
+    part.erase(0, part.find_first_not_of(' '));
+    part.erase(part.find_last_not_of(' ') + 1);
+    result += value.substr(position, open - position) + part;
+    position = close + 1;
+  }
+  return result + value.substr(position);
+}
+
+/// What the deck's author may have meant by an entry that does not exist: the nearest names of
+/// the same section, or the same or nearly the same name elsewhere.
+std::string hint_for_entry(const std::string &path, const std::vector<DeclaredEntry> &declared)
+{
+  std::vector<std::string> here, elsewhere, paths;
+  std::map<std::string, std::string> path_by_name;
+  for (const DeclaredEntry &entry : declared)
+  {
+    paths.push_back(entry.path());
+    if (entry.section == section_of(path))
+      here.push_back(entry.name);
+    else if (edit_distance(entry.name, name_of(path)) <= 1)
+      elsewhere.push_back(entry.path());
+  }
+  std::vector<std::string> hints = nearest_names(name_of(path), here);
+  if (hints.empty())
+    hints = elsewhere.empty() ? nearest_names(path, paths) : elsewhere;
+  if (hints.size() > 3)
+    hints.resize(3);
+  if (!hints.empty())
+    return "did you mean " + quoted_list(hints, "or") + "?";
+  if (here.empty())
+    return "";
+  const bool many = here.size() > 12;
+  if (many)
+    here.resize(12);
+  return "the section has " + quoted_list(here) + (many ? ", ..." : "");
+}
+
+/// Leaves the entered subsections also when an exception passes.
+class EnteredSections
+{
+public:
+  EnteredSections(dealii::ParameterHandler &prm, const std::string &path)
+    : prm(prm)
+  {
+    std::istringstream in(path);
+    for (std::string section; std::getline(in, section, '/'); ++depth)
+      prm.enter_subsection(section);
+  }
+  ~EnteredSections()
+  {
+    for (; depth > 0; --depth)
+      prm.leave_subsection();
+  }
+
+private:
+  dealii::ParameterHandler &prm;
+  unsigned int depth = 0;
+};
+} // namespace
+
+std::string Origin::text() const
+{
+  if (command_line)
+    return "command line";
+  if (file.empty())
+    return "default value";
+  return file + ":" + std::to_string(line);
+}
+
+Deck Deck::read(const std::string &file, const std::vector<std::string> &overrides)
+{
+  DeckReader reader;
+  reader.read_file(file);
+  return from_reader(reader, file, overrides);
+}
+
+Deck Deck::read_text(const std::string &text,
+                     const std::string &name,
+                     const std::vector<std::string> &overrides)
+{
+  DeckReader reader;
+  std::istringstream in(text);
+  reader.read_stream(in, name);
+  return from_reader(reader, name, overrides);
+}
+
+Deck Deck::from_reader(const DeckReader &reader,
+                       const std::string &file,
+                       const std::vector<std::string> &overrides)
+{
+  Deck deck;
+  std::vector<std::string> errors = reader.errors;
+  deck.file_name = file;
+  for (const DeckLine &line : reader.lines)
+    if (line.kind == DeckLine::Kind::section)
+      deck.sections.emplace(line.path, line.origin);
+    else
+      deck.entries[line.path] = {line.value, line.origin};
+  deck.read_overrides(overrides, errors);
+  deck.expand_alternatives(errors);
+  if (!errors.empty())
+    throw_all(file, errors);
+  return deck;
+}
+
+void Deck::read_overrides(const std::vector<std::string> &overrides,
+                          std::vector<std::string> &errors)
+{
+  for (const std::string &text : overrides)
+  {
+    const auto equal = text.find('=');
+    const auto trim = [](std::string part)
+    {
+      part.erase(0, part.find_first_not_of(" \t"));
+      part.erase(part.find_last_not_of(" \t") + 1);
+      return part;
+    };
+    if (equal == std::string::npos || trim(text.substr(0, equal)).empty())
+    {
+      errors.push_back("command line: --set '" + text +
+                       "' is not of the form 'Section/Entry=value'");
+      continue;
+    }
+    std::string path;
+    std::istringstream in(text.substr(0, equal));
+    for (std::string part; std::getline(in, part, '/');)
+      path += (path.empty() ? "" : "/") + trim(part);
+    entries[path] = {trim(text.substr(equal + 1)), {"", 0, true}};
+  }
+}
+
+void Deck::expand_alternatives(std::vector<std::string> &errors)
+{
+  std::string resolution = "medium";
+  const auto given = entries.find(resolution_entry);
+  if (given != entries.end())
+    resolution = given->second.value;
+  const auto found = std::find(resolutions().begin(), resolutions().end(), resolution);
+  if (found == resolutions().end())
+  {
+    errors.push_back(given->second.origin.text() + ": '" + resolution_entry + "' is '" +
+                     resolution + "'; allowed is one of " + quoted_list(resolutions(), "or"));
+    return;
+  }
+  for (auto &[path, entry] : entries)
+    try
+    {
+      entry.value = expand(entry.value, found - resolutions().begin());
+    }
+    catch (const InputError &error)
+    {
+      errors.push_back(entry.origin.text() + ": '" + path + "': " + error.what());
+    }
+}
+
+void Deck::declare_parameters(dealii::ParameterHandler &prm)
+{
+  prm.declare_entry(resolution_entry, "medium", dealii::Patterns::Selection("coarse|medium|fine"),
+                    "Which of the three alternatives of every value written as {a|b|c} is taken: "
+                    "the first for coarse, the second for medium, the third for fine.");
+}
+
+std::optional<std::string> Deck::peek(const std::string &path) const
+{
+  const auto entry = entries.find(path);
+  if (entry == entries.end())
+    return std::nullopt;
+  return entry->second.value;
+}
+
+std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
+{
+  const std::vector<DeclaredEntry> declared = declared_entries(prm);
+  std::map<std::string, const DeclaredEntry *> by_path;
+  std::vector<std::string> section_names;
+  for (const DeclaredEntry &entry : declared)
+  {
+    by_path[entry.path()] = &entry;
+    for (std::string s = entry.section; !s.empty(); s = section_of(s))
+      if (std::find(section_names.begin(), section_names.end(), s) == section_names.end())
+        section_names.push_back(s);
+  }
+  const auto is_section = [&](const std::string &path)
+  {
+    return path.empty() ||
+           std::find(section_names.begin(), section_names.end(), path) != section_names.end();
+  };
+
+  std::vector<std::pair<Origin, std::string> > errors;
+  std::vector<std::string> warnings;
+  for (const auto &[path, origin] : sections)
+    if (!is_section(path) && is_section(section_of(path)))
+    {
+      const std::string hint = did_you_mean(path, section_names);
+      errors.emplace_back(
+        origin, "there is no section '" + path + "'; " +
+                  (hint.empty() ? "the sections are " + quoted_list(section_names) : hint));
+    }
+
+  for (const auto &[path, given] : entries)
+  {
+    const auto found = by_path.find(path);
+    if (found == by_path.end())
+    {
+      // The unknown section has been reported once for all its entries.
+      if (!is_section(section_of(path)) && !given.origin.command_line)
+        continue;
+      const std::string hint = hint_for_entry(path, declared);
+      errors.emplace_back(given.origin,
+                          "there is no entry '" + path + "'" + (hint.empty() ? "" : "; " + hint));
+      continue;
+    }
+    const DeclaredEntry &entry = *found->second;
+    const DeclaredEntry *target =
+      entry.alias_of.empty()
+        ? &entry
+        : by_path.at(entry.section.empty() ? entry.alias_of : entry.section + "/" + entry.alias_of);
+    if (entry.deprecated)
+      warnings.push_back(given.origin.text() + ": '" + path + "' is now called '" + target->path() +
+                         "'; the old name still works");
+    try
+    {
+      const EnteredSections entered(prm, target->section);
+      prm.set(target->name, given.value);
+    }
+    catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &)
+    {
+      errors.emplace_back(given.origin,
+                          "'" + path + "' is " +
+                            (given.value.empty() ? "empty" : "'" + given.value + "'") + "; " +
+                            reason_of_mismatch(given.value, target->pattern));
+    }
+  }
+
+  if (!errors.empty())
+  {
+    std::stable_sort(
+      errors.begin(), errors.end(),
+      [](const auto &a, const auto &b)
+      { return std::tie(a.first.file, a.first.line) < std::tie(b.first.file, b.first.line); });
+    std::vector<std::string> texts;
+    for (const auto &[origin, text] : errors)
+      texts.push_back(origin.text() + ": " + text);
+    throw_all(file_name, texts);
+  }
+  return warnings;
+}
+
+Origin Deck::origin(const std::string &path) const
+{
+  const auto entry = entries.find(path);
+  return entry == entries.end() ? Origin() : entry->second.origin;
+}
+
+std::string Deck::name() const
+{
+  namespace fs = std::filesystem;
+  const fs::path path = fs::absolute(file_name).lexically_normal().replace_extension();
+  // From the last folder "prm" on, or else the file and its folder.
+  fs::path name;
+  bool found = false;
+  for (const fs::path &part : path)
+    if (part == "prm")
+    {
+      name.clear();
+      found = true;
+    }
+    else
+      name /= part;
+  return found ? name.string() : path.filename().string();
+}
+
+std::uint64_t fingerprint(const dealii::ParameterHandler &prm,
+                          const std::vector<std::string> &excluded)
+{
+  std::uint64_t hash = 14695981039346656037ull; // FNV-1a, 64 bit
+  const auto add = [&](const std::string &text)
+  {
+    for (const unsigned char c : text + '\n')
+      hash = (hash ^ c) * 1099511628211ull;
+  };
+  std::vector<std::string> lines;
+  for (const DeclaredEntry &entry : declared_entries(prm))
+  {
+    const std::string path = entry.path();
+    if (!entry.alias_of.empty() || std::any_of(excluded.begin(), excluded.end(),
+                                               [&](const std::string &exclusion) {
+                                                 return path == exclusion ||
+                                                        path.compare(0, exclusion.size() + 1,
+                                                                     exclusion + "/") == 0;
+                                               }))
+      continue;
+    std::ostringstream value;
+    value.precision(17);
+    if (const auto quantity = Quantity::create(entry.pattern))
+      value << quantity->parse(entry.value);
+    else
+      value << entry.value;
+    lines.push_back(path + "=" + value.str());
+  }
+  std::sort(lines.begin(), lines.end());
+  for (const std::string &line : lines)
+    add(line);
+  return hash;
+}
+} // namespace stockwork

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// One declared entry of a ParameterHandler. The handler keeps its tree to itself, but prints it
+/// as JSON; this is that tree, read back.
+struct DeclaredEntry
+{
+  std::string section; ///< "Section/Sub", empty at the top level
+  std::string name;
+  std::string value, default_value, documentation;
+  std::string pattern;     ///< machine style description of the allowed values
+  std::string alias_of;    ///< the entry this one is another name for, or empty
+  bool deprecated = false; ///< a deprecated alias
+
+  std::string path() const
+  {
+    return section.empty() ? name : section + "/" + name;
+  }
+};
+
+/// All declared entries in the order of their declaration, the entries of a section before its
+/// subsections.
+std::vector<DeclaredEntry> declared_entries(const dealii::ParameterHandler &prm);
+
+/// What an entry may be, in words, from the machine style description of its pattern.
+std::string allowed_text(const std::string &pattern);
+
+/// Why @p value does not fit: allowed_text(), or for a quantity the exact reason.
+std::string reason_of_mismatch(const std::string &value, const std::string &pattern);
+} // namespace stockwork
