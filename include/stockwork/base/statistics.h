@@ -1,6 +1,6 @@
 #pragma once
 
-#include <fstream>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
