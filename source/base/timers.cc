@@ -2,6 +2,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/map.hpp>
+
 #include <algorithm>
 #include <iomanip>
 #include <utility>
