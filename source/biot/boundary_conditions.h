@@ -1,0 +1,97 @@
+#pragma once
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/types.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// A number, or a function of place and time, prescribed somewhere.
+template <int dim>
+struct PrescribedValue
+{
+  std::function<double(const dealii::Point<dim> &, double time)> value;
+  bool                                                           constant_in_time = true;
+};
+
+/// Loads on the boundary, by side. Tractions are increments over the in-situ state.
+template <int dim>
+struct Loads
+{
+  /// Traction vector, one component per entry [Pa].
+  std::map<dealii::types::boundary_id, std::array<PrescribedValue<dim>, dim>> traction;
+  /// Normal traction, tension positive [Pa].
+  std::map<dealii::types::boundary_id, PrescribedValue<dim>> normal_traction;
+  /// Fluid flux into the rock [m/s].
+  std::map<dealii::types::boundary_id, PrescribedValue<dim>> flux;
+
+  bool
+  empty() const
+  {
+    return traction.empty() && normal_traction.empty() && flux.empty();
+  }
+};
+
+/// The boundary conditions of the deck, by named side.
+template <int dim>
+class BoundaryConditions
+{
+public:
+  static void
+  declare_parameters(dealii::ParameterHandler &prm);
+
+  /// `side` maps a name to a boundary id and throws InputError for an unknown one.
+  void
+  parse_parameters(dealii::ParameterHandler                                              &prm,
+                   const std::function<dealii::types::boundary_id(const std::string &)> &side);
+
+  /// The solution that the value `reference` in the deck refers to: components displacement, then
+  /// pore pressure (over in situ); its time is set here. Needed before `constrain` if used.
+  void
+  set_reference(std::shared_ptr<dealii::Function<dim>> reference);
+
+  bool
+  uses_reference() const;
+
+  bool
+  constant_in_time() const;
+
+  /// Add hanging-node constraints and Dirichlet conditions at `time`; `increment` gets the same
+  /// with zero values. Both are closed. Collective.
+  void
+  constrain(double                              time,
+            const dealii::Mapping<dim>         &mapping,
+            const dealii::DoFHandler<dim>      &dof_handler,
+            dealii::AffineConstraints<double>  &values,
+            dealii::AffineConstraints<double>  &increment) const;
+
+  const Loads<dim> &
+  loads() const
+  {
+    return prescribed_loads;
+  }
+
+private:
+  struct Dirichlet
+  {
+    dealii::types::boundary_id side;
+    unsigned int               component; ///< `normal_component`: found from the side's normal
+    PrescribedValue<dim>       prescribed;
+    bool                       from_reference = false;
+  };
+  static constexpr unsigned int normal_component = 100;
+
+  std::vector<Dirichlet>                  dirichlet;
+  Loads<dim>                              prescribed_loads;
+  std::shared_ptr<dealii::Function<dim>>  reference;
+};
+} // namespace stockwork
