@@ -4,6 +4,7 @@
 #include <deal.II/base/types.h>
 
 #include <limits>
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -12,8 +13,8 @@ namespace stockwork
 /// Constants of one kind of isotropic rock. Stresses and moduli in Pa.
 struct RockProperties
 {
-  double young_modulus;
-  double poisson_ratio;
+  double young_modulus           = 0.;
+  double poisson_ratio           = 0.;
   double biot_coefficient        = 1.;
   double inverse_biot_modulus    = 0.; ///< 1/M = (alpha-n)/K_s + n/K_f [1/Pa]
   double permeability            = 0.; ///< [m^2]
@@ -77,8 +78,9 @@ public:
   const RockProperties &
   main() const;
 
-  bool
-  is_poroelastic() const;
+  /// `auto`, `elastic` or `poroelastic`, as the deck says.
+  const std::string &
+  bulk_model() const;
 
   const Fluid &
   fluid() const;
@@ -87,6 +89,6 @@ private:
   std::map<dealii::types::material_id, RockProperties> regions;
   RockProperties                                       default_region;
   Fluid                                                pore_fluid;
-  bool                                                 poroelastic = true;
+  std::string                                          model;
 };
 } // namespace stockwork
