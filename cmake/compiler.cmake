@@ -16,3 +16,8 @@ find_program(STOCKWORK_CCACHE ccache)
 if(STOCKWORK_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${STOCKWORK_CCACHE})
 endif()
+
+# An installed program finds its library beside it, and deal.II where it was found.
+file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set(CMAKE_INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)

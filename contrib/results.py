@@ -15,7 +15,7 @@ def read_statistics(directory):
     with open(os.path.join(directory, "statistics.csv"), encoding="utf-8", newline="") as file:
         rows = list(csv.reader(line for line in file if line.strip() and not line.startswith("#")))
     names = [name.strip() for name in rows[0]]
-    return {name: [_number(row[i]) for row in rows[1:]] for i, name in enumerate(names)}
+    return {name: [_number(row[i] if i < len(row) else "") for row in rows[1:]] for i, name in enumerate(names)}
 
 
 def lookup(data, path):

@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""Draw the history of a run beside the reference solution where the case has one.
+
+    history.py DIRECTORY... [--columns fracture_length,inlet_aperture] [--output FILE.png]
+
+Several directories (models, resolutions) share the axes. A reference is the column
+`reference_NAME` of statistics.csv.
+"""
+import argparse
+import os
+import sys
+
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from results import read_statistics, read_summary  # noqa: E402
+
+# What is drawn, if there: column, label, unit and factor from SI.
+QUANTITIES = {
+    "fracture_length": ("fracture half-length", "m", 1.),
+    "inlet_aperture": ("aperture at the inlet", "mm", 1e3),
+    "inlet_pressure": ("net pressure at the inlet", "MPa", 1e-6),
+    "pore_pressure": ("pore pressure", "MPa", 1e-6),
+    "displacement": ("displacement", "mm", 1e3),
+}
+PREFIX = "reference_"
+
+
+def numbers(column):
+    return np.array([x if isinstance(x, float) else np.nan for x in column])
+
+
+def draw(directories, columns, output):
+    runs = [(read_summary(d), read_statistics(d)) for d in directories]
+    names = columns or [n for n in QUANTITIES if any(n in table for _, table in runs)]
+    if not names:
+        sys.exit("history.py: none of these columns: " + ", ".join(QUANTITIES))
+    figure, axes = plt.subplots(1, len(names), figsize=(4 * len(names), 3.2), squeeze=False)
+    for ax, name in zip(axes[0], names):
+        label, unit, factor = QUANTITIES.get(name, (name.replace("_", " "), "SI", 1.))
+        for i, (summary, table) in enumerate(runs):
+            if name not in table:
+                continue
+            time = numbers(table["time"])
+            if PREFIX + name in table and i == 0:
+                ax.plot(time, factor * numbers(table[PREFIX + name]), color="0.2", lw=2.5,
+                        alpha=0.5, label="reference")
+            ax.plot(time, factor * numbers(table[name]), "--" if i else "-", color=f"C{i}", lw=1.2,
+                    label=summary.get("fracture_model", "") if len(runs) == 1
+                    else os.path.basename(os.path.normpath(directories[i])))
+        ax.set_xlabel("time [s]")
+        ax.set_ylabel(f"{label} [{unit}]")
+        ax.set_ylim(bottom=min(0., ax.get_ylim()[0]))
+        ax.grid(alpha=0.3)
+    axes[0][0].legend(frameon=False)
+    figure.suptitle(runs[0][0].get("case", ""), fontsize=10)
+    figure.tight_layout()
+    figure.savefig(output, dpi=110)
+    print(output)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directories", nargs="+")
+    parser.add_argument("--columns", type=lambda text: text.split(","))
+    parser.add_argument("--output")
+    options = parser.parse_args()
+    draw(options.directories, options.columns,
+         options.output or os.path.join(options.directories[0], "history.png"))
+
+
+if __name__ == "__main__":
+    main()
