@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -26,11 +27,16 @@ std::vector<std::string> split(const std::string &line, const char separator)
   return parts;
 }
 
-/// All digits: a restarted run shall write the same text.
-std::string full_precision(const double value)
+/// The shortest text that is read back as the same number: a restarted run writes the same file.
+std::string exact_text(const double value)
 {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.16g", value);
+  for (int digits = 15; digits <= 17; ++digits)
+  {
+    std::snprintf(text, sizeof(text), "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value)
+      break;
+  }
   return text;
 }
 } // namespace
@@ -102,7 +108,7 @@ void StatisticsTable::end_row()
     const auto cell = current.find(i);
     row += (i > 0 ? "," : "");
     if (cell != current.end() && std::isfinite(cell->second))
-      row += full_precision(cell->second);
+      row += exact_text(cell->second);
   }
   last_row.clear();
   for (const auto &[index, value] : current)
