@@ -116,7 +116,7 @@ normal_axis(const Triangulation<dim> &triangulation, const types::boundary_id si
                 std::max(extent[d],
                          std::abs(cell->face(f)->vertex(v)[d] - cell->face(f)->vertex(0)[d]) /
                            cell->face(f)->diameter());
-  extent = Utilities::MPI::max(extent, triangulation.get_communicator());
+  Utilities::MPI::max(extent, triangulation.get_communicator(), extent);
   for (unsigned int d = 0; d < dim; ++d)
     if (extent[d] < 1e-10)
       return d;
