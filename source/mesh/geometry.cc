@@ -1,0 +1,454 @@
+#include "mesh/geometry.h"
+
+#include <deal.II/fe/mapping_cartesian.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/gmsh_file.h"
+#include "mesh/spacing.h"
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+const std::array<const char *, 3> spacing_entry{{"X spacing", "Y spacing", "Z spacing"}};
+
+/// Names of the two sides of a box across each axis.
+template <int dim>
+std::array<std::string, 2> box_sides(const unsigned int axis)
+{
+  if (axis == 0)
+    return {{"left", "right"}};
+  if (axis == dim - 1)
+    return {{"bottom", "top"}};
+  return {{"front", "back"}};
+}
+
+template <int dim>
+std::string repeated(const std::string &number)
+{
+  return dim == 2 ? number + ", " + number : number + ", " + number + ", " + number;
+}
+
+/// Call @p interpret on an entry and turn what it throws into an error that names the entry.
+template <class Interpret>
+auto interpret_entry(const ParameterHandler &prm,
+                     const std::string &section,
+                     const std::string &entry,
+                     const std::string &allowed,
+                     const Interpret &interpret)
+{
+  const std::string text = prm.get(entry);
+  try
+  {
+    return interpret(text);
+  }
+  catch (const InputError &error)
+  {
+    throw EntryError(section + "/" + entry, text, allowed + " (" + error.what() + ")");
+  }
+}
+
+template <typename Map>
+std::string list_names(const Map &map)
+{
+  std::string names;
+  for (const auto &entry : map)
+    names += (names.empty() ? "" : ", ") + entry.first;
+  return names;
+}
+
+template <typename Map>
+std::vector<std::string> keys(const Map &map)
+{
+  std::vector<std::string> result;
+  for (const auto &entry : map)
+    result.push_back(entry.first);
+  return result;
+}
+} // namespace
+
+template <int dim>
+void Geometry<dim>::declare_parameters(ParameterHandler &prm)
+{
+  prm.enter_subsection("Mesh");
+  prm.declare_entry(
+    "Shape", "box",
+    Patterns::Selection(dim == 2 ? "box|quarter disc|gmsh file" : "box|octant of ball|gmsh file"),
+    "Shape of the domain. Sides of a box are called left, right (across x), " +
+      std::string(dim == 2 ? "bottom, top (y)" : "front, back (y), bottom, top (z)") +
+      "; those of a quarter disc or octant of a ball by the same names where it is "
+      "cut, and surface; those of a gmsh file by its physical groups.");
+  prm.declare_entry("Uniform refinements", "0", Patterns::Integer(0, 20),
+                    "How many times every cell is halved in each direction.");
+  prm.declare_entry("Refinement boxes", "", Patterns::Anything(),
+                    "Cells that touch a box are halved until they are no larger than asked for: "
+                    "'0.1 m: " +
+                      std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") +
+                      "', several separated by ';'.");
+  prm.declare_entry("Region boxes", "", Patterns::Anything(),
+                    "Cells whose centre is in a box belong to the region of this name: 'coal: " +
+                      std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") +
+                      "', several separated by ';', later ones on top.");
+
+  prm.enter_subsection("Box");
+  prm.declare_entry("Lower corner", repeated<dim>("0"),
+                    Quantities(dimension::length, Range::finite(), dim, dim),
+                    "Corner with the least coordinates [m].");
+  prm.declare_entry("Upper corner", repeated<dim>("1"),
+                    Quantities(dimension::length, Range::finite(), dim, dim),
+                    "Corner with the greatest coordinates [m].");
+  for (unsigned int d = 0; d < dim; ++d)
+    prm.declare_entry(spacing_entry[d], "8 cells", Patterns::Anything(),
+                      "Cells along the axis, before they are halved: '16 cells'; '0.5 m'; "
+                      "'lines 0, 1, 2.5'; or graded, '1 cm at 0 m, growth 1.2, largest 20 m' with "
+                      "a mesh line at 0 and cells of 1 cm beside it, 'around' instead of 'at' for "
+                      "a cell whose middle is there ('8 cm around 0 m refined 3 times': once it "
+                      "has been halved 3 times), and '1 cm from 0 m to 2 m' for a band.");
+  prm.leave_subsection();
+
+  prm.enter_subsection("Ball");
+  prm.declare_entry("Radius", "1 m", Quantity(dimension::length, Range::positive()),
+                    "Radius of the quarter disc or octant of a ball [m].");
+  prm.leave_subsection();
+
+  prm.enter_subsection("Gmsh");
+  prm.declare_entry("File", "", Patterns::Anything(),
+                    "Mesh of quadrilaterals or hexahedra written by gmsh (.msh); a relative name "
+                    "starts at the deck. Physical groups name sides and regions.");
+  prm.declare_entry("Scale", "1", Quantity(dimension::number, Range::positive()),
+                    "Metres per unit of length in the file.");
+  prm.leave_subsection();
+  prm.leave_subsection();
+}
+
+template <int dim>
+void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &deck_directory)
+{
+  coarse = std::make_shared<dealii::Triangulation<dim>>();
+  sides.clear();
+  regions.clear();
+  uniform_refinements = 0;
+
+  prm.enter_subsection("Mesh");
+  const std::string shape = prm.get("Shape");
+  if (shape == "box")
+    make_box(prm);
+  else if (shape == "gmsh file")
+    read_gmsh(prm, deck_directory);
+  else
+    make_ball(prm);
+  bounds = GridTools::compute_bounding_box(*coarse);
+  uniform_refinements += prm.get_integer("Uniform refinements");
+  parse_refinement(prm);
+  parse_regions(prm);
+  prm.leave_subsection();
+}
+
+template <int dim>
+void Geometry<dim>::make_box(ParameterHandler &prm)
+{
+  prm.enter_subsection("Box");
+  const auto lower = get_quantities(prm, "Lower corner", dimension::length);
+  const auto upper = get_quantities(prm, "Upper corner", dimension::length);
+  for (unsigned int d = 0; d < dim; ++d)
+    if (!(lower[d] < upper[d]))
+      throw EntryError("Mesh/Box/Upper corner", prm.get("Upper corner"),
+                       "a corner above the lower one, " + prm.get("Lower corner") +
+                         ", in every coordinate");
+
+  // Equal cells are halved from coarser ones as far as that goes: p4est orders and stores them
+  // better than coarse cells, and the mesh is the same.
+  std::array<unsigned int, dim> equal_cells;
+  std::vector<std::vector<double>> lines(dim);
+  for (unsigned int d = 0; d < dim; ++d)
+    interpret_entry(prm, "Mesh/Box", spacing_entry[d],
+                    "'16 cells', '0.5 m', 'lines 0, 1, 2.5' or '1 cm at 0 m, 2 cm from 3 m to 5 m, "
+                    "1 cm around 8 m, growth 1.2, largest 10 m'",
+                    [&](const std::string &text)
+                    {
+                      equal_cells[d] = parse_equal_cells(text, lower[d], upper[d]);
+                      lines[d] = parse_lines(text, lower[d], upper[d]);
+                    });
+  const auto all_even = [&equal_cells]()
+  {
+    return std::all_of(equal_cells.begin(), equal_cells.end(),
+                       [](const unsigned int n) { return n > 0 && n % 2 == 0; });
+  };
+  for (; all_even(); ++uniform_refinements)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      equal_cells[d] /= 2;
+      for (unsigned int i = 0; i <= equal_cells[d]; ++i)
+        lines[d][i] = lines[d][2 * i];
+      lines[d].resize(equal_cells[d] + 1);
+    }
+
+  std::vector<unsigned int> n_cells(dim);
+  double n_all = 1.;
+  Point<dim> index_of_upper;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    n_cells[d] = lines[d].size() - 1;
+    index_of_upper[d] = n_cells[d];
+    n_all *= n_cells[d];
+  }
+  if (n_all > 2e7)
+    throw EntryError("Mesh/Box/X spacing", prm.get("X spacing"),
+                     "a mesh of up to 20 million cells; all spacings together make " +
+                       std::to_string(static_cast<long long>(n_all)));
+
+  // First a box of unit cells, whose vertices are the indices of the mesh lines: the lines come
+  // out exactly where the deck wants them.
+  GridGenerator::subdivided_hyper_rectangle(*coarse, n_cells, Point<dim>(), index_of_upper, true);
+  GridTools::transform(
+    [&lines](const Point<dim> &index)
+    {
+      Point<dim> p;
+      for (unsigned int d = 0; d < dim; ++d)
+        p[d] = lines[d][static_cast<std::size_t>(std::lround(index[d]))];
+      return p;
+    },
+    *coarse);
+  cells = Cells::cartesian;
+
+  for (unsigned int d = 0; d < dim; ++d)
+    for (unsigned int end = 0; end < 2; ++end)
+      sides[box_sides<dim>(d)[end]] = 2 * d + end;
+  prm.leave_subsection();
+}
+
+template <int dim>
+void Geometry<dim>::make_ball(ParameterHandler &prm)
+{
+  prm.enter_subsection("Ball");
+  const double radius = get_quantity(prm, "Radius", dimension::length);
+  prm.leave_subsection();
+
+  GridGenerator::quarter_hyper_ball(*coarse, Point<dim>(), radius);
+  cells = Cells::curved;
+
+  const types::boundary_id surface = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    sides[box_sides<dim>(d)[0]] = 2 * d;
+  sides["surface"] = surface;
+  for (const auto &face : coarse->active_face_iterators())
+    if (face->at_boundary())
+    {
+      face->set_boundary_id(surface);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(face->center()[d]) < 1e-10 * radius)
+          face->set_boundary_id(2 * d);
+    }
+}
+
+template <int dim>
+void Geometry<dim>::read_gmsh(ParameterHandler &prm, const std::string &deck_directory)
+{
+  prm.enter_subsection("Gmsh");
+  interpret_entry(prm, "Mesh/Gmsh", "File",
+                  std::string("a mesh of ") + (dim == 2 ? "quadrilaterals" : "hexahedra") +
+                    " written by gmsh",
+                  [&](const std::string &name)
+                  {
+                    GmshGroups groups = read_gmsh_file(name, deck_directory, *coarse);
+                    sides = std::move(groups.sides);
+                    regions = std::move(groups.regions);
+                  });
+  GridTools::scale(get_quantity(prm, "Scale", dimension::number), *coarse);
+  cells = Cells::straight;
+  prm.leave_subsection();
+}
+
+template <int dim>
+void Geometry<dim>::parse_refinement(ParameterHandler &prm)
+{
+  refinement_boxes.clear();
+  interpret_entry(prm, "Mesh", "Refinement boxes",
+                  "a list of boxes with cell sizes, '0.1 m: " +
+                    std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") + "'",
+                  [&](const std::string &text)
+                  {
+                    for (const auto &item : parse_boxes<dim>(text))
+                    {
+                      const double size = parse_quantity(item.label, dimension::length);
+                      if (!(size >= 1e-6 * diameter()))
+                        throw InputError("the cell size " + item.label +
+                                         " is less than a millionth of the domain");
+                      refinement_boxes.push_back({item.box, size});
+                    }
+                  });
+}
+
+template <int dim>
+void Geometry<dim>::parse_regions(ParameterHandler &prm)
+{
+  region_boxes.clear();
+  types::material_id next = 1;
+  for (const auto &region : regions)
+    next = std::max(next, region.second + 1);
+  interpret_entry(prm, "Mesh", "Region boxes",
+                  "a list of named boxes, 'coal: " +
+                    std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") + "'",
+                  [&](const std::string &text)
+                  {
+                    for (const auto &item : parse_boxes<dim>(text))
+                    {
+                      if (item.label.empty())
+                        throw InputError("a box has no name");
+                      const auto known = regions.emplace(item.label, next);
+                      next += known.second;
+                      region_boxes.push_back({item.box, known.first->second});
+                    }
+                  });
+}
+
+template <int dim>
+void Geometry<dim>::create_coarse(Triangulation &triangulation) const
+{
+  triangulation.copy_triangulation(*coarse);
+  if (region_boxes.empty())
+    return;
+  const auto set = [this, &triangulation]() { set_regions(triangulation); };
+  set();
+  triangulation.signals.post_distributed_refinement.connect(set);
+  triangulation.signals.post_distributed_load.connect(set);
+}
+
+template <int dim>
+void Geometry<dim>::create(Triangulation &triangulation) const
+{
+  create_coarse(triangulation);
+  triangulation.refine_global(uniform_refinements);
+
+  bool changed = !refinement_boxes.empty();
+  while (changed)
+  {
+    bool any = false;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && splits(cell))
+      {
+        cell->set_refine_flag();
+        any = true;
+      }
+    changed = Utilities::MPI::max(any ? 1 : 0, triangulation.get_communicator()) == 1;
+    if (changed)
+      triangulation.execute_coarsening_and_refinement();
+  }
+}
+
+template <int dim>
+bool Geometry<dim>::splits(const typename dealii::Triangulation<dim>::cell_iterator &cell) const
+{
+  if (static_cast<unsigned int>(cell->level()) < uniform_refinements)
+    return true;
+  const double size = cell_size(cell);
+  const double slack = 1e-8 * size; // a box that ends on a mesh line does not reach beyond it
+  for (const RefinementBox &item : refinement_boxes)
+    if (size > item.cell_size * (1. + 1e-8))
+    {
+      const auto extent = cell->bounding_box().get_boundary_points();
+      const auto box = item.box.get_boundary_points();
+      bool touches = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        touches &=
+          extent.first[d] < box.second[d] - slack && extent.second[d] > box.first[d] + slack;
+      if (touches)
+        return true;
+    }
+  return false;
+}
+
+template <int dim>
+void Geometry<dim>::set_regions(Triangulation &triangulation) const
+{
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (!cell->is_artificial())
+    {
+      // Children inherit from a parent that a box may have claimed: start from the coarse cell.
+      types::material_id region = typename dealii::Triangulation<dim>::cell_iterator(
+                                    coarse.get(), 0, cell->id().get_coarse_cell_id())
+                                    ->material_id();
+      for (const RegionBox &item : region_boxes)
+        if (item.box.point_inside(cell->center()))
+          region = item.region;
+      cell->set_material_id(region);
+    }
+}
+
+template <int dim>
+std::unique_ptr<Mapping<dim>> Geometry<dim>::mapping() const
+{
+  switch (cells)
+  {
+  case Cells::cartesian:
+    return std::make_unique<MappingCartesian<dim>>();
+  case Cells::straight:
+    return std::make_unique<MappingQ<dim>>(1);
+  default:
+    return std::make_unique<MappingQ<dim>>(2);
+  }
+}
+
+template <int dim>
+types::boundary_id Geometry<dim>::side(const std::string &name) const
+{
+  const auto found = sides.find(name);
+  if (found == sides.end())
+    throw InputError("the domain has no side \"" + name + "\"; its sides are " + list_names(sides));
+  return found->second;
+}
+
+template <int dim>
+std::vector<std::string> Geometry<dim>::side_names() const
+{
+  return keys(sides);
+}
+
+template <int dim>
+types::material_id Geometry<dim>::region(const std::string &name) const
+{
+  const auto found = regions.find(name);
+  if (found == regions.end())
+    throw InputError("the mesh has no region \"" + name + "\"; " +
+                     (regions.empty() ? "none is defined (see Mesh/Region boxes)"
+                                      : "its regions are " + list_names(regions)));
+  return found->second;
+}
+
+template <int dim>
+std::vector<std::string> Geometry<dim>::region_names() const
+{
+  return keys(regions);
+}
+
+template <int dim>
+Point<dim> Geometry<dim>::lower() const
+{
+  return bounds.get_boundary_points().first;
+}
+
+template <int dim>
+Point<dim> Geometry<dim>::upper() const
+{
+  return bounds.get_boundary_points().second;
+}
+
+template <int dim>
+double Geometry<dim>::diameter() const
+{
+  return lower().distance(upper());
+}
+
+template class Geometry<2>;
+template class Geometry<3>;
+} // namespace stockwork

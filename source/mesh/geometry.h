@@ -1,0 +1,113 @@
+#pragma once
+
+#include "mesh/box_list.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/types.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/fe/mapping.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// The domain of a case and its initial mesh, as subsection Mesh of the deck describes them:
+/// shape, names of the sides and regions, cell sizes.
+///
+/// Sides of a box are called left, right (x), bottom, top (y in 2-D, z in 3-D) and front, back (y
+/// in 3-D). A quarter disc has left (x = 0), bottom (y = 0) and surface, an octant of a ball left,
+/// front, bottom and surface. A gmsh file names its own, by its physical groups.
+template <int dim>
+class Geometry
+{
+public:
+  using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+
+  static void declare_parameters(dealii::ParameterHandler &prm);
+
+  /// @param deck_directory where a relative name of a mesh file starts
+  /// @throws InputError for whatever cannot be built; nothing is left to fail later
+  void parse_parameters(dealii::ParameterHandler &prm, const std::string &deck_directory = ".");
+
+  /// The initial mesh: coarse cells, uniform refinement and the refinement boxes. The
+  /// triangulation must be empty. Regions are set now and after every later change of the mesh.
+  void create(Triangulation &triangulation) const;
+
+  /// The coarse cells of create() alone: what Triangulation::load() needs on a restart.
+  void create_coarse(Triangulation &triangulation) const;
+
+  /// Whether the initial mesh splits a cell of this place and size (again), so that coarsening must
+  /// not bring it back.
+  bool splits(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
+
+  /// The map from the unit cell that fits the shape: Cartesian for boxes, quadratic where the
+  /// boundary is curved.
+  std::unique_ptr<dealii::Mapping<dim>> mapping() const;
+
+  /// @throws InputError naming the known sides
+  dealii::types::boundary_id side(const std::string &name) const;
+
+  std::vector<std::string> side_names() const;
+
+  /// A region by its name. @throws InputError naming the known regions
+  dealii::types::material_id region(const std::string &name) const;
+
+  /// All regions but the unnamed one, 0, that everything else belongs to.
+  std::vector<std::string> region_names() const;
+
+  /// Corners of the bounding box.
+  dealii::Point<dim> lower() const;
+  dealii::Point<dim> upper() const;
+
+  /// Of the bounding box [m].
+  double diameter() const;
+
+private:
+  void make_box(dealii::ParameterHandler &prm);
+  void make_ball(dealii::ParameterHandler &prm);
+  void read_gmsh(dealii::ParameterHandler &prm, const std::string &deck_directory);
+  void parse_refinement(dealii::ParameterHandler &prm);
+  void parse_regions(dealii::ParameterHandler &prm);
+  void set_regions(Triangulation &triangulation) const;
+
+  struct RefinementBox
+  {
+    dealii::BoundingBox<dim> box;
+    double cell_size;
+  };
+  struct RegionBox
+  {
+    dealii::BoundingBox<dim> box;
+    dealii::types::material_id region;
+  };
+
+  enum class Cells
+  {
+    cartesian,
+    straight,
+    curved
+  };
+
+  std::shared_ptr<dealii::Triangulation<dim>> coarse;
+  Cells cells = Cells::cartesian;
+  unsigned int uniform_refinements = 0;
+  std::vector<RefinementBox> refinement_boxes;
+  std::vector<RegionBox> region_boxes;
+  std::map<std::string, dealii::types::boundary_id> sides;
+  std::map<std::string, dealii::types::material_id> regions;
+  dealii::BoundingBox<dim> bounds;
+};
+
+/// The longest edge of a cell, measured along its axes [m].
+template <class CellIterator>
+double cell_size(const CellIterator &cell)
+{
+  double size = 0.;
+  for (unsigned int d = 0; d < CellIterator::AccessorType::dimension; ++d)
+    size = std::max(size, cell->extent_in_direction(d));
+  return size;
+}
+} // namespace stockwork

@@ -1,0 +1,56 @@
+#include "mesh/refinement.h"
+
+#include "stockwork/base/error.h"
+
+namespace stockwork
+{
+template <int dim>
+bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                const Geometry<dim> &geometry,
+                const std::vector<float> &wanted_size,
+                const std::vector<bool> &holds_fracture)
+{
+  AssertDimension(wanted_size.size(), triangulation.n_active_cells());
+  const auto held = [&holds_fracture](const auto &cell)
+  { return !holds_fracture.empty() && holds_fracture[cell->active_cell_index()]; };
+
+  for (const auto &cell : triangulation.active_cell_iterators())
+  {
+    cell->clear_refine_flag();
+    cell->clear_coarsen_flag();
+    if (!cell->is_locally_owned() || held(cell))
+      continue;
+    // The wish is a float: do not split for its round-off.
+    const double size = cell_size(cell), wanted = wanted_size[cell->active_cell_index()];
+    if (size > wanted * (1. + 1e-5))
+      cell->set_refine_flag();
+    // A factor of two beyond what the merged cell needs, so that a wish that moves does not
+    // split and merge by turns.
+    else if (4. * size <= wanted * (1. + 1e-5) && cell->level() > 0 &&
+             !geometry.splits(cell->parent()))
+      cell->set_coarsen_flag();
+  }
+  triangulation.prepare_coarsening_and_refinement();
+
+  // 0: nothing changes, 1: something does, 2: a cell with a fracture would.
+  unsigned int change = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()))
+      change = std::max(change, held(cell) ? 2u : 1u);
+  change = dealii::Utilities::MPI::max(change, triangulation.get_communicator());
+  if (change == 2)
+    throw SolveError("A cell that holds a fracture would have to be split, because cells beside it "
+                     "are wanted more than twice as small. Ask for the small cells where the "
+                     "fracture is, from the start, or nowhere near it.");
+  return change == 1;
+}
+
+template bool flag_cells<2>(dealii::parallel::distributed::Triangulation<2> &,
+                            const Geometry<2> &,
+                            const std::vector<float> &,
+                            const std::vector<bool> &);
+template bool flag_cells<3>(dealii::parallel::distributed::Triangulation<3> &,
+                            const Geometry<3> &,
+                            const std::vector<float> &,
+                            const std::vector<bool> &);
+} // namespace stockwork

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <deal.II/distributed/tria.h>
+
+#include <vector>
+
+#include "mesh/geometry.h"
+
+namespace stockwork
+{
+/// Set the flags of a mesh so that no owned cell is larger than wanted, and that cells much
+/// smaller than wanted are merged again where the initial mesh allows it. Neighbours differ by one
+/// level at most. Call Triangulation::execute_coarsening_and_refinement() afterwards, with the
+/// transfer of unknowns around it. Collective.
+///
+/// One call asks for one level; repeat until it returns false.
+///
+/// @param wanted_size longest edge [m] by active cell index; those of other ranks' cells are
+/// ignored, and infinity means that a cell does not matter
+/// @param holds_fracture by active cell index: these cells keep their size; empty: none
+/// @return whether the mesh will change
+/// @throws SolveError if a cell that holds a fracture would have to be split because its
+/// neighbours are wanted much smaller
+template <int dim>
+bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                const Geometry<dim> &geometry,
+                const std::vector<float> &wanted_size,
+                const std::vector<bool> &holds_fracture = {});
+} // namespace stockwork
