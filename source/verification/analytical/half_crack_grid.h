@@ -1,0 +1,84 @@
+#pragma once
+
+#include "verification/analytical/dense_matrix.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace stockwork::analytical
+{
+/// Elasticity of a symmetric line crack |x| <= 1 in an infinite plane-strain body, on points that
+/// resolve every scale from the inlet to the tip: x = exp(-exp(-v)) with equal steps of v, so that
+/// 1 - x falls to 1e-16. The unknown is m = -dp/dx on x > 0. With E' = 1,
+///   w(x) = k sqrt(1 - x^2) + int_0^1 m(s) H(x, s) ds,   k = lim w / sqrt(1 - x^2) at the tip,
+/// where H is the opening by unit pressure on |x| < s less a uniform pressure that cancels its
+/// stress intensity:
+///   H = (4/pi) [(s - x) ln((a + b)^2 / |s^2 - x^2|) - 2 x ln((a s + b x) / (a + b))],
+///   a = sqrt(1 - x^2), b = sqrt(1 - s^2).
+/// (The kernel of Spence & Sharp 1985 with prescribed intensity, in a form free of cancellation.)
+class HalfCrackGrid
+{
+public:
+  /// step is that of v; the points end where 1 - x is exp(-last).
+  HalfCrackGrid(double step, double last);
+
+  std::size_t size() const
+  {
+    return position.size();
+  }
+
+  const std::vector<double> &x() const
+  {
+    return position;
+  }
+
+  /// 1 - x without cancellation.
+  const std::vector<double> &distance_to_tip() const
+  {
+    return tip_distance;
+  }
+
+  /// sqrt(1 - x^2).
+  const std::vector<double> &root() const
+  {
+    return chord;
+  }
+
+  /// w_i = k root_i + sum_j opening_matrix_ij m_j.
+  const DenseMatrix &opening_matrix() const
+  {
+    return matrix;
+  }
+
+  /// result_i = int_{x_i}^1 f dx, of eighth order in the step.
+  void integrate_to_tip(const std::vector<double> &f, std::vector<double> &result) const;
+
+  /// The transpose of integrate_to_tip: result_k = sum_i g_i d(int_{x_i}^1 f dx)/df_k.
+  void transpose_integrate(const double *g, std::vector<double> &result) const;
+
+  /// Pressure at the points, E' = 1.
+  std::vector<double> pressure(double k, const std::vector<double> &m) const;
+
+  /// The parameter v of a position in (0, 1), kept inside the range of the points.
+  double parameter(double x) const;
+
+  double first_parameter() const
+  {
+    return first;
+  }
+
+  double step() const
+  {
+    return h;
+  }
+
+private:
+  double h;
+  double first;
+  std::vector<double> position;
+  std::vector<double> tip_distance;
+  std::vector<double> metric; // dx/dv
+  std::vector<double> chord;
+  DenseMatrix matrix;
+};
+} // namespace stockwork::analytical
