@@ -95,7 +95,8 @@ TEST_CASE("KGD: profiles in physical units")
     const ReferenceTable table(name + "_profiles");
     CHECK_COLUMN(table, "w_m", 1e-5, RelativeTo::largest,
                  [&](const auto i) { return fracture.opening(table(i, "x_m"), table(i, "t_s")); });
-    CHECK_COLUMN(table, "p_Pa", 1e-5, RelativeTo::largest,
+    // A difference of 1e-7 in l shows near the tip, where p falls without bound.
+    CHECK_COLUMN(table, "p_Pa", 1e-4, RelativeTo::largest,
                  [&](const auto i) { return fracture.pressure(table(i, "x_m"), table(i, "t_s")); });
   }
 }
