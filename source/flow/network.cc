@@ -1,0 +1,544 @@
+#include "flow/network.h"
+
+#include <boost/serialization/map.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "flow/conductivity.h"
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+namespace stockwork
+{
+namespace
+{
+constexpr unsigned int no_row = dealii::numbers::invalid_unsigned_int;
+
+double value(const LinearFunctional &functional, const Unknowns &unknowns)
+{
+  double sum = functional.constant;
+  for (unsigned int i = 0; i < functional.bulk.size(); ++i)
+    sum += functional.bulk_coefficients[i] * unknowns.bulk(functional.bulk[i]);
+  for (unsigned int i = 0; i < functional.extra.size(); ++i)
+    sum += functional.extra_coefficients[i] * unknowns.extra[functional.extra[i]];
+  return sum;
+}
+} // namespace
+
+
+template <int dim>
+void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
+{
+  namespace Patterns = dealii::Patterns;
+  prm.enter_subsection("Fracture flow");
+  prm.declare_entry(
+    "Minimum aperture", "10 um", Quantity(dimension::length, Range::positive()),
+    "w_min in the hydraulic aperture (w^4 + w_min^4)^(1/4). Enters the conductivity "
+    "only, never the volume. Too small a value lets closed tips hold suction; "
+    "G_c/(2T), a quarter of the critical opening of a cohesive crack, runs "
+    "cleanly.");
+  prm.declare_entry("Leak-off", "none", Patterns::Selection("none|carter|filter cake|resolved"),
+                    "How fluid passes from fractures into the rock. carter: C_L/sqrt(t-t_0) "
+                    "per face, out of the model. filter cake: c_l (p_f - p_m) per face, into the "
+                    "rock's pores if it has them. resolved: the fracture is at the pore pressure "
+                    "of the rock.");
+  prm.declare_entry("Carter coefficient", "0", Quantity(dimension::carter, Range::non_negative()),
+                    "C_L of one face.");
+  prm.declare_entry("Filter cake coefficient", "0",
+                    Quantity(dimension::leakoff_per_pressure, Range::non_negative()),
+                    "c_l of one face.");
+  prm.leave_subsection();
+  Wells<dim>::declare_parameters(prm);
+}
+
+
+template <int dim>
+void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
+{
+  prm.enter_subsection("Fracture flow");
+  minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
+  carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
+  filter_cake_coefficient =
+    get_quantity(prm, "Filter cake coefficient", dimension::leakoff_per_pressure);
+  const std::string law = prm.get("Leak-off");
+  leak_off = law == "carter"        ? LeakOff::carter
+             : law == "filter cake" ? LeakOff::filter_cake
+             : law == "resolved"    ? LeakOff::resolved
+                                    : LeakOff::none;
+  prm.leave_subsection();
+  if (leak_off == LeakOff::carter && carter_coefficient == 0.)
+    throw EntryError("Fracture flow/Carter coefficient", "0", "a value > 0 with Carter leak-off");
+  if (leak_off == LeakOff::filter_cake && filter_cake_coefficient == 0.)
+    throw EntryError("Fracture flow/Filter cake coefficient", "0",
+                     "a value > 0 with leak-off through a filter cake");
+  all_wells.parse_parameters(prm);
+}
+
+
+template <int dim>
+void Network<dim>::set_fluid(const double viscosity,
+                             const double compressibility,
+                             const double rock_mobility)
+{
+  this->viscosity = viscosity;
+  this->compressibility = compressibility;
+  this->rock_mobility = rock_mobility;
+  all_wells.set_compressibility(compressibility);
+}
+
+
+template <int dim>
+void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim> > &segments,
+                                const Collectives &collectives)
+{
+  owned.assign(segments.begin(), segments.end());
+
+  std::vector<NetworkSegment<dim> > mine;
+  for (const Segment<dim> &segment : owned)
+    mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
+                    segment.given_pressure, segment.initial_pressure, collectives.rank(),
+                    segment.neighbours});
+  network = collectives.gather(mine);
+  std::sort(network.begin(), network.end(),
+            [](const auto &a, const auto &b) { return a.key < b.key; });
+
+  const auto find = [&](const std::uint64_t key) -> unsigned int
+  {
+    const auto place =
+      std::lower_bound(network.begin(), network.end(), key,
+                       [](const auto &a, const std::uint64_t k) { return a.key < k; });
+    if (place == network.end() || place->key != key)
+      throw std::logic_error("a segment has a neighbour that does not exist");
+    return place - network.begin();
+  };
+
+  owned_index.clear();
+  for (const Segment<dim> &segment : owned)
+    owned_index.push_back(find(segment.key));
+
+  edges.assign(network.size(), {});
+  for (unsigned int i = 0; i < network.size(); ++i)
+    for (const auto &neighbour : network[i].neighbours)
+    {
+      const unsigned int j = find(neighbour.key);
+      const auto &back = network[j].neighbours;
+      const auto twin = std::find_if(back.begin(), back.end(),
+                                     [&](const auto &n) { return n.key == network[i].key; });
+      if (twin == back.end())
+        throw std::logic_error("a segment is not its neighbour's neighbour");
+      edges[i].push_back({j, neighbour.distance, twin->distance, neighbour.width});
+    }
+
+  all_wells.locate(network);
+  set_offset(0);
+
+  if (!in_step)
+    return;
+  const bool has_grown =
+    std::any_of(network.begin(), network.end(),
+                [&](const auto &segment)
+                { return history.count(segment.key) == 0 && appeared.count(segment.key) == 0; });
+  pass += has_grown;
+  for (const auto &segment : network)
+    if (history.count(segment.key) == 0)
+      appeared.emplace(segment.key, pass);
+}
+
+
+template <int dim>
+void Network<dim>::set_offset(const unsigned int first_index)
+{
+  n_pressures = 0;
+  rows.assign(network.size(), no_row);
+  for (unsigned int i = 0; i < network.size(); ++i)
+    if (!network[i].has_given_pressure())
+      rows[i] = first_index + n_pressures++;
+  all_wells.set_offset(first_index + n_pressures);
+}
+
+
+template <int dim>
+std::vector<ExtraUnknown> Network<dim>::unknowns() const
+{
+  std::vector<ExtraUnknown> result;
+  for (const auto &segment : network)
+    if (!segment.has_given_pressure())
+    {
+      ExtraUnknown unknown;
+      unknown.key = flow_key(segment.key, 1);
+      unknown.initial = segment.initial_pressure;
+      unknown.scale = std::max(std::abs(segment.initial_pressure), 1e6);
+      result.push_back(unknown);
+    }
+  const auto of_wells = all_wells.unknowns();
+  result.insert(result.end(), of_wells.begin(), of_wells.end());
+  return result;
+}
+
+
+template <int dim>
+void Network<dim>::begin_step(const StepContext &)
+{
+  in_step = true;
+  pass = 0;
+  appeared.clear();
+  for (const auto &segment : network)
+    if (history.count(segment.key) == 0)
+      appeared.emplace(segment.key, 0);
+}
+
+
+template <int dim>
+void Network<dim>::rollback()
+{
+  in_step = false;
+  pass = 0;
+  appeared.clear();
+}
+
+
+template <int dim>
+double Network<dim>::exposed_since(const unsigned int segment, const StepContext &context) const
+{
+  const auto old = history.find(network[segment].key);
+  if (old != history.end())
+    return old->second.exposed;
+
+  // Those of pass k out of n were reached, on average, in the middle of the k-th part of the step.
+  const double begin = context.time - context.dt;
+  const auto fresh = appeared.find(network[segment].key);
+  return fresh == appeared.end() || fresh->second == 0
+           ? begin
+           : begin + context.dt * (fresh->second - 0.5) / pass;
+}
+
+
+template <int dim>
+double Network<dim>::leak_off_coefficient(const unsigned int segment) const
+{
+  return leak_off == LeakOff::filter_cake ? filter_cake_coefficient
+         : leak_off == LeakOff::resolved
+           ? resolved_coefficient(rock_mobility, network[segment].size())
+           : 0.;
+}
+
+
+template <int dim>
+std::vector<double> Network<dim>::apertures(const Unknowns &unknowns,
+                                            const Collectives &collectives) const
+{
+  std::vector<double> result(network.size());
+  for (unsigned int k = 0; k < owned.size(); ++k)
+    result[owned_index[k]] = value(owned[k].opening, unknowns);
+  collectives.sum(result);
+  return result;
+}
+
+
+template <int dim>
+std::vector<double> Network<dim>::pressures(const Unknowns &unknowns) const
+{
+  std::vector<double> result(network.size());
+  for (unsigned int i = 0; i < network.size(); ++i)
+    result[i] = rows[i] == no_row ? network[i].given_pressure : unknowns.extra[rows[i]];
+  return result;
+}
+
+
+template <int dim>
+typename Network<dim>::Values Network<dim>::evaluate(const State &state,
+                                                     const Collectives &collectives) const
+{
+  const unsigned int n = network.size();
+  std::vector<double> all(3 * n);
+  for (unsigned int k = 0; k < owned.size(); ++k)
+  {
+    const unsigned int i = owned_index[k];
+    all[i] = value(owned[k].opening, state.current);
+    all[n + i] = value(owned[k].opening, state.rate_reference);
+    all[2 * n + i] = value(owned[k].pore_pressure, state.current);
+  }
+  collectives.sum(all);
+
+  Values values;
+  values.aperture.assign(all.begin(), all.begin() + n);
+  values.aperture_reference.assign(all.begin() + n, all.begin() + 2 * n);
+  values.pore_pressure.assign(all.begin() + 2 * n, all.end());
+  values.pressure = pressures(state.current);
+  values.pressure_reference = pressures(state.rate_reference);
+  return values;
+}
+
+
+template <int dim>
+void Network<dim>::assemble(const StepContext &context,
+                            const State &state,
+                            const Collectives &collectives,
+                            Sink &sink) const
+{
+  if (network.empty())
+    return;
+  const Values values = evaluate(state, collectives);
+  LocalSystem local;
+  for (unsigned int k = 0; k < owned.size(); ++k)
+  {
+    assemble_segment(owned_index[k], owned[k], context, values, local);
+    sink.add(local);
+  }
+  if (collectives.rank() == 0)
+    all_wells.assemble(context, state, values.pressure, rows, sink);
+}
+
+
+/// The segment's load on the rock and its row of the fluid balance, and what its aperture does to
+/// the rows of its neighbours.
+template <int dim>
+void Network<dim>::assemble_segment(const unsigned int index,
+                                    const Segment<dim> &segment,
+                                    const StepContext &context,
+                                    const Values &values,
+                                    LocalSystem &local) const
+{
+  const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
+  const double area = segment.area, dt = context.effective_dt();
+  const double w = values.aperture[index], p = values.pressure[index];
+
+  // Places in the local system: bulk of B, bulk of P; extra of B, extra of P, own row, others'.
+  const unsigned int b_bulk = 0, p_bulk = B.bulk.size(), b_extra = p_bulk + P.bulk.size(),
+                     p_extra = b_extra + B.extra.size();
+  local.bulk = B.bulk;
+  local.bulk.insert(local.bulk.end(), P.bulk.begin(), P.bulk.end());
+  local.extra = B.extra;
+  local.extra.insert(local.extra.end(), P.extra.begin(), P.extra.end());
+  const auto place_of = [&](const unsigned int row) -> unsigned int
+  {
+    if (row == no_row)
+      return no_row;
+    local.extra.push_back(row);
+    return local.bulk.size() + local.extra.size() - 1;
+  };
+  const unsigned int own = place_of(rows[index]);
+
+  static thread_local std::vector<unsigned int> others;
+  others.clear();
+  for (const Edge &edge : edges[index])
+    others.push_back(place_of(rows[edge.other]));
+  local.reinit();
+
+  // For each entry of B and of P, its place and coefficient.
+  const auto for_entries = [](const LinearFunctional &functional, const unsigned int bulk,
+                              const unsigned int extra, const auto &action)
+  {
+    for (unsigned int i = 0; i < functional.bulk.size(); ++i)
+      action(bulk + i, functional.bulk_coefficients[i]);
+    for (unsigned int i = 0; i < functional.extra.size(); ++i)
+      action(extra + i, functional.extra_coefficients[i]);
+  };
+  const auto add_aperture_slope = [&](const unsigned int row, const double slope)
+  {
+    for_entries(B, b_bulk, b_extra,
+                [&](const unsigned int column, const double b)
+                { local.matrix(row, column) += slope * b; });
+  };
+
+  // Load: external work A p dw.
+  for_entries(B, b_bulk, b_extra,
+              [&](const unsigned int row, const double b)
+              {
+                local.residual(row) -= area * p * b;
+                if (own != no_row)
+                  local.matrix(row, own) -= area * b;
+              });
+
+  // Storage.
+  if (own != no_row)
+  {
+    const double open = std::max(w, 0.), dp = p - values.pressure_reference[index];
+    local.residual(own) -=
+      area * (w - values.aperture_reference[index] + open * compressibility * dp);
+    local.matrix(own, own) -= area * open * compressibility;
+    add_aperture_slope(own, -area * (1. + (w > 0. ? compressibility * dp : 0.)));
+  }
+
+  // Flow to the neighbours.
+  const ValueAndSlope own_cube = hydraulic_aperture_cubed(w, minimum_aperture);
+  for (unsigned int e = 0; e < edges[index].size(); ++e)
+  {
+    const Edge &edge = edges[index][e];
+    const ValueAndSlope other_cube =
+      hydraulic_aperture_cubed(values.aperture[edge.other], minimum_aperture);
+    const Transmissibility T = transmissibility(own_cube, other_cube, edge.distance,
+                                                edge.other_distance, edge.width, viscosity);
+    const double difference = p - values.pressure[edge.other];
+    const unsigned int other = others[e];
+    if (own != no_row)
+    {
+      local.residual(own) -= dt * T.value * difference;
+      local.matrix(own, own) -= dt * T.value;
+      if (other != no_row)
+        local.matrix(own, other) += dt * T.value;
+      add_aperture_slope(own, -dt * T.slope_i * difference);
+    }
+    if (other != no_row)
+      add_aperture_slope(other, dt * T.slope_i * difference);
+  }
+
+  // Leak-off.
+  if (leak_off == LeakOff::carter && own != no_row)
+    local.residual(own) -= 2. * area * dt / context.dt *
+                           carter_volume(carter_coefficient, exposed_since(index, context),
+                                         context.time - context.dt, context.time);
+  const double conductance = 2. * area * dt * leak_off_coefficient(index);
+  if (conductance > 0.)
+  {
+    // With v = e - P, e the unit vector of the own row: R -= c (p - p_m) v, J -= c v v^T.
+    const double difference = p - values.pore_pressure[index];
+    const auto for_v = [&](const auto &action)
+    {
+      if (own != no_row)
+        action(own, 1.);
+      for_entries(P, p_bulk, p_extra,
+                  [&](const unsigned int place, const double coefficient)
+                  { action(place, -coefficient); });
+    };
+    for_v(
+      [&](const unsigned int row, const double v_row)
+      {
+        local.residual(row) -= conductance * difference * v_row;
+        for_v([&](const unsigned int column, const double v_column)
+              { local.matrix(row, column) -= conductance * v_row * v_column; });
+      });
+  }
+}
+
+
+template <int dim>
+std::vector<double> Network<dim>::leaked_in_step(const StepContext &context,
+                                                 const Values &values) const
+{
+  std::vector<double> volumes(network.size(), 0.);
+  for (unsigned int i = 0; i < network.size(); ++i)
+    if (leak_off == LeakOff::carter)
+      volumes[i] = 2. * network[i].area *
+                   carter_volume(carter_coefficient, exposed_since(i, context),
+                                 context.time - context.dt, context.time);
+    else
+      volumes[i] = 2. * network[i].area * leak_off_coefficient(i) * context.dt *
+                   (values.pressure[i] - values.pore_pressure[i]);
+  return volumes;
+}
+
+
+template <int dim>
+FluidBalance Network<dim>::balance(const StepContext &context,
+                                   const State &state,
+                                   const Collectives &collectives) const
+{
+  const Values values = evaluate(state, collectives);
+  const std::vector<double> leaked = leaked_in_step(context, values);
+  // Storage terms of the scheme, carried over from its effective time to that of the step.
+  const double scheme = context.dt * context.rate;
+
+  FluidBalance balance;
+  balance.step = all_wells.volumes(context, state);
+  for (unsigned int i = 0; i < network.size(); ++i)
+  {
+    const double area = network[i].area, w = values.aperture[i];
+    const double gain =
+      scheme * area *
+      (w - values.aperture_reference[i] +
+       std::max(w, 0.) * compressibility * (values.pressure[i] - values.pressure_reference[i]));
+    balance.fracture_volume += area * w;
+    balance.step.in_fractures += gain;
+    balance.step.leaked += leaked[i];
+
+    if (network[i].has_given_pressure())
+    {
+      // What it takes is supplied from outside.
+      double supply = gain + leaked[i];
+      for (const Edge &edge : edges[i])
+      {
+        const unsigned int j = edge.other;
+        supply += context.dt *
+                  transmissibility(hydraulic_aperture_cubed(w, minimum_aperture),
+                                   hydraulic_aperture_cubed(values.aperture[j], minimum_aperture),
+                                   edge.distance, edge.other_distance, edge.width, viscosity)
+                    .value *
+                  (values.pressure[i] - values.pressure[j]);
+      }
+      (supply > 0. ? balance.step.injected : balance.step.outflow) += std::abs(supply);
+    }
+  }
+
+  balance.total = total;
+  balance.total += balance.step;
+
+  // When nothing moves (after shut-in), compare with what moved on average so far.
+  const double moved =
+    std::max({balance.step.injected + balance.step.outflow, std::abs(balance.step.leaked),
+              context.time > 0. ? balance.total.injected * context.dt / context.time : 0.});
+  balance.relative_error = moved > 0. ? std::abs(balance.step.defect()) / moved : 0.;
+  return balance;
+}
+
+
+template <int dim>
+void Network<dim>::commit(const StepContext &context,
+                          const State &state,
+                          const Collectives &collectives)
+{
+  const std::vector<double> leaked = leaked_in_step(context, evaluate(state, collectives));
+  total = balance(context, state, collectives).total;
+  for (unsigned int i = 0; i < network.size(); ++i)
+  {
+    const double exposed = exposed_since(i, context);
+    auto &entry = history[network[i].key];
+    entry.exposed = exposed;
+    entry.leaked += leaked[i];
+  }
+  rollback(); // nothing is on trial any more
+}
+
+
+template <int dim>
+std::vector<double> Network<dim>::leaked_volumes() const
+{
+  std::vector<double> result;
+  for (const auto &segment : network)
+  {
+    const auto entry = history.find(segment.key);
+    result.push_back(entry == history.end() ? 0. : entry->second.leaked);
+  }
+  return result;
+}
+
+
+template <int dim>
+std::vector<WellReport> Network<dim>::wells(const StepContext &context,
+                                            const State &state,
+                                            const Collectives &collectives) const
+{
+  return all_wells.report(context, state, apertures(state.current, collectives),
+                          pressures(state.current));
+}
+
+
+template <int dim>
+void Network<dim>::save(boost::archive::binary_oarchive &archive) const
+{
+  archive << history << total;
+}
+
+
+template <int dim>
+void Network<dim>::load(boost::archive::binary_iarchive &archive)
+{
+  archive >> history >> total;
+  rollback();
+}
+
+
+template class Network<2>;
+template class Network<3>;
+} // namespace stockwork

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "stockwork/fracture/segment.h"
+
+namespace stockwork
+{
+/// What every rank knows of a segment: all but the functionals, which stay with the owner.
+template <int dim>
+struct NetworkSegment
+{
+  std::uint64_t key = 0;
+  dealii::Point<dim> centre;
+  dealii::Tensor<1, dim> normal;
+  double area = 0.;
+  double given_pressure = std::numeric_limits<double>::quiet_NaN();
+  double initial_pressure = 0.;
+  unsigned int owner = 0; ///< rank
+  std::vector<typename Segment<dim>::Neighbour> neighbours;
+
+  bool has_given_pressure() const
+  {
+    return !std::isnan(given_pressure);
+  }
+
+  /// Length of the segment; in 3-D the side of the square of its area [m].
+  double size() const
+  {
+    return dim == 2 ? area : std::sqrt(area);
+  }
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &key &centre &normal &area &given_pressure &initial_pressure &owner &neighbours;
+  }
+};
+
+/// Keys of the flow's own unknowns. The mixing is one to one (the finaliser of splitmix64), so two
+/// pressures never share a key, and one of a fracture model only by an accident of 1 in 2^64.
+inline std::uint64_t flow_key(const std::uint64_t key, const std::uint64_t kind)
+{
+  std::uint64_t z = key + kind * 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+} // namespace stockwork

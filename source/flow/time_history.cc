@@ -1,0 +1,81 @@
+#include "flow/time_history.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "stockwork/base/error.h"
+
+namespace stockwork
+{
+namespace
+{
+std::string trim(const std::string &text)
+{
+  const auto begin = text.find_first_not_of(" \t");
+  return begin == std::string::npos ? ""
+                                    : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+} // namespace
+
+TimeHistory::TimeHistory(const std::string &text,
+                         const Dimension &dimension,
+                         const std::string &path)
+{
+  const std::string allowed = "a value, '" + std::string(dimension.example) +
+                              "'; pieces, each from its time on, '0 s: " + dimension.example +
+                              "; 50 s: 0'; or an expression in SI units, 'f(t) = t/10'";
+  try
+  {
+    if (text.compare(0, 4, "f(t)") == 0 && text.find('=') != std::string::npos)
+    {
+      expression = std::make_shared<dealii::FunctionParser<1> >();
+      expression->initialize("t", text.substr(text.find('=') + 1), {});
+      expression->value(dealii::Point<1>(0.)); // muParser finds faults only now
+    }
+    else if (text.find(':') == std::string::npos)
+    {
+      times = {-std::numeric_limits<double>::infinity()};
+      values = {parse_quantity(trim(text), dimension)};
+    }
+    else
+      for (const std::string &piece : split_list(text))
+      {
+        const auto colon = piece.find(':');
+        if (colon == std::string::npos)
+          throw InputError("no time");
+        times.push_back(parse_quantity(trim(piece.substr(0, colon)), dimension::time));
+        values.push_back(parse_quantity(trim(piece.substr(colon + 1)), dimension));
+        if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
+          throw InputError("times must grow");
+      }
+  }
+  catch (const std::exception &)
+  {
+    throw EntryError(path, text, allowed);
+  }
+}
+
+double TimeHistory::operator()(const double begin, const double end) const
+{
+  if (expression)
+    return expression->value(dealii::Point<1>(end));
+
+  double integral = 0.;
+  for (unsigned int k = 0; k < times.size(); ++k)
+  {
+    const double from = std::max(begin, times[k]);
+    const double to = k + 1 < times.size() ? std::min(end, times[k + 1]) : end;
+    if (from <= begin && to >= end)
+      return values[k];
+    if (to > from)
+      integral += values[k] * (to - from);
+  }
+  return integral / (end - begin);
+}
+
+double TimeHistory::next_jump(const double t) const
+{
+  const auto next = std::upper_bound(times.begin(), times.end(), t);
+  return next == times.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+} // namespace stockwork

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <deal.II/base/function_parser.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "stockwork/base/quantity.h"
+
+namespace stockwork
+{
+/// A quantity that the deck gives for all times, in one of three forms:
+///
+///   1e-4 m^2/s                        a constant
+///   0 s: 1e-4 m^2/s; 50 s: 0          pieces, each from its time on; zero before the first
+///   f(t) = 1e-4*min(t/10, 1)          an expression (muParser) in SI units, t in seconds
+class TimeHistory
+{
+public:
+  TimeHistory() = default;
+
+  /// @param path of the entry, for messages
+  /// @throws EntryError
+  TimeHistory(const std::string &text, const Dimension &dimension, const std::string &path);
+
+  /// What applies to a step from `begin` to `end`: the mean of pieces, so that no volume is lost
+  /// where a step runs across a change; the value at the end of an expression.
+  double operator()(double begin, double end) const;
+
+  /// The next time after t at which the value jumps [s]; infinity if there is none. Steps should
+  /// end there.
+  double next_jump(double t) const;
+
+private:
+  std::vector<double> times, values;
+  std::shared_ptr<dealii::FunctionParser<1> > expression;
+};
+} // namespace stockwork

@@ -1,0 +1,357 @@
+#include "flow/wells.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "stockwork/base/error.h"
+
+namespace stockwork
+{
+namespace
+{
+constexpr unsigned int max_wells = 8;
+
+template <int dim>
+constexpr Dimension rate_dimension = dim == 2 ? dimension::rate_per_thickness : dimension::rate;
+
+// kappa in dp = kappa q^2
+template <int dim>
+constexpr Dimension friction_dimension =
+  dim == 2 ? Dimension{-5, 1, 0, 0, "perforation friction", "Pa s^2/m^4", "1e12 Pa s^2/m^4"}
+           : Dimension{-7, 1, 0, 0, "perforation friction", "Pa s^2/m^6", "1e10 Pa s^2/m^6"};
+
+template <int dim>
+constexpr Dimension volume_dimension = dim == 2 ? dimension::area : dimension::volume;
+
+std::string section(const unsigned int number)
+{
+  return "Well " + std::to_string(number);
+}
+
+template <int dim>
+dealii::Point<dim> parse_point(const std::string &text)
+{
+  dealii::Point<dim> point;
+  std::size_t begin = 0;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    const std::size_t comma = d + 1 < dim ? text.find(',', begin) : text.size();
+    if (comma == std::string::npos)
+      throw InputError("too few coordinates");
+    point[d] = parse_quantity(text.substr(begin, comma - begin), dimension::length);
+    begin = comma + 1;
+  }
+  return point;
+}
+} // namespace
+
+
+template <int dim>
+void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
+{
+  namespace Patterns = dealii::Patterns;
+  prm.enter_subsection("Wells");
+  for (unsigned int number = 1; number <= max_wells; ++number)
+  {
+    prm.enter_subsection(section(number));
+    prm.declare_entry("Control", "none", Patterns::Selection("none|rate|pressure"),
+                      "What is given: the rate of injection, the pressure in the borehole (of an "
+                      "injector, or of a producer), or nothing: there is no such well.");
+    prm.declare_entry("Name", "", Patterns::Anything(), "Of the well in the output.");
+    const std::string forms = " A value; pieces, each from its time on, as in '0 s: 1e-4; 50 s: "
+                              "0'; or an expression in SI units, as in 'f(t) = 1e-4*min(t/10,1)'.";
+    prm.declare_entry("Rate", "0", Patterns::Anything(),
+                      "Of the whole well, both wings [" + std::string(rate_dimension<dim>.unit) +
+                        "]; negative: production. With control 'rate'." + forms);
+    prm.declare_entry("Pressure", "0", Patterns::Anything(),
+                      "In the borehole [Pa]. With control 'pressure'." + forms);
+    prm.declare_entry("Perforations", "", Patterns::Anything(),
+                      "Points where the well is open to a fracture: coordinates separated by "
+                      "',', points by ';'. Each opens into the nearest segment of a fracture, "
+                      "which must be no farther than the segment is long.");
+    prm.declare_entry("Perforation friction", "0",
+                      Quantity(friction_dimension<dim>, Range::non_negative()),
+                      "kappa in the pressure drop kappa q^2 of each perforation, q the rate "
+                      "through all of it (both wings). Without friction, several perforations "
+                      "are at equal pressure, which lets the longest fracture take everything.");
+    prm.declare_entry("Fraction in model", "1", Patterns::Double(0., 1.),
+                      "Share of the well that lies in the model: 0.5 where a symmetry plane "
+                      "passes through it. Rate, friction and borehole volume are given for the "
+                      "whole well.");
+    prm.declare_entry("Borehole volume", "0",
+                      Quantity(volume_dimension<dim>, Range::non_negative()),
+                      "Of the fluid in the borehole, which is as compressible as in the fracture.");
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+}
+
+
+template <int dim>
+void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
+{
+  wells.clear();
+  prm.enter_subsection("Wells");
+  for (unsigned int number = 1; number <= max_wells; ++number)
+  {
+    prm.enter_subsection(section(number));
+    const std::string path = "Wells/" + section(number) + "/";
+    const std::string control = prm.get("Control"), points = prm.get("Perforations");
+    if (control == "none")
+    {
+      if (!points.empty())
+        throw EntryError(path + "Control", "none",
+                         "'rate' or 'pressure' for a well that has perforations");
+    }
+    else
+    {
+      Well well;
+      well.number = number;
+      well.name = prm.get("Name").empty() ? section(number) : prm.get("Name");
+      well.pressure_control = (control == "pressure");
+      well.value = well.pressure_control
+                     ? TimeHistory(prm.get("Pressure"), dimension::pressure, path + "Pressure")
+                     : TimeHistory(prm.get("Rate"), rate_dimension<dim>, path + "Rate");
+
+      well.fraction = prm.get_double("Fraction in model");
+      if (!(well.fraction > 0.))
+        throw EntryError(path + "Fraction in model", prm.get("Fraction in model"),
+                         "a number > 0, up to 1");
+      well.friction = get_quantity(prm, "Perforation friction", friction_dimension<dim>) /
+                      (well.fraction * well.fraction);
+      well.volume = get_quantity(prm, "Borehole volume", volume_dimension<dim>) * well.fraction;
+
+      try
+      {
+        for (std::size_t begin = 0; begin < points.size();)
+        {
+          const std::size_t end = std::min(points.find(';', begin), points.size());
+          well.perforations.push_back({parse_point<dim>(points.substr(begin, end - begin)), {}});
+          begin = end + 1;
+        }
+        if (well.perforations.empty())
+          throw InputError("none");
+      }
+      catch (const InputError &)
+      {
+        throw EntryError(path + "Perforations", points,
+                         std::string("one or more points, ") +
+                           (dim == 2 ? "'0, 0; 1 m, 20 cm'" : "'0, 0, 0; 1 m, 20 cm, 0'"));
+      }
+      wells.push_back(std::move(well));
+    }
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+}
+
+
+template <int dim>
+void Wells<dim>::locate(const std::vector<NetworkSegment<dim> > &segments)
+{
+  for (Well &well : wells)
+    for (Perforation &perforation : well.perforations)
+    {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto &segment : segments)
+        nearest = std::min(nearest, segment.centre.distance(perforation.point));
+
+      perforation.segments.clear();
+      for (unsigned int i = 0; i < segments.size(); ++i)
+        if (segments[i].centre.distance(perforation.point) <= nearest + 1e-6 * segments[i].size())
+          perforation.segments.push_back(i);
+
+      const auto complain = [&](const std::string &what)
+      {
+        std::ostringstream message;
+        message << "'Wells/" << section(well.number) << "/Perforations': the point "
+                << perforation.point << " " << what;
+        throw InputError(message.str());
+      };
+      if (segments.empty())
+        complain("is on no fracture, because there is none at the start. Give an initial crack.");
+      if (nearest > segments[perforation.segments.front()].size())
+        complain("is on no fracture; the nearest segment of one is at distance " +
+                 std::to_string(nearest) + " m.");
+      for (const unsigned int i : perforation.segments)
+        if (segments[i].has_given_pressure())
+          complain("is on a fracture whose pressure is given, so the well would have no effect.");
+    }
+  for (Well &well : wells)
+    well.initial_pressure = segments[well.perforations[0].segments[0]].initial_pressure;
+}
+
+
+template <int dim>
+std::vector<ExtraUnknown> Wells<dim>::unknowns() const
+{
+  std::vector<ExtraUnknown> result;
+  for (const Well &well : wells)
+    for (unsigned int k = 0; k < well.n_unknowns(); ++k)
+    {
+      ExtraUnknown unknown;
+      unknown.key = flow_key(std::uint64_t(well.number) << 32 | k, 2);
+      if (k == well.perforations.size())
+      {
+        unknown.initial = well.initial_pressure;
+        unknown.scale = std::max(std::abs(well.initial_pressure), 1e6);
+      }
+      result.push_back(unknown);
+    }
+  return result;
+}
+
+
+template <int dim>
+void Wells<dim>::set_offset(unsigned int first_index)
+{
+  for (Well &well : wells)
+  {
+    well.first_index = first_index;
+    first_index += well.n_unknowns();
+  }
+}
+
+
+template <int dim>
+double Wells<dim>::mean(const Perforation &perforation, const std::vector<double> &values)
+{
+  double sum = 0.;
+  for (const unsigned int i : perforation.segments)
+    sum += values[i];
+  return sum / perforation.segments.size();
+}
+
+
+template <int dim>
+double Wells<dim>::Well::rate(const StepContext &context, const State &state) const
+{
+  if (!pressure_control)
+    return given(context);
+  double sum = 0.;
+  for (unsigned int k = 0; k < perforations.size(); ++k)
+    sum += perforation_rate(k, context, state);
+  return sum;
+}
+
+
+template <int dim>
+void Wells<dim>::assemble(const StepContext &context,
+                          const State &state,
+                          const std::vector<double> &pressures,
+                          const std::vector<unsigned int> &rows,
+                          Sink &sink) const
+{
+  const double dt = context.effective_dt();
+  LocalSystem local;
+  for (const Well &well : wells)
+  {
+    for (unsigned int k = 0; k < well.perforations.size(); ++k)
+    {
+      const Perforation &perforation = well.perforations[k];
+      const unsigned int n = perforation.segments.size();
+      const double q = well.perforation_rate(k, context, state);
+
+      // Unknowns: the segments' pressures, q_k, p_b
+      local.extra.clear();
+      for (const unsigned int i : perforation.segments)
+        local.extra.push_back(rows[i]);
+      if (!well.is_direct())
+        local.extra.push_back(well.first_index + k);
+      if (!well.is_direct() && !well.pressure_control)
+        local.extra.push_back(well.pressure_index());
+      local.reinit();
+
+      for (unsigned int i = 0; i < n; ++i)
+        local.residual(i) = dt * q / n;
+      if (!well.is_direct())
+      {
+        const double borehole_pressure =
+          well.pressure_control ? well.given(context) : state.current.extra[well.pressure_index()];
+        local.residual(n) =
+          dt * (mean(perforation, pressures) - borehole_pressure + well.friction * q * std::abs(q));
+        for (unsigned int i = 0; i < n; ++i)
+          local.matrix(i, n) = local.matrix(n, i) = dt / n;
+        local.matrix(n, n) = dt * 2. * well.friction * std::abs(q);
+        if (!well.pressure_control)
+        {
+          local.residual(n + 1) = -dt * q;
+          local.matrix(n, n + 1) = local.matrix(n + 1, n) = -dt;
+        }
+      }
+      sink.add(local);
+    }
+
+    if (!well.is_direct() && !well.pressure_control)
+    {
+      const unsigned int index = well.pressure_index();
+      const double c = well.volume * compressibility;
+      local.extra = {index};
+      local.reinit();
+      local.residual(0) = dt * well.given(context) -
+                          c * (state.current.extra[index] - state.rate_reference.extra[index]);
+      local.matrix(0, 0) = -c;
+      sink.add(local);
+    }
+  }
+}
+
+
+template <int dim>
+FluidVolumes Wells<dim>::volumes(const StepContext &context, const State &state) const
+{
+  FluidVolumes volumes;
+  for (const Well &well : wells)
+  {
+    const double rate = well.rate(context, state);
+    (rate > 0. ? volumes.injected : volumes.outflow) += std::abs(rate) * context.dt;
+    if (!well.is_direct() && !well.pressure_control)
+    {
+      const unsigned int index = well.pressure_index();
+      volumes.in_boreholes += well.volume * compressibility *
+                              (state.current.extra[index] - state.rate_reference.extra[index]) *
+                              context.rate * context.dt;
+    }
+  }
+  return volumes;
+}
+
+
+template <int dim>
+std::vector<WellReport> Wells<dim>::report(const StepContext &context,
+                                           const State &state,
+                                           const std::vector<double> &apertures,
+                                           const std::vector<double> &pressures) const
+{
+  std::vector<WellReport> reports;
+  for (const Well &well : wells)
+  {
+    WellReport report;
+    report.name = well.name;
+    report.rate = well.rate(context, state);
+    for (unsigned int k = 0; k < well.perforations.size(); ++k)
+      report.perforation_rates.push_back(well.perforation_rate(k, context, state));
+    report.inlet_pressure = mean(well.perforations[0], pressures);
+    report.inlet_aperture = mean(well.perforations[0], apertures);
+
+    const double q = report.perforation_rates[0];
+    report.borehole_pressure = report.inlet_pressure + well.friction * q * std::abs(q);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+
+template <int dim>
+double Wells<dim>::next_jump(const double t) const
+{
+  double next = std::numeric_limits<double>::infinity();
+  for (const Well &well : wells)
+    next = std::min(next, well.value.next_jump(t));
+  return next;
+}
+
+
+template class Wells<2>;
+template class Wells<3>;
+} // namespace stockwork

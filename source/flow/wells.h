@@ -1,0 +1,140 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+#include "flow/fluid_balance.h"
+#include "flow/network_segment.h"
+#include "flow/time_history.h"
+#include "stockwork/fracture/extra_unknown.h"
+#include "stockwork/fracture/sink.h"
+#include "stockwork/fracture/state.h"
+
+namespace stockwork
+{
+/// What a well did in a step.
+struct WellReport
+{
+  std::string name;
+  double rate = 0.;                      ///< into the model, at the well head [m^3/s]
+  double borehole_pressure = 0.;         ///< [Pa]
+  double inlet_pressure = 0.;            ///< in the fracture at the first perforation [Pa]
+  double inlet_aperture = 0.;            ///< there [m]
+  std::vector<double> perforation_rates; ///< into the fracture [m^3/s]
+};
+
+/// Wells that inject into fractures or produce from them, through perforations at points. All
+/// perforations of a well share the pressure p_b of its borehole and are throttled one by one:
+///
+///   p_b - p_i = kappa q_i |q_i|,     V c_f dp_b/dt + sum_i q_i = Q   or   p_b given.
+///
+/// The rates q_i, and p_b where it is not given, are unknowns, solved with everything else: equal
+/// pressure without friction is an unstable split, and no splitting of the equations survives it.
+/// A well of given rate with one perforation and no storage needs no unknown.
+template <int dim>
+class Wells
+{
+public:
+  /// Subsection "Wells".
+  static void declare_parameters(dealii::ParameterHandler &prm);
+
+  /// @throws InputError
+  void parse_parameters(dealii::ParameterHandler &prm);
+
+  void set_compressibility(const double fluid_compressibility)
+  {
+    compressibility = fluid_compressibility;
+  }
+
+  /// Find the segments that the perforations open into.
+  /// @throws InputError naming a point that lies on no segment
+  void locate(const std::vector<NetworkSegment<dim> > &segments);
+
+  std::vector<ExtraUnknown> unknowns() const;
+
+  /// Index of the first of unknowns().
+  void set_offset(unsigned int first_index);
+
+  /// The rows of the wells, and their rates in the mass rows of the segments. To be called on one
+  /// rank only.
+  /// @param pressures of the segments
+  /// @param rows index of the segments' pressure unknowns
+  void assemble(const StepContext &context,
+                const State &state,
+                const std::vector<double> &pressures,
+                const std::vector<unsigned int> &rows,
+                Sink &sink) const;
+
+  /// Injected, produced, and gained by the boreholes in the step.
+  FluidVolumes volumes(const StepContext &context, const State &state) const;
+
+  /// @param apertures, pressures of the segments
+  std::vector<WellReport> report(const StepContext &context,
+                                 const State &state,
+                                 const std::vector<double> &apertures,
+                                 const std::vector<double> &pressures) const;
+
+  /// The next time after t at which a rate or pressure jumps.
+  double next_jump(double t) const;
+
+private:
+  /// A perforation opens into the nearest segment; into several in equal parts where they are
+  /// equally near, as on a symmetry point between two of them.
+  struct Perforation
+  {
+    dealii::Point<dim> point;
+    std::vector<unsigned int> segments;
+  };
+
+  struct Well
+  {
+    std::string name;
+    unsigned int number = 0; ///< of its subsection
+    bool pressure_control = false;
+    TimeHistory value; ///< Q of the whole well, or p_b
+    double fraction = 1.;
+    double friction = 0.; ///< kappa, for the rate in the model
+    double volume = 0.;   ///< of the borehole, the part in the model
+    std::vector<Perforation> perforations;
+    double initial_pressure = 0.;
+    unsigned int first_index = 0; ///< of q_0, q_1, ..., and then p_b
+
+    /// The given rate enters the segment's balance as a number.
+    bool is_direct() const
+    {
+      return !pressure_control && perforations.size() == 1 && volume == 0.;
+    }
+
+    unsigned int n_unknowns() const
+    {
+      return is_direct() ? 0 : perforations.size() + !pressure_control;
+    }
+
+    unsigned int pressure_index() const
+    {
+      return first_index + perforations.size();
+    }
+
+    /// Given rate into the model, or given pressure.
+    double given(const StepContext &context) const
+    {
+      return value(context.time - context.dt, context.time) * (pressure_control ? 1. : fraction);
+    }
+
+    double
+    perforation_rate(const unsigned int k, const StepContext &context, const State &state) const
+    {
+      return is_direct() ? given(context) : state.current.extra[first_index + k];
+    }
+
+    double rate(const StepContext &context, const State &state) const;
+  };
+
+  static double mean(const Perforation &perforation, const std::vector<double> &values);
+
+  std::vector<Well> wells;
+  double compressibility = 0.;
+};
+} // namespace stockwork
