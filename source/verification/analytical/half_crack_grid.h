@@ -2,6 +2,7 @@
 
 #include "verification/analytical/dense_matrix.h"
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -36,6 +37,12 @@ public:
   const std::vector<double> &distance_to_tip() const
   {
     return tip_distance;
+  }
+
+  /// -ln x of point i without cancellation.
+  double minus_log(const std::size_t i) const
+  {
+    return std::exp(-(first + i * h));
   }
 
   /// sqrt(1 - x^2).

@@ -1,0 +1,183 @@
+#include "verification/analytical/kgd_front.h"
+
+#include "stockwork/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace stockwork::analytical
+{
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+constexpr double tolerance = 1e-10;
+constexpr int max_iterations = 40;
+constexpr double gamma_increment = 1e-6; // of the numerical derivative of the exposure
+
+// The flux and its derivatives.
+struct Flux
+{
+  std::vector<double> value;
+  std::vector<double> by_gamma;
+  double by_volume; // factor of int_xi^1 omega
+  double by_omega;  // factor of xi omega
+};
+
+
+class FluxLaw
+{
+public:
+  FluxLaw(const HalfCrackGrid &grid, const KgdMemory &memory)
+    : grid(grid)
+    , memory(memory)
+    , history(grid.size(), 0.)
+    , leak(grid.size(), 0.)
+    , leak_by_gamma(grid.size(), 0.)
+  {
+    if (!memory.gamma_omega_history.empty())
+      grid.integrate_to_tip(memory.gamma_omega_history, history);
+  }
+
+  void evaluate(const KgdFront &front, Flux &flux)
+  {
+    const std::size_t n = grid.size();
+    const double gamma = front.gamma;
+    if (memory.leak_off > 0.)
+    {
+      memory.exposure(gamma, exposure);
+      grid.integrate_to_tip(exposure, leak);
+      memory.exposure(gamma * (1. + gamma_increment), exposure);
+      grid.integrate_to_tip(exposure, leak_by_gamma);
+      for (std::size_t j = 0; j < n; ++j)
+        leak_by_gamma[j] = (leak_by_gamma[j] - leak[j]) / (gamma * gamma_increment);
+    }
+    grid.integrate_to_tip(front.omega, volume);
+
+    const double a = 2. / 3. + memory.rate + memory.gamma_history / gamma;
+    const double a_by_gamma = -memory.gamma_history / (gamma * gamma);
+    flux.by_volume = 1. / 3. + memory.rate + a;
+    flux.by_omega = a;
+    flux.value.resize(n);
+    flux.by_gamma.resize(n);
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      const double passed = grid.x()[j] * front.omega[j];
+      const double carried = (history[j] + memory.leak_off * leak[j]) / gamma;
+      flux.value[j] = flux.by_volume * volume[j] + a * passed + carried;
+      flux.by_gamma[j] = a_by_gamma * (volume[j] + passed) - carried / gamma +
+                         memory.leak_off * leak_by_gamma[j] / gamma;
+    }
+  }
+
+private:
+  const HalfCrackGrid &grid;
+  const KgdMemory &memory;
+  std::vector<double> history, leak, leak_by_gamma, exposure, volume;
+};
+} // namespace
+
+
+double KgdFront::tip_factor(const double toughness) const
+{
+  return toughness / std::sqrt(2. * gamma);
+}
+
+
+double KgdFront::efficiency(const HalfCrackGrid &grid) const
+{
+  std::vector<double> volume;
+  grid.integrate_to_tip(omega, volume);
+  return 2. * gamma * gamma * volume[0];
+}
+
+
+std::vector<double> KgdFront::pressure(const HalfCrackGrid &grid, const double toughness) const
+{
+  return grid.pressure(tip_factor(toughness), gradient);
+}
+
+
+KgdFront estimate_front(const HalfCrackGrid &grid, const double toughness)
+{
+  const double tip = std::pow(toughness, 4. / 3.) * std::cbrt(pi / std::sqrt(8.)) / std::sqrt(2.);
+  KgdFront front;
+  for (const double root : grid.root())
+    front.omega.push_back(
+      std::cbrt(std::pow(1.83, 3) * std::pow(root, 4) + std::pow(tip * root, 3)));
+  std::vector<double> volume;
+  grid.integrate_to_tip(front.omega, volume);
+  front.gamma = 1. / std::sqrt(2. * volume[0]);
+  return front;
+}
+
+
+void solve_front(const HalfCrackGrid &grid,
+                 const double toughness,
+                 const KgdMemory &memory,
+                 KgdFront &front)
+{
+  const std::size_t n = grid.size();
+  const std::vector<double> &xi = grid.x();
+  const DenseMatrix &H = grid.opening_matrix();
+  std::vector<double> &omega = front.omega, &gradient = front.gradient;
+  gradient.resize(n);
+
+  FluxLaw law(grid, memory);
+  Flux flux;
+  std::vector<double> row(n), by_volume, first(n, 0.), correction(n + 1);
+  first[0] = 1.;
+  for (int iteration = 0; iteration < max_iterations; ++iteration)
+  {
+    law.evaluate(front, flux);
+    const double tip = front.tip_factor(toughness);
+    for (std::size_t j = 0; j < n; ++j)
+      gradient[j] = flux.value[j] / std::pow(omega[j], 3);
+
+    DenseMatrix jacobian(n + 1);
+    for (std::size_t i = 0; i < n; ++i) // elasticity
+    {
+      const double root = grid.root()[i];
+      double residual = omega[i] - tip * root;
+      double residual_by_gamma = 0.5 * tip * root / front.gamma;
+      for (std::size_t j = 0; j < n; ++j)
+      {
+        row[j] = H[i][j] / std::pow(omega[j], 3);
+        residual -= H[i][j] * gradient[j];
+        residual_by_gamma -= row[j] * flux.by_gamma[j];
+      }
+      grid.transpose_integrate(row.data(), by_volume);
+      for (std::size_t j = 0; j < n; ++j)
+        jacobian[i][j] = (3. * H[i][j] * gradient[j] - flux.by_omega * xi[j] * row[j] * omega[j] -
+                          flux.by_volume * by_volume[j] * omega[j]) /
+                         omega[i];
+      jacobian[i][i] += 1.;
+      jacobian[i][n] = residual_by_gamma * front.gamma / omega[i];
+      correction[i] = -residual / omega[i];
+    }
+
+    // What enters is the injected rate.
+    const double factor = 2. * front.gamma * front.gamma;
+    grid.transpose_integrate(first.data(), by_volume);
+    for (std::size_t j = 0; j < n; ++j)
+      jacobian[n][j] = factor * flux.by_volume * by_volume[j] * omega[j];
+    jacobian[n][0] += factor * flux.by_omega * xi[0] * omega[0];
+    jacobian[n][n] = factor * (2. * flux.value[0] + front.gamma * flux.by_gamma[0]);
+    correction[n] = 1. - factor * flux.value[0];
+
+    solve_in_place(jacobian, correction);
+
+    double largest = 0.;
+    for (const double c : correction)
+      largest = std::max(largest, std::abs(c));
+    const double damping = largest > 1. ? 1. / largest : 1.;
+    for (std::size_t i = 0; i < n; ++i)
+      omega[i] *= std::exp(damping * correction[i]);
+    front.gamma *= std::exp(damping * correction[n]);
+    if (largest < tolerance)
+      return;
+  }
+  throw SolveError("The reference solution of the hydraulic fracture did not converge for K_m = " +
+                   std::to_string(toughness) + ".");
+}
+} // namespace stockwork::analytical

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "verification/analytical/half_crack_grid.h"
+
+#include <functional>
+#include <vector>
+
+namespace stockwork::analytical
+{
+/// The scaled equations of a plane-strain hydraulic fracture driven at a constant rate, with
+///   l = gamma L,  w = eps L gamma omega(xi),  p = eps E' Pi(xi),  xi = x/l,
+///   L = (E' Q0^3 t^4 / mu')^(1/6),  eps = (mu' / (E' t))^(1/3),  tau = ln t:
+/// omega^3 Pi' = -q with the flux
+///   q = int_xi^1 (omega/3 + (gamma omega)_tau / gamma + chi / (gamma sqrt(1 - t0/t))) dxi
+///       + a (xi omega + int_xi^1 omega dxi),   a = 2/3 + gamma_tau / gamma,
+/// 2 gamma^2 q(0) = 1, omega -> K_m gamma^(-1/2) sqrt(1 - xi) at the tip, and Pi from omega by
+/// elasticity. Without leak-off (chi = 0) nothing depends on tau. chi = 2 C_L sqrt(t) / (eps L) is
+/// the leak-off coefficient, t0(x) the time at which the tip passed x.
+struct KgdFront
+{
+  double gamma = 0.;
+  std::vector<double> omega;    // at the points of the grid
+  std::vector<double> gradient; // -dPi/dxi
+
+  /// lim omega / sqrt(1 - xi^2) at the tip.
+  double tip_factor(double toughness) const;
+
+  /// Volume of the fracture over the injected volume.
+  double efficiency(const HalfCrackGrid &grid) const;
+
+  std::vector<double> pressure(const HalfCrackGrid &grid, double toughness) const;
+};
+
+
+/// What the solution at one time must know of earlier times: d/dtau is approximated by
+/// rate times the new value plus a sum over earlier ones. Empty for the similarity solution.
+struct KgdMemory
+{
+  double rate = 0.;
+  double gamma_history = 0.;               // of gamma
+  std::vector<double> gamma_omega_history; // of gamma omega
+  double leak_off = 0.;                    // chi
+
+  /// Fills 1/sqrt(1 - t0/t) at the points for a given gamma.
+  std::function<void(double gamma, std::vector<double> &)> exposure;
+};
+
+
+/// A front between the viscosity and the toughness vertex to start Newton's method from.
+KgdFront estimate_front(const HalfCrackGrid &grid, double toughness);
+
+/// Newton's method for ln(omega) and ln(gamma), starting from `front`; throws SolveError if it
+/// does not converge.
+void solve_front(const HalfCrackGrid &grid,
+                 double toughness,
+                 const KgdMemory &memory,
+                 KgdFront &front);
+} // namespace stockwork::analytical
