@@ -2,6 +2,7 @@
 
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <vector>
 
@@ -51,6 +52,10 @@ struct LinearSystem
 
   dealii::TrilinosWrappers::MPI::BlockVector residual_bulk; ///< owned entries only
   std::vector<double>                        residual_extra;
+
+  /// alpha^2 / (lambda + 2 G / dim) times the mass matrix of the pore pressure, positive, with the
+  /// pattern of bulk(1,1), constrained rows zero. Wanted by the iterative solver only; may be empty.
+  dealii::TrilinosWrappers::SparseMatrix fixed_stress_mass;
 
   bool symmetric      = true;  ///< as assembled
   bool definite       = false; ///< the bulk alone is symmetric positive definite

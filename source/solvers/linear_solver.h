@@ -1,0 +1,76 @@
+#pragma once
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include "solvers/linear_system.h"
+
+#include <memory>
+#include <vector>
+
+namespace stockwork
+{
+/// What a linear solve reports. Residuals are measured in the Euclidean norm after symmetric
+/// diagonal scaling, |D (R + J dx)| / |D R| with D = |diag J|^(-1/2), so that momentum and mass
+/// rows, ten decades apart in SI, count alike.
+struct LinearReport
+{
+  unsigned int iterations        = 0; ///< of the iterative solver, or of iterative refinement
+  bool         converged         = false;
+  double       relative_residual = 0.;
+  bool         factorised        = false; ///< a factor or preconditioner was built anew
+};
+
+/// What a preconditioner may know of the bulk unknowns.
+struct BulkStructure
+{
+  /// Rigid body modes at the locally owned displacement dofs, in their order: one vector per mode,
+  /// see rigid_body_modes(). May be empty for direct solvers.
+  std::vector<std::vector<double>> rigid_body_modes;
+  unsigned int                     dim               = 2;
+  bool                             has_pore_pressure = false;
+  dealii::types::global_dof_index  n_dofs            = 0; ///< bulk unknowns of all ranks
+  bool                             elastic_constant  = false; ///< definite, and the same in all steps
+};
+
+/// Subsection "Linear solver".
+struct LinearSolverParameters
+{
+  enum class Type
+  {
+    automatic,
+    direct,
+    bordered,
+    iterative
+  };
+  Type         type           = Type::automatic;
+  unsigned int direct_below   = 60000; ///< unknowns in 3-D up to which "auto" is direct
+  unsigned int max_iterations = 200;
+  unsigned int restart        = 50;
+
+  static void
+  declare_parameters(dealii::ParameterHandler &);
+  void
+  parse_parameters(dealii::ParameterHandler &);
+};
+
+/// Solves the linear systems of one run, one after another, and keeps what stays valid.
+class LinearSolver
+{
+public:
+  virtual ~LinearSolver() = default;
+
+  /// dx with |R + J dx| <= tolerance |R| in the norm of LinearReport. What the stamps call
+  /// unchanged may be reused; the residual is checked with the present matrix all the same.
+  /// `dx_bulk` has the layout of residual_bulk. Throws SolveError when the matrix is singular.
+  virtual LinearReport
+  solve(const LinearSystem                         &system,
+        const SystemStamps                         &stamps,
+        double                                      tolerance,
+        dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+        std::vector<double>                        &dx_extra) = 0;
+};
+
+std::unique_ptr<LinearSolver>
+make_linear_solver(const LinearSolverParameters &, const BulkStructure &, MPI_Comm);
+} // namespace stockwork
