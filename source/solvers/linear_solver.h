@@ -15,10 +15,10 @@ namespace stockwork
 /// rows, ten decades apart in SI, count alike.
 struct LinearReport
 {
-  unsigned int iterations        = 0; ///< of the iterative solver, or of iterative refinement
-  bool         converged         = false;
-  double       relative_residual = 0.;
-  bool         factorised        = false; ///< a factor or preconditioner was built anew
+  unsigned int iterations = 0; ///< of the iterative solver, or of iterative refinement
+  bool converged = false;
+  double relative_residual = 0.;
+  bool factorised = false; ///< a factor or preconditioner was built anew
 };
 
 /// What a preconditioner may know of the bulk unknowns.
@@ -27,10 +27,10 @@ struct BulkStructure
   /// Rigid body modes at the locally owned displacement dofs, in their order: one vector per mode,
   /// see rigid_body_modes(). May be empty for direct solvers.
   std::vector<std::vector<double>> rigid_body_modes;
-  unsigned int                     dim               = 2;
-  bool                             has_pore_pressure = false;
-  dealii::types::global_dof_index  n_dofs            = 0; ///< bulk unknowns of all ranks
-  bool                             elastic_constant  = false; ///< definite, and the same in all steps
+  unsigned int dim = 2;
+  bool has_pore_pressure = false;
+  dealii::types::global_dof_index n_dofs = 0; ///< bulk unknowns of all ranks
+  bool elastic_constant = false;              ///< definite, and the same in all steps
 };
 
 /// Subsection "Linear solver".
@@ -43,15 +43,13 @@ struct LinearSolverParameters
     bordered,
     iterative
   };
-  Type         type           = Type::automatic;
-  unsigned int direct_below   = 60000; ///< unknowns in 3-D up to which "auto" is direct
+  Type type = Type::automatic;
+  unsigned int direct_below = 60000; ///< unknowns in 3-D up to which "auto" is direct
   unsigned int max_iterations = 200;
-  unsigned int restart        = 50;
+  unsigned int restart = 50;
 
-  static void
-  declare_parameters(dealii::ParameterHandler &);
-  void
-  parse_parameters(dealii::ParameterHandler &);
+  static void declare_parameters(dealii::ParameterHandler &);
+  void parse_parameters(dealii::ParameterHandler &);
 };
 
 /// Solves the linear systems of one run, one after another, and keeps what stays valid.
@@ -63,12 +61,11 @@ public:
   /// dx with |R + J dx| <= tolerance |R| in the norm of LinearReport. What the stamps call
   /// unchanged may be reused; the residual is checked with the present matrix all the same.
   /// `dx_bulk` has the layout of residual_bulk. Throws SolveError when the matrix is singular.
-  virtual LinearReport
-  solve(const LinearSystem                         &system,
-        const SystemStamps                         &stamps,
-        double                                      tolerance,
-        dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
-        std::vector<double>                        &dx_extra) = 0;
+  virtual LinearReport solve(const LinearSystem &system,
+                             const SystemStamps &stamps,
+                             double tolerance,
+                             dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                             std::vector<double> &dx_extra) = 0;
 };
 
 std::unique_ptr<LinearSolver>

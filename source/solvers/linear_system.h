@@ -13,20 +13,18 @@ struct Triplets
 {
   std::vector<dealii::types::global_dof_index> rows;
   std::vector<dealii::types::global_dof_index> columns;
-  std::vector<double>                          values;
+  std::vector<double> values;
 
-  void
-  add(const dealii::types::global_dof_index row,
-      const dealii::types::global_dof_index column,
-      const double                          value)
+  void add(const dealii::types::global_dof_index row,
+           const dealii::types::global_dof_index column,
+           const double value)
   {
     rows.push_back(row);
     columns.push_back(column);
     values.push_back(value);
   }
 
-  void
-  clear()
+  void clear()
   {
     rows.clear();
     columns.clear();
@@ -46,27 +44,28 @@ struct Triplets
 struct LinearSystem
 {
   dealii::TrilinosWrappers::BlockSparseMatrix bulk;
-  Triplets                                    bulk_extra;
-  Triplets                                    extra_bulk;
-  Triplets                                    extra_extra;
+  Triplets bulk_extra;
+  Triplets extra_bulk;
+  Triplets extra_extra;
 
   dealii::TrilinosWrappers::MPI::BlockVector residual_bulk; ///< owned entries only
-  std::vector<double>                        residual_extra;
+  std::vector<double> residual_extra;
 
   /// alpha^2 / (lambda + 2 G / dim) times the mass matrix of the pore pressure, positive, with the
-  /// pattern of bulk(1,1), constrained rows zero. Wanted by the iterative solver only; may be empty.
+  /// pattern of bulk(1,1), constrained rows zero. Wanted by the iterative solver only; may be
+  /// empty.
   dealii::TrilinosWrappers::SparseMatrix fixed_stress_mass;
 
-  bool symmetric      = true;  ///< as assembled
-  bool definite       = false; ///< the bulk alone is symmetric positive definite
+  bool symmetric = true; ///< as assembled
+  bool definite = false; ///< the bulk alone is symmetric positive definite
 };
 
 /// What has changed since a solver last looked. A number grows when the thing it names changes.
 struct SystemStamps
 {
-  unsigned int mesh         = 0; ///< size and sparsity of the bulk block
-  unsigned int bulk_values  = 0; ///< values of the bulk block
-  unsigned int extra        = 0; ///< number or meaning of the extra unknowns, or their bulk columns
+  unsigned int mesh = 0;         ///< size and sparsity of the bulk block
+  unsigned int bulk_values = 0;  ///< values of the bulk block
+  unsigned int extra = 0;        ///< number or meaning of the extra unknowns, or their bulk columns
   unsigned int extra_values = 0; ///< values of extra_extra
 };
 } // namespace stockwork

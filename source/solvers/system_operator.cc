@@ -20,15 +20,12 @@ using dealii::types::global_dof_index;
 using Entries = std::vector<SystemOperator::Entry>;
 
 /// Sort by (column, row) or (row, column) and add up repeated entries.
-void
-sort_and_sum(Entries &entries, const bool columns_first)
+void sort_and_sum(Entries &entries, const bool columns_first)
 {
-  const auto key = [columns_first](const SystemOperator::Entry &e) {
-    return columns_first ? std::make_pair(e.column, e.row) : std::make_pair(e.row, e.column);
-  };
-  std::stable_sort(entries.begin(), entries.end(), [&](const auto &a, const auto &b) {
-    return key(a) < key(b);
-  });
+  const auto key = [columns_first](const SystemOperator::Entry &e)
+  { return columns_first ? std::make_pair(e.column, e.row) : std::make_pair(e.row, e.column); };
+  std::stable_sort(entries.begin(), entries.end(),
+                   [&](const auto &a, const auto &b) { return key(a) < key(b); });
   std::size_t n = 0;
   for (std::size_t i = 0; i < entries.size(); ++i)
     if (n > 0 && key(entries[n - 1]) == key(entries[i]))
@@ -40,49 +37,43 @@ sort_and_sum(Entries &entries, const bool columns_first)
 
 /// Send each entry to where `owner` says.
 template <class Owner>
-Entries
-send_to_owners(const Triplets &triplets, const MPI_Comm communicator, const Owner &owner)
+Entries send_to_owners(const Triplets &triplets, const MPI_Comm communicator, const Owner &owner)
 {
   const unsigned int me = dealii::Utilities::MPI::this_mpi_process(communicator);
-  Entries            mine;
+  Entries mine;
   std::map<unsigned int, std::vector<double>> others; // indices are exact in a double
   for (std::size_t i = 0; i < triplets.values.size(); ++i)
+  {
+    const SystemOperator::Entry e{triplets.rows[i], triplets.columns[i], triplets.values[i]};
+    const unsigned int rank = owner(e);
+    if (rank == me)
+      mine.push_back(e);
+    else
     {
-      const SystemOperator::Entry e{triplets.rows[i], triplets.columns[i], triplets.values[i]};
-      const unsigned int          rank = owner(e);
-      if (rank == me)
-        mine.push_back(e);
-      else
-        {
-          auto &to = others[rank];
-          to.insert(to.end(), {static_cast<double>(e.row), static_cast<double>(e.column), e.value});
-        }
+      auto &to = others[rank];
+      to.insert(to.end(), {static_cast<double>(e.row), static_cast<double>(e.column), e.value});
     }
+  }
   if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
     for (const auto &[rank, data] : dealii::Utilities::MPI::some_to_some(communicator, others))
       for (std::size_t i = 0; i < data.size(); i += 3)
         mine.push_back({static_cast<global_dof_index>(data[i]),
-                        static_cast<global_dof_index>(data[i + 1]),
-                        data[i + 2]});
+                        static_cast<global_dof_index>(data[i + 1]), data[i + 2]});
   return mine;
 }
 
-Entries
-send_to_all(const Triplets &triplets, const MPI_Comm communicator)
+Entries send_to_all(const Triplets &triplets, const MPI_Comm communicator)
 {
   std::vector<double> packed;
   packed.reserve(3 * triplets.values.size());
   for (std::size_t i = 0; i < triplets.values.size(); ++i)
-    packed.insert(packed.end(),
-                  {static_cast<double>(triplets.rows[i]),
-                   static_cast<double>(triplets.columns[i]),
-                   triplets.values[i]});
+    packed.insert(packed.end(), {static_cast<double>(triplets.rows[i]),
+                                 static_cast<double>(triplets.columns[i]), triplets.values[i]});
   Entries all;
   for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, packed))
     for (std::size_t i = 0; i < part.size(); i += 3)
       all.push_back({static_cast<global_dof_index>(part[i]),
-                     static_cast<global_dof_index>(part[i + 1]),
-                     part[i + 2]});
+                     static_cast<global_dof_index>(part[i + 1]), part[i + 2]});
   return all;
 }
 
@@ -91,24 +82,23 @@ class Owners
 {
 public:
   Owners(const dealii::TrilinosWrappers::MPI::BlockVector &vector,
-         const std::vector<global_dof_index>              &offsets,
-         const MPI_Comm                                    communicator)
+         const std::vector<global_dof_index> &offsets,
+         const MPI_Comm communicator)
   {
     for (unsigned int b = 0; b < vector.n_blocks(); ++b)
-      {
-        const auto end = offsets[b] + vector.block(b).local_range().second;
-        const auto all = dealii::Utilities::MPI::all_gather(communicator, end);
-        for (unsigned int rank = 0; rank < all.size(); ++rank)
-          ends.emplace_back(all[rank], rank);
-      }
+    {
+      const auto end = offsets[b] + vector.block(b).local_range().second;
+      const auto all = dealii::Utilities::MPI::all_gather(communicator, end);
+      for (unsigned int rank = 0; rank < all.size(); ++rank)
+        ends.emplace_back(all[rank], rank);
+    }
   }
 
-  unsigned int
-  operator()(const global_dof_index i) const
+  unsigned int operator()(const global_dof_index i) const
   {
-    return std::upper_bound(ends.begin(), ends.end(), i, [](const auto a, const auto &b) {
-             return a < b.first;
-           })->second;
+    return std::upper_bound(ends.begin(), ends.end(), i,
+                            [](const auto a, const auto &b) { return a < b.first; })
+      ->second;
   }
 
 private:
@@ -127,52 +117,45 @@ SystemOperator::SystemOperator(const LinearSystem &system, const MPI_Comm commun
   scale.bulk.reinit(system.residual_bulk);
   scale.extra.resize(system.residual_extra.size());
   if (n_extra() > 0)
-    {
-      const Owners owner(system.residual_bulk, offsets, communicator);
-      upper  = send_to_owners(system.bulk_extra, communicator, [&](const Entry &e) {
-        return owner(e.row);
-      });
-      lower  = send_to_owners(system.extra_bulk, communicator, [&](const Entry &e) {
-        return owner(e.column);
-      });
-      corner = send_to_all(system.extra_extra, communicator);
-      sort_and_sum(upper, true);
-      sort_and_sum(lower, false);
-      sort_and_sum(corner, false);
-    }
+  {
+    const Owners owner(system.residual_bulk, offsets, communicator);
+    upper =
+      send_to_owners(system.bulk_extra, communicator, [&](const Entry &e) { return owner(e.row); });
+    lower = send_to_owners(system.extra_bulk, communicator,
+                           [&](const Entry &e) { return owner(e.column); });
+    corner = send_to_all(system.extra_extra, communicator);
+    sort_and_sum(upper, true);
+    sort_and_sum(lower, false);
+    sort_and_sum(corner, false);
+  }
   set_up_scaling();
 }
 
-double &
-SystemOperator::entry(dealii::TrilinosWrappers::MPI::BlockVector &vector,
-                      const unsigned int                          block,
-                      const int                                   local)
+double &SystemOperator::entry(dealii::TrilinosWrappers::MPI::BlockVector &vector,
+                              const unsigned int block,
+                              const int local)
 {
   return vector.block(block).trilinos_vector()[0][local];
 }
 
-double
-SystemOperator::entry(const dealii::TrilinosWrappers::MPI::BlockVector &vector,
-                      const unsigned int                                block,
-                      const int                                         local)
+double SystemOperator::entry(const dealii::TrilinosWrappers::MPI::BlockVector &vector,
+                             const unsigned int block,
+                             const int local)
 {
   return vector.block(block).trilinos_vector()[0][local];
 }
 
-std::pair<unsigned int, int>
-SystemOperator::locate(const global_dof_index i) const
+std::pair<unsigned int, int> SystemOperator::locate(const global_dof_index i) const
 {
   unsigned int block = 0;
   while (i >= offsets[block + 1])
     ++block;
-  return {block,
-          static_cast<int>(i - offsets[block] -
-                           linear_system->residual_bulk.block(block).local_range().first)};
+  return {block, static_cast<int>(i - offsets[block] -
+                                  linear_system->residual_bulk.block(block).local_range().first)};
 }
 
-std::vector<double>
-SystemOperator::at_columns(const Epetra_CrsMatrix                      &matrix,
-                           const dealii::TrilinosWrappers::MPI::Vector &vector)
+std::vector<double> SystemOperator::at_columns(const Epetra_CrsMatrix &matrix,
+                                               const dealii::TrilinosWrappers::MPI::Vector &vector)
 {
   const auto &source = vector.trilinos_vector();
   if (matrix.Importer() == nullptr)
@@ -182,49 +165,47 @@ SystemOperator::at_columns(const Epetra_CrsMatrix                      &matrix,
   return std::vector<double>(target[0], target[0] + target.MyLength());
 }
 
-void
-SystemOperator::set_up_scaling()
+void SystemOperator::set_up_scaling()
 {
   const auto &bulk = linear_system->bulk;
   for (unsigned int b = 0; b < bulk.n_block_rows(); ++b)
+  {
+    auto &epetra_diagonal = scale.bulk.block(b).trilinos_vector();
+    double *d = epetra_diagonal[0];
+    const int n = epetra_diagonal.MyLength();
     {
-      auto  &epetra_diagonal = scale.bulk.block(b).trilinos_vector();
-      double *d              = epetra_diagonal[0];
-      const int n            = epetra_diagonal.MyLength();
-      {
-        Epetra_Vector diagonal(View, epetra_diagonal.Map(), d);
-        bulk.block(b, b).trilinos_matrix().ExtractDiagonalCopy(diagonal);
-      }
-      for (int i = 0; i < n; ++i)
-        d[i] = std::sqrt(std::abs(d[i]));
-      for (unsigned int c = 0; c < b; ++c)
-        {
-          const Epetra_CrsMatrix &matrix  = bulk.block(b, c).trilinos_matrix();
-          const auto              columns = at_columns(matrix, scale.bulk.block(c));
-          for (int i = 0; i < n; ++i)
-            {
-              int     n_entries;
-              double *values;
-              int    *indices;
-              matrix.ExtractMyRowView(i, n_entries, values, indices);
-              for (int k = 0; k < n_entries; ++k)
-                d[i] = std::max(d[i], std::abs(values[k]) * columns[indices[k]]);
-            }
-        }
-      for (int i = 0; i < n; ++i)
-        d[i] = d[i] > 0. ? 1. / d[i] : 1.;
+      Epetra_Vector diagonal(View, epetra_diagonal.Map(), d);
+      bulk.block(b, b).trilinos_matrix().ExtractDiagonalCopy(diagonal);
     }
+    for (int i = 0; i < n; ++i)
+      d[i] = std::sqrt(std::abs(d[i]));
+    for (unsigned int c = 0; c < b; ++c)
+    {
+      const Epetra_CrsMatrix &matrix = bulk.block(b, c).trilinos_matrix();
+      const auto columns = at_columns(matrix, scale.bulk.block(c));
+      for (int i = 0; i < n; ++i)
+      {
+        int n_entries;
+        double *values;
+        int *indices;
+        matrix.ExtractMyRowView(i, n_entries, values, indices);
+        for (int k = 0; k < n_entries; ++k)
+          d[i] = std::max(d[i], std::abs(values[k]) * columns[indices[k]]);
+      }
+    }
+    for (int i = 0; i < n; ++i)
+      d[i] = d[i] > 0. ? 1. / d[i] : 1.;
+  }
 
   if (n_extra() == 0)
     return;
   std::vector<double> size(n_extra(), 0.);
   for (const Entry &e : lower)
-    {
-      const auto [block, local] = locate(e.column);
-      size[e.row] = std::max(size[e.row], std::abs(e.value) * entry(scale.bulk, block, local));
-    }
-  dealii::Utilities::MPI::max(dealii::make_array_view(std::as_const(size)),
-                              communicator,
+  {
+    const auto [block, local] = locate(e.column);
+    size[e.row] = std::max(size[e.row], std::abs(e.value) * entry(scale.bulk, block, local));
+  }
+  dealii::Utilities::MPI::max(dealii::make_array_view(std::as_const(size)), communicator,
                               dealii::make_array_view(size));
   for (const Entry &e : corner)
     if (e.row == e.column)
@@ -234,40 +215,38 @@ SystemOperator::set_up_scaling()
   // What is coupled to other extra unknowns only, and has no diagonal.
   for (const Entry &e : corner)
     if (size[e.row] == 0. && scale.extra[e.column] > 0. && size[e.column] > 0.)
-      scale.extra[e.row] = scale.extra[e.row] == 0. ?
-                             1. / (std::abs(e.value) * scale.extra[e.column]) :
-                             std::min(scale.extra[e.row],
-                                      1. / (std::abs(e.value) * scale.extra[e.column]));
+      scale.extra[e.row] =
+        scale.extra[e.row] == 0.
+          ? 1. / (std::abs(e.value) * scale.extra[e.column])
+          : std::min(scale.extra[e.row], 1. / (std::abs(e.value) * scale.extra[e.column]));
   for (double &s : scale.extra)
     if (!(s > 0.) || !std::isfinite(s))
       s = 1.;
 }
 
-void
-SystemOperator::vmult(SystemVector &dst, const SystemVector &src) const
+void SystemOperator::vmult(SystemVector &dst, const SystemVector &src) const
 {
   linear_system->bulk.vmult(dst.bulk, src.bulk);
   if (n_extra() == 0)
     return;
 
   for (const Entry &e : upper)
-    {
-      const auto [block, local] = locate(e.row);
-      entry(dst.bulk, block, local) += e.value * src.extra[e.column];
-    }
+  {
+    const auto [block, local] = locate(e.row);
+    entry(dst.bulk, block, local) += e.value * src.extra[e.column];
+  }
   std::fill(dst.extra.begin(), dst.extra.end(), 0.);
   for (const Entry &e : lower)
-    {
-      const auto [block, local] = locate(e.column);
-      dst.extra[e.row] += e.value * entry(src.bulk, block, local);
-    }
+  {
+    const auto [block, local] = locate(e.column);
+    dst.extra[e.row] += e.value * entry(src.bulk, block, local);
+  }
   dealii::Utilities::MPI::sum(dst.extra, communicator, dst.extra);
   for (const Entry &e : corner)
     dst.extra[e.row] += e.value * src.extra[e.column];
 }
 
-void
-SystemOperator::residual(SystemVector &r, const SystemVector &dx) const
+void SystemOperator::residual(SystemVector &r, const SystemVector &dx) const
 {
   vmult(r, dx);
   r.bulk += linear_system->residual_bulk;
@@ -275,25 +254,23 @@ SystemOperator::residual(SystemVector &r, const SystemVector &dx) const
     r.extra[i] += linear_system->residual_extra[i];
 }
 
-double
-SystemOperator::scaled_norm(const SystemVector &r) const
+double SystemOperator::scaled_norm(const SystemVector &r) const
 {
   double sum = 0.;
   for (unsigned int b = 0; b < r.bulk.n_blocks(); ++b)
-    {
-      const auto   &v = r.bulk.block(b).trilinos_vector();
-      const double *x = v[0], *d = scale.bulk.block(b).trilinos_vector()[0];
-      for (int i = 0; i < v.MyLength(); ++i)
-        sum += (x[i] * d[i]) * (x[i] * d[i]);
-    }
+  {
+    const auto &v = r.bulk.block(b).trilinos_vector();
+    const double *x = v[0], *d = scale.bulk.block(b).trilinos_vector()[0];
+    for (int i = 0; i < v.MyLength(); ++i)
+      sum += (x[i] * d[i]) * (x[i] * d[i]);
+  }
   sum = dealii::Utilities::MPI::sum(sum, communicator);
   for (unsigned int i = 0; i < n_extra(); ++i)
     sum += (r.extra[i] * scale.extra[i]) * (r.extra[i] * scale.extra[i]);
   return std::sqrt(sum);
 }
 
-SystemVector
-SystemOperator::make_vector() const
+SystemVector SystemOperator::make_vector() const
 {
   SystemVector v;
   v.bulk.reinit(scale.bulk);

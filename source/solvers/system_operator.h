@@ -13,7 +13,7 @@ namespace stockwork
 struct SystemVector
 {
   dealii::TrilinosWrappers::MPI::BlockVector bulk;
-  std::vector<double>                        extra;
+  std::vector<double> extra;
 };
 
 /// A LinearSystem made fit for use: its triplets are summed over the ranks, sorted, and put where
@@ -30,101 +30,86 @@ public:
   {
     dealii::types::global_dof_index row;
     dealii::types::global_dof_index column;
-    double                          value;
+    double value;
   };
 
   SystemOperator(const LinearSystem &, MPI_Comm);
 
   /// dst = J src. The vectors must not be the same.
-  void
-  vmult(SystemVector &dst, const SystemVector &src) const;
+  void vmult(SystemVector &dst, const SystemVector &src) const;
 
   /// r = R + J dx
-  void
-  residual(SystemVector &r, const SystemVector &dx) const;
+  void residual(SystemVector &r, const SystemVector &dx) const;
 
   /// Euclidean norm of the scaled vector, |D r|; see LinearReport.
-  double
-  scaled_norm(const SystemVector &r) const;
+  double scaled_norm(const SystemVector &r) const;
 
   /// A zero vector of the right layout.
-  SystemVector
-  make_vector() const;
+  SystemVector make_vector() const;
 
-  const SystemVector &
-  scaling() const
+  const SystemVector &scaling() const
   {
     return scale;
   }
 
   /// Entries in rows of this rank, by column, then row.
-  const std::vector<Entry> &
-  bulk_extra() const
+  const std::vector<Entry> &bulk_extra() const
   {
     return upper;
   }
 
   /// Entries in columns of this rank, by row, then column.
-  const std::vector<Entry> &
-  extra_bulk() const
+  const std::vector<Entry> &extra_bulk() const
   {
     return lower;
   }
 
   /// All entries, on every rank.
-  const std::vector<Entry> &
-  extra_extra() const
+  const std::vector<Entry> &extra_extra() const
   {
     return corner;
   }
 
-  unsigned int
-  n_extra() const
+  unsigned int n_extra() const
   {
     return scale.extra.size();
   }
 
-  dealii::types::global_dof_index
-  n_bulk() const
+  dealii::types::global_dof_index n_bulk() const
   {
     return offsets.back();
   }
 
   /// First global dof index of a block.
-  dealii::types::global_dof_index
-  offset(const unsigned int block) const
+  dealii::types::global_dof_index offset(const unsigned int block) const
   {
     return offsets[block];
   }
 
   /// A bulk unknown of this rank.
-  static double &
-  entry(dealii::TrilinosWrappers::MPI::BlockVector &, unsigned int block, int local);
+  static double &entry(dealii::TrilinosWrappers::MPI::BlockVector &, unsigned int block, int local);
   static double
   entry(const dealii::TrilinosWrappers::MPI::BlockVector &, unsigned int block, int local);
 
   /// Block and local index of a global dof index owned by this rank.
-  std::pair<unsigned int, int>
-  locate(dealii::types::global_dof_index) const;
+  std::pair<unsigned int, int> locate(dealii::types::global_dof_index) const;
 
   /// Values of a vector at the columns that this rank's rows of a matrix touch, by local column.
-  static std::vector<double>
-  at_columns(const Epetra_CrsMatrix &, const dealii::TrilinosWrappers::MPI::Vector &);
+  static std::vector<double> at_columns(const Epetra_CrsMatrix &,
+                                        const dealii::TrilinosWrappers::MPI::Vector &);
 
-  const LinearSystem &
-  system() const
+  const LinearSystem &system() const
   {
     return *linear_system;
   }
 
 private:
-  void
-  set_up_scaling();
+  void set_up_scaling();
 
-  const LinearSystem                          *linear_system;
-  MPI_Comm                                     communicator;
+  const LinearSystem *linear_system;
+  MPI_Comm communicator;
   std::vector<dealii::types::global_dof_index> offsets; ///< of the blocks, and the end
-  std::vector<Entry>                           upper, lower, corner;
-  SystemVector                                 scale;
+  std::vector<Entry> upper, lower, corner;
+  SystemVector scale;
 };
 } // namespace stockwork

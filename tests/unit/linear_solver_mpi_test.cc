@@ -16,8 +16,7 @@
 using namespace dealii;
 using namespace stockwork;
 
-int
-main(int argc, char **argv)
+int main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   return doctest::Context(argc, argv).run();
@@ -28,8 +27,7 @@ namespace
 const MPI_Comm comm = MPI_COMM_WORLD;
 
 /// A number in (-1, 1) that depends on i and j only.
-double
-noise(const unsigned int i, const unsigned int j)
+double noise(const unsigned int i, const unsigned int j)
 {
   return std::sin(12.9898 * (i + 1) + 78.233 * (j + 1) + 0.37 * (i + 1) * (j + 1));
 }
@@ -38,18 +36,16 @@ noise(const unsigned int i, const unsigned int j)
 /// Entries couple unknowns at most `band` apart within the bulk, and a few with each extra one.
 struct DenseSystem
 {
-  unsigned int       n_u, n_p, n_extra;
+  unsigned int n_u, n_p, n_extra;
   FullMatrix<double> J;
-  Vector<double>     R;
+  Vector<double> R;
 
-  unsigned int
-  n_bulk() const
+  unsigned int n_bulk() const
   {
     return n_u + n_p;
   }
 
-  Vector<double>
-  solution() const
+  Vector<double> solution() const
   {
     FullMatrix<double> inverse(J);
     inverse.gauss_jordan();
@@ -62,16 +58,15 @@ struct DenseSystem
 
 /// K positive definite; [K -Q; -Q^T -S] when there is a second block; extra unknowns with or
 /// without a diagonal entry. `decades` separates the units of the two bulk blocks.
-DenseSystem
-make_dense(const unsigned int n_u,
-           const unsigned int n_p,
-           const unsigned int n_extra,
-           const double       decades   = 0.,
-           const double       asymmetry = 0.)
+DenseSystem make_dense(const unsigned int n_u,
+                       const unsigned int n_p,
+                       const unsigned int n_extra,
+                       const double decades = 0.,
+                       const double asymmetry = 0.)
 {
   DenseSystem d;
-  d.n_u     = n_u;
-  d.n_p     = n_p;
+  d.n_u = n_u;
+  d.n_p = n_p;
   d.n_extra = n_extra;
   const unsigned int n = n_u + n_p + n_extra;
   d.J.reinit(n, n);
@@ -83,74 +78,72 @@ make_dense(const unsigned int n_u,
       else if (std::max(i, j) - std::min(i, j) <= 3)
         d.J(i, j) = noise(std::max(i, j), std::min(i, j)) + asymmetry * noise(i, j);
   for (unsigned int i = 0; i < n_p; ++i)
-    {
-      const unsigned int row = n_u + i;
-      for (unsigned int j = 0; j < n_p; ++j)
-        if (i == j)
-          d.J(row, row) = -3. + noise(i, i);
-        else if (std::max(i, j) - std::min(i, j) == 1)
-          d.J(row, n_u + j) = 0.5 * noise(std::max(i, j), std::min(i, j));
-      for (unsigned int j = 0; j < n_u; ++j)
-        if (j / 2 == i || j / 3 == i)
-          d.J(row, j) = d.J(j, row) = noise(row, j);
-    }
+  {
+    const unsigned int row = n_u + i;
+    for (unsigned int j = 0; j < n_p; ++j)
+      if (i == j)
+        d.J(row, row) = -3. + noise(i, i);
+      else if (std::max(i, j) - std::min(i, j) == 1)
+        d.J(row, n_u + j) = 0.5 * noise(std::max(i, j), std::min(i, j));
+    for (unsigned int j = 0; j < n_u; ++j)
+      if (j / 2 == i || j / 3 == i)
+        d.J(row, j) = d.J(j, row) = noise(row, j);
+  }
   for (unsigned int e = 0; e < n_extra; ++e)
+  {
+    const unsigned int row = n_u + n_p + e;
+    // As in a fracture: openings couple to the bulk and have stiffness, pressures couple to
+    // openings and have next to no diagonal entry.
+    if (e % 2 == 0)
     {
-      const unsigned int row = n_u + n_p + e;
-      // As in a fracture: openings couple to the bulk and have stiffness, pressures couple to
-      // openings and have next to no diagonal entry.
-      if (e % 2 == 0)
-        {
-          d.J(row, row) = 8.;
-          for (unsigned int k = 0; k < 4; ++k)
-            {
-              const unsigned int j = (7 * e + 3 * k) % (n_u + n_p);
-              d.J(row, j)          = noise(row, j);
-              d.J(j, row)          = noise(row, j) + asymmetry * noise(j, row);
-            }
-        }
-      else
-        {
-          d.J(row, row - 1) = d.J(row - 1, row) = 1. + 0.3 * noise(row, e);
-          d.J(row, row) = e % 4 == 1 ? 0. : -1e-3;
-        }
+      d.J(row, row) = 8.;
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        const unsigned int j = (7 * e + 3 * k) % (n_u + n_p);
+        d.J(row, j) = noise(row, j);
+        d.J(j, row) = noise(row, j) + asymmetry * noise(j, row);
+      }
     }
+    else
+    {
+      d.J(row, row - 1) = d.J(row - 1, row) = 1. + 0.3 * noise(row, e);
+      d.J(row, row) = e % 4 == 1 ? 0. : -1e-3;
+    }
+  }
   for (unsigned int i = 0; i < n; ++i)
     d.R(i) = noise(i, 3 * i + 1);
   const double unit = std::pow(10., -decades);
   for (unsigned int i = n_u; i < n_u + n_p; ++i)
+  {
+    for (unsigned int j = 0; j < n; ++j)
     {
-      for (unsigned int j = 0; j < n; ++j)
-        {
-          d.J(i, j) *= unit;
-          d.J(j, i) *= unit;
-        }
-      d.R(i) *= unit;
+      d.J(i, j) *= unit;
+      d.J(j, i) *= unit;
     }
+    d.R(i) *= unit;
+  }
   return d;
 }
 
 /// The owned part of [0, n) on this rank.
-IndexSet
-owned(const unsigned int n)
+IndexSet owned(const unsigned int n)
 {
   const unsigned int me = Utilities::MPI::this_mpi_process(comm),
-                     p  = Utilities::MPI::n_mpi_processes(comm);
+                     p = Utilities::MPI::n_mpi_processes(comm);
   IndexSet set(n);
   set.add_range(n * me / p, n * (me + 1) / p);
   return set;
 }
 
-std::unique_ptr<LinearSystem>
-distribute(const DenseSystem &d)
+std::unique_ptr<LinearSystem> distribute(const DenseSystem &d)
 {
-  auto                  result = std::make_unique<LinearSystem>();
-  LinearSystem         &system = *result;
+  auto result = std::make_unique<LinearSystem>();
+  LinearSystem &system = *result;
   std::vector<IndexSet> sets = {owned(d.n_u)};
   if (d.n_p > 0)
     sets.push_back(owned(d.n_p));
-  const unsigned int             n_blocks = sets.size();
-  BlockDynamicSparsityPattern    pattern(n_blocks, n_blocks);
+  const unsigned int n_blocks = sets.size();
+  BlockDynamicSparsityPattern pattern(n_blocks, n_blocks);
   const std::vector<unsigned int> start = {0, d.n_u, d.n_u + d.n_p};
   for (unsigned int b = 0; b < n_blocks; ++b)
     for (unsigned int c = 0; c < n_blocks; ++c)
@@ -165,35 +158,35 @@ distribute(const DenseSystem &d)
   system.residual_bulk.reinit(sets, comm);
   for (unsigned int b = 0; b < n_blocks; ++b)
     for (const auto i : sets[b])
-      {
-        for (unsigned int j = 0; j < d.n_bulk(); ++j)
-          if (d.J(start[b] + i, j) != 0.)
-            system.bulk.set(start[b] + i, j, d.J(start[b] + i, j));
-        system.residual_bulk(start[b] + i) = d.R(start[b] + i);
-      }
+    {
+      for (unsigned int j = 0; j < d.n_bulk(); ++j)
+        if (d.J(start[b] + i, j) != 0.)
+          system.bulk.set(start[b] + i, j, d.J(start[b] + i, j));
+      system.residual_bulk(start[b] + i) = d.R(start[b] + i);
+    }
   system.bulk.compress(VectorOperation::insert);
   system.residual_bulk.compress(VectorOperation::insert);
 
   // Every rank contributes some of every extra entry, owner or not.
   const double p = Utilities::MPI::n_mpi_processes(comm);
   for (unsigned int e = 0; e < d.n_extra; ++e)
+  {
+    const unsigned int row = d.n_bulk() + e;
+    for (unsigned int j = 0; j < d.n_bulk(); ++j)
     {
-      const unsigned int row = d.n_bulk() + e;
-      for (unsigned int j = 0; j < d.n_bulk(); ++j)
-        {
-          if (d.J(row, j) != 0.)
-            system.extra_bulk.add(e, j, d.J(row, j) / p);
-          if (d.J(j, row) != 0.)
-            system.bulk_extra.add(j, e, d.J(j, row) / p);
-        }
-      for (unsigned int f = 0; f < d.n_extra; ++f)
-        if (d.J(row, d.n_bulk() + f) != 0.)
-          {
-            system.extra_extra.add(e, f, 0.25 * d.J(row, d.n_bulk() + f) / p);
-            system.extra_extra.add(e, f, 0.75 * d.J(row, d.n_bulk() + f) / p);
-          }
-      system.residual_extra.push_back(d.R(row));
+      if (d.J(row, j) != 0.)
+        system.extra_bulk.add(e, j, d.J(row, j) / p);
+      if (d.J(j, row) != 0.)
+        system.bulk_extra.add(j, e, d.J(j, row) / p);
     }
+    for (unsigned int f = 0; f < d.n_extra; ++f)
+      if (d.J(row, d.n_bulk() + f) != 0.)
+      {
+        system.extra_extra.add(e, f, 0.25 * d.J(row, d.n_bulk() + f) / p);
+        system.extra_extra.add(e, f, 0.75 * d.J(row, d.n_bulk() + f) / p);
+      }
+    system.residual_extra.push_back(d.R(row));
+  }
   system.symmetric = true;
   for (unsigned int i = 0; i < d.J.m(); ++i)
     for (unsigned int j = 0; j < i; ++j)
@@ -203,26 +196,28 @@ distribute(const DenseSystem &d)
 }
 
 /// Largest error of a solution, relative to the largest entry of its block.
-double
-error(const DenseSystem                             &d,
-      const TrilinosWrappers::MPI::BlockVector      &bulk,
-      const std::vector<double>                     &extra)
+double error(const DenseSystem &d,
+             const TrilinosWrappers::MPI::BlockVector &bulk,
+             const std::vector<double> &extra)
 {
   const Vector<double> exact = d.solution();
-  double               worst = 0.;
-  const auto           check = [&](const unsigned int begin, const unsigned int end, auto value) {
+  double worst = 0.;
+  const auto check = [&](const unsigned int begin, const unsigned int end, auto value)
+  {
     double size = 1e-300, difference = 0.;
     for (unsigned int i = begin; i < end; ++i)
-      {
-        size = std::max(size, std::abs(exact(i)));
-        if (const double *x = value(i - begin))
-          difference = std::max(difference, std::abs(*x - exact(i)));
-      }
+    {
+      size = std::max(size, std::abs(exact(i)));
+      if (const double *x = value(i - begin))
+        difference = std::max(difference, std::abs(*x - exact(i)));
+    }
     worst = std::max(worst, Utilities::MPI::max(difference, comm) / size);
   };
-  double     x;
-  const auto of_block = [&](const unsigned int b) {
-    return [&, b](const unsigned int i) -> const double * {
+  double x;
+  const auto of_block = [&](const unsigned int b)
+  {
+    return [&, b](const unsigned int i) -> const double *
+    {
       if (!bulk.block(b).in_local_range(i))
         return nullptr;
       x = bulk.block(b)(i);
@@ -239,21 +234,19 @@ error(const DenseSystem                             &d,
 struct Run
 {
   LinearReport report;
-  double       error;
+  double error;
 };
 
-Run
-solve(LinearSolver &solver, const DenseSystem &d, const SystemStamps &stamps)
+Run solve(LinearSolver &solver, const DenseSystem &d, const SystemStamps &stamps)
 {
-  const auto                         system = distribute(d);
+  const auto system = distribute(d);
   TrilinosWrappers::MPI::BlockVector bulk(system->residual_bulk);
-  std::vector<double>                extra;
-  const auto                         report = solver.solve(*system, stamps, 1e-12, bulk, extra);
+  std::vector<double> extra;
+  const auto report = solver.solve(*system, stamps, 1e-12, bulk, extra);
   return {report, error(d, bulk, extra)};
 }
 
-std::unique_ptr<LinearSolver>
-make(const LinearSolverParameters::Type type)
+std::unique_ptr<LinearSolver> make(const LinearSolverParameters::Type type)
 {
   LinearSolverParameters parameters;
   parameters.type = type;
@@ -269,24 +262,24 @@ TEST_CASE("the direct solver agrees with a dense solve")
     for (const unsigned int n_extra : {0u, 6u})
       for (const double decades : {0., 10.})
         for (const double asymmetry : {0., 0.4})
-          {
-            CAPTURE(n_p);
-            CAPTURE(n_extra);
-            CAPTURE(decades);
-            CAPTURE(asymmetry);
-            auto       solver = make(Type::direct);
-            const auto d      = make_dense(31, n_p, n_extra, decades, asymmetry);
-            const auto run    = solve(*solver, d, {});
-            CHECK(run.report.converged);
-            CHECK(run.report.factorised);
-            CHECK(run.error < 1e-10);
-          }
+        {
+          CAPTURE(n_p);
+          CAPTURE(n_extra);
+          CAPTURE(decades);
+          CAPTURE(asymmetry);
+          auto solver = make(Type::direct);
+          const auto d = make_dense(31, n_p, n_extra, decades, asymmetry);
+          const auto run = solve(*solver, d, {});
+          CHECK(run.report.converged);
+          CHECK(run.report.factorised);
+          CHECK(run.error < 1e-10);
+        }
 }
 
 TEST_CASE("a factor is reused when nothing has changed, and never when something has")
 {
-  auto         solver = make(Type::direct);
-  auto         d      = make_dense(31, 13, 6);
+  auto solver = make(Type::direct);
+  auto d = make_dense(31, 13, 6);
   SystemStamps stamps;
   CHECK(solve(*solver, d, stamps).report.factorised);
 
@@ -332,22 +325,21 @@ TEST_CASE("a factor is reused when nothing has changed, and never when something
 TEST_CASE("a singular matrix is an error that helps")
 {
   auto solver = make(Type::direct);
-  auto d      = make_dense(31, 0, 0);
+  auto d = make_dense(31, 0, 0);
   // A body that nothing holds: rows sum to zero.
   for (unsigned int i = 0; i < 31; ++i)
-    {
-      d.J(i, i) = 0.;
-      for (unsigned int j = 0; j < 31; ++j)
-        if (j != i && d.J(i, j) != 0.)
-          {
-            d.J(i, j) = -std::abs(d.J(i, j));
-            d.J(i, i) -= d.J(i, j);
-          }
-    }
-  const auto                         system = distribute(d);
+  {
+    d.J(i, i) = 0.;
+    for (unsigned int j = 0; j < 31; ++j)
+      if (j != i && d.J(i, j) != 0.)
+      {
+        d.J(i, j) = -std::abs(d.J(i, j));
+        d.J(i, i) -= d.J(i, j);
+      }
+  }
+  const auto system = distribute(d);
   TrilinosWrappers::MPI::BlockVector bulk(system->residual_bulk);
-  std::vector<double>                extra;
+  std::vector<double> extra;
   CHECK_THROWS_WITH_AS(solver->solve(*system, {}, 1e-10, bulk, extra),
-                       doctest::Contains("boundary condition"),
-                       SolveError);
+                       doctest::Contains("boundary condition"), SolveError);
 }
