@@ -1,0 +1,96 @@
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include "flow/conductivity.h"
+#include "flow/leak_off.h"
+#include "flow/time_history.h"
+#include "stockwork/base/error.h"
+
+using namespace stockwork;
+using doctest::Approx;
+
+TEST_CASE("the hydraulic aperture is a smooth maximum")
+{
+  const double w_min = 10e-6;
+  CHECK(hydraulic_aperture_cubed(-1e-3, w_min).value == Approx(1e-15));
+  CHECK(hydraulic_aperture_cubed(0., w_min).value == Approx(1e-15));
+  CHECK(hydraulic_aperture_cubed(w_min, w_min).value == Approx(1e-15 * std::pow(2., 0.75)));
+  // wide open: the cubic law itself, up to (w_min/w)^4 * 3/4
+  CHECK(hydraulic_aperture_cubed(1e-3, w_min).value == Approx(1e-9).epsilon(1e-8));
+  CHECK(std::cbrt(hydraulic_aperture_cubed(3. * w_min, w_min).value) / (3. * w_min) ==
+        Approx(1.003).epsilon(1e-3));
+
+  for (const double w : {1e-7, 5e-6, 1e-5, 2e-5, 1e-4, 1e-2})
+  {
+    const double h = 1e-5 * w;
+    const double difference = (hydraulic_aperture_cubed(w + h, w_min).value -
+                               hydraulic_aperture_cubed(w - h, w_min).value) /
+                              (2. * h);
+    CHECK(hydraulic_aperture_cubed(w, w_min).slope ==
+          Approx(difference).epsilon(w > 1e-6 ? 1e-8 : 1e-2));
+  }
+  CHECK(hydraulic_aperture_cubed(-1e-4, w_min).slope == 0.);
+}
+
+TEST_CASE("transmissibility of a slot, and in series")
+{
+  const double w = 1e-3, mu = 1e-3, length = 2., width = 3.;
+  const auto T = [&](const double w_i, const double w_j, const double d_i)
+  {
+    return transmissibility(hydraulic_aperture_cubed(w_i, 1e-9),
+                            hydraulic_aperture_cubed(w_j, 1e-9), d_i, length - d_i, width, mu);
+  };
+  CHECK(T(w, w, 0.7).value == Approx(width * w * w * w / (12. * mu * length)));
+
+  // Poiseuille flow through slots of 1 mm over 0.5 m and of 2 mm over 1.5 m, one after the other
+  const double resistance = 12. * mu / width * (0.5 / 1e-9 + 1.5 / 8e-9);
+  CHECK(T(1e-3, 2e-3, 0.5).value == Approx(1. / resistance));
+
+  const double h = 1e-9;
+  CHECK(
+    T(1e-3, 2e-3, 0.5).slope_i ==
+    Approx((T(1e-3 + h, 2e-3, 0.5).value - T(1e-3 - h, 2e-3, 0.5).value) / (2. * h)).epsilon(1e-7));
+  CHECK(
+    T(1e-3, 2e-3, 0.5).slope_j ==
+    Approx((T(1e-3, 2e-3 + h, 0.5).value - T(1e-3, 2e-3 - h, 0.5).value) / (2. * h)).epsilon(1e-7));
+}
+
+TEST_CASE("Carter leak-off is integrated exactly")
+{
+  const double C = 2e-5, exposed = 3.;
+  // midpoint rule on C/sqrt(t - t0), away from the singularity
+  double integral = 0.;
+  const int n = 100000;
+  for (int k = 0; k < n; ++k)
+    integral += C / std::sqrt(5. + (k + 0.5) * 2. / n - exposed) * 2. / n;
+  CHECK(carter_volume(C, exposed, 5., 7.) == Approx(integral).epsilon(1e-9));
+  // exposed within the step, and not at all
+  CHECK(carter_volume(C, exposed, 2., 7.) == Approx(2. * C * 2.));
+  CHECK(carter_volume(C, exposed, 1., 2.) == 0.);
+  // steps add up
+  CHECK(carter_volume(C, exposed, 0., 4.) + carter_volume(C, exposed, 4., 7.) ==
+        Approx(carter_volume(C, exposed, 0., 7.)));
+}
+
+TEST_CASE("histories in time")
+{
+  const auto history = [](const std::string &text)
+  { return TimeHistory(text, dimension::rate_per_thickness, "Wells/Well 1/Rate"); };
+  CHECK(history("2e-4 m^2/s")(0., 1.) == 2e-4);
+  CHECK(history("2e-4 m^2/s").next_jump(0.) == std::numeric_limits<double>::infinity());
+
+  const auto pieces = history("10 s: 4; 1 min: 0; 2 min: -1");
+  CHECK(pieces(0., 10.) == 0.);
+  CHECK(pieces(10., 20.) == 4.);
+  CHECK(pieces(50., 70.) == Approx(2.)); // the mean: no volume is lost
+  CHECK(pieces(5., 130.) == Approx((50. * 4. - 10.) / 125.));
+  CHECK(pieces(200., 300.) == -1.);
+  CHECK(pieces.next_jump(0.) == 10.);
+  CHECK(pieces.next_jump(10.) == 60.);
+  CHECK(pieces.next_jump(120.) == std::numeric_limits<double>::infinity());
+
+  CHECK(history("f(t) = 1e-4*min(t/10, 1)")(4., 5.) == Approx(5e-5));
+
+  for (const std::string bad : {"2 MPa", "fast", "0 s: 1; 1", "2 s: 1; 1 s: 0", "f(t) = 2*x", ""})
+    CHECK_THROWS_WITH_AS(history(bad), doctest::Contains("Wells/Well 1/Rate"), EntryError);
+}
