@@ -2,6 +2,7 @@
 
 #include "verification/analytical/chebyshev_crack.h"
 #include "verification/analytical/dense_matrix.h"
+#include "verification/analytical/roller_walls.h"
 
 #include <cmath>
 
@@ -11,14 +12,6 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t n_points = 64;
-
-// Stiffness of a layer of height h (in units of the inverse wave number) with a roller on top
-// over that of a half space, minus one.
-double layer_excess(const double h)
-{
-  const double e = std::exp(-2. * h);
-  return (h + 0.5 * (1. - e)) * 4. * e / ((1. - e) * (1. - e));
-}
 } // namespace
 
 
@@ -31,9 +24,7 @@ CrackInBox::CrackInBox(const CrackInBoxParameters &parameters)
   const ChebyshevCrack points(n_points);
   const double width = parameters.half_width / parameters.half_length;
   const double height = parameters.half_height / parameters.half_length;
-  const double nu = parameters.poisson_ratio;
-  // (lambda + 2 G) / E': the uniform part of the opening compresses the layer between the walls.
-  const double uniaxial = (1. - nu) * (1. - nu) / (1. - 2. * nu);
+  const double uniaxial = RollerWalls::uniaxial_ratio(parameters.poisson_ratio);
 
   DenseMatrix matrix(n_points);
   for (std::size_t r = 0; r + 1 < n_points; ++r)
@@ -46,8 +37,8 @@ CrackInBox::CrackInBox(const CrackInBoxParameters &parameters)
       for (unsigned int m = 1; m * pi * height / width < 20.; ++m)
       {
         const double wave_number = m * pi / width;
-        kernel -= layer_excess(wave_number * height) / width * std::cos(wave_number * x) *
-                  std::sin(wave_number * s);
+        kernel -= RollerWalls::layer_excess(wave_number * height) / width *
+                  std::cos(wave_number * x) * std::sin(wave_number * s);
       }
       kernel -= uniaxial / (height * width) * s;
       matrix[r][k] = points.weight() * kernel;

@@ -40,6 +40,20 @@ private:
 };
 
 
+/// C = A B.
+inline void multiply(const DenseMatrix &A, const DenseMatrix &B, DenseMatrix &C)
+{
+  const std::size_t n = A.size();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    std::fill(C[i], C[i] + n, 0.);
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t j = 0; j < n; ++j)
+        C[i][j] += A[i][k] * B[k][j];
+  }
+}
+
+
 /// Overwrites b with the solution of A x = b; A is consumed. Gauss elimination with row pivoting.
 inline void solve_in_place(DenseMatrix &A, std::vector<double> &b)
 {

@@ -63,6 +63,12 @@ public:
   /// The transpose of integrate_to_tip: result_k = sum_i g_i d(int_{x_i}^1 f dx)/df_k.
   void transpose_integrate(const double *g, std::vector<double> &result) const;
 
+  /// Weight of point j in the integral of a function over (0, 1) that vanishes at the tip.
+  double weight(const std::size_t j) const
+  {
+    return h * metric[j];
+  }
+
   /// Pressure at the points, E' = 1.
   std::vector<double> pressure(double k, const std::vector<double> &m) const;
 

@@ -98,6 +98,19 @@ std::vector<double> KgdFront::pressure(const HalfCrackGrid &grid, const double t
 }
 
 
+void KgdMemory::remember(std::initializer_list<std::pair<double, const KgdFront &>> fronts)
+{
+  for (const auto &[factor, front] : fronts)
+  {
+    rate -= factor;
+    gamma_history += factor * front.gamma;
+    gamma_omega_history.resize(front.omega.size(), 0.);
+    for (std::size_t j = 0; j < front.omega.size(); ++j)
+      gamma_omega_history[j] += factor * front.gamma * front.omega[j];
+  }
+}
+
+
 KgdFront estimate_front(const HalfCrackGrid &grid, const double toughness)
 {
   const double tip = std::pow(toughness, 4. / 3.) * std::cbrt(pi / std::sqrt(8.)) / std::sqrt(2.);
@@ -125,6 +138,8 @@ void solve_front(const HalfCrackGrid &grid,
 
   FluxLaw law(grid, memory);
   Flux flux;
+  std::vector<double> lost(n); // pressure by friction
+  DenseMatrix wall_gradient(memory.walls ? n : 0), wall_opening(memory.walls ? n : 0);
   std::vector<double> row(n), by_volume, first(n, 0.), correction(n + 1);
   first[0] = 1.;
   for (int iteration = 0; iteration < max_iterations; ++iteration)
@@ -132,7 +147,15 @@ void solve_front(const HalfCrackGrid &grid,
     law.evaluate(front, flux);
     const double tip = front.tip_factor(toughness);
     for (std::size_t j = 0; j < n; ++j)
-      gradient[j] = flux.value[j] / std::pow(omega[j], 3);
+      gradient[j] = lost[j] = flux.value[j] / std::pow(omega[j], 3);
+    if (memory.walls)
+    {
+      memory.walls(front.gamma, wall_gradient);
+      multiply(H, wall_gradient, wall_opening);
+      for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t k = 0; k < n; ++k)
+          gradient[j] += wall_gradient[j][k] * omega[k];
+    }
 
     DenseMatrix jacobian(n + 1);
     for (std::size_t i = 0; i < n; ++i) // elasticity
@@ -148,9 +171,12 @@ void solve_front(const HalfCrackGrid &grid,
       }
       grid.transpose_integrate(row.data(), by_volume);
       for (std::size_t j = 0; j < n; ++j)
-        jacobian[i][j] = (3. * H[i][j] * gradient[j] - flux.by_omega * xi[j] * row[j] * omega[j] -
+        jacobian[i][j] = (3. * H[i][j] * lost[j] - flux.by_omega * xi[j] * row[j] * omega[j] -
                           flux.by_volume * by_volume[j] * omega[j]) /
                          omega[i];
+      if (memory.walls)
+        for (std::size_t j = 0; j < n; ++j)
+          jacobian[i][j] -= wall_opening[i][j] * omega[j] / omega[i];
       jacobian[i][i] += 1.;
       jacobian[i][n] = residual_by_gamma * front.gamma / omega[i];
       correction[i] = -residual / omega[i];

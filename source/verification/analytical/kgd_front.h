@@ -3,6 +3,8 @@
 #include "verification/analytical/half_crack_grid.h"
 
 #include <functional>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 namespace stockwork::analytical
@@ -20,7 +22,7 @@ struct KgdFront
 {
   double gamma = 0.;
   std::vector<double> omega;    // at the points of the grid
-  std::vector<double> gradient; // -dPi/dxi
+  std::vector<double> gradient; // -dPi/dxi; with walls, of the pressure less what they add
 
   /// lim omega / sqrt(1 - xi^2) at the tip.
   double tip_factor(double toughness) const;
@@ -28,14 +30,20 @@ struct KgdFront
   /// Volume of the fracture over the injected volume.
   double efficiency(const HalfCrackGrid &grid) const;
 
+  /// Of a crack in an infinite plane.
   std::vector<double> pressure(const HalfCrackGrid &grid, double toughness) const;
 };
 
 
-/// What the solution at one time must know of earlier times: d/dtau is approximated by
-/// rate times the new value plus a sum over earlier ones. Empty for the similarity solution.
+/// What the solution at one time must know of earlier times and of its surroundings. d/dtau is
+/// approximated by rate times the new value plus a sum over earlier ones. Empty for the similarity
+/// solution.
 struct KgdMemory
 {
+  /// Sets the rate and the histories from earlier solutions with their factors in the formula,
+  /// whose factors sum to zero with the new one.
+  void remember(std::initializer_list<std::pair<double, const KgdFront &>> fronts);
+
   double rate = 0.;
   double gamma_history = 0.;               // of gamma
   std::vector<double> gamma_omega_history; // of gamma omega
@@ -43,6 +51,9 @@ struct KgdMemory
 
   /// Fills 1/sqrt(1 - t0/t) at the points for a given gamma.
   std::function<void(double gamma, std::vector<double> &)> exposure;
+
+  /// Fills the matrix by which walls add to dPi/dxi for a given omega; empty without walls.
+  std::function<void(double gamma, DenseMatrix &)> walls;
 };
 
 
