@@ -1,0 +1,63 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// What summary.json says about a run. The keys of the file are the names of the members.
+struct RunSummary
+{
+  /// Of one quantity against the reference solution of the case. Relative.
+  struct Error
+  {
+    double final = 0;      ///< at the end time
+    double mean = 0;       ///< over the run
+    std::string reference; ///< which solution: "Cryer (1963)"
+  };
+
+  /// Volumes since the start [m^3; m^2 in plane strain, per metre of thickness].
+  struct FluidBalance
+  {
+    double injected = 0;
+    double in_fractures = 0;
+    double leaked = 0;         ///< by a leak-off law, out of the model
+    double stored = 0;         ///< in the pores
+    double outflow = 0;        ///< through the boundary
+    double relative_error = 0; ///< what is missing over what was injected
+  };
+
+  std::string case_name; ///< key "case"
+  std::string fracture_model;
+  unsigned int ranks = 1;
+  std::uint64_t cells = 0;
+  std::uint64_t unknowns = 0;
+  std::uint64_t steps = 0;
+  std::uint64_t rejected_steps = 0;
+  std::uint64_t nonlinear_iterations = 0;
+  std::uint64_t linear_iterations = 0;
+  std::map<std::string, double> wall_seconds; ///< PhaseTimers::seconds()
+  std::uint64_t peak_memory_bytes = 0;
+  std::map<std::string, double> final_values; ///< key "final", StatisticsTable::final_values()
+  std::map<std::string, Error> errors;
+  FluidBalance fluid_balance;
+  std::vector<std::string> warnings;
+};
+
+/// Write the summary as JSON. Final values that are not finite are left out.
+/// @throws OutputError if another number is not finite
+void write_summary(std::ostream &out, const RunSummary &summary);
+
+/// Write summary.json; the file appears complete or not at all. To be called on rank 0.
+/// @throws OutputError
+void write_summary(const std::string &file, const RunSummary &summary);
+
+/// The greatest resident memory so far, summed over the ranks [bytes]. Collective.
+std::uint64_t peak_memory(MPI_Comm communicator);
+} // namespace stockwork
