@@ -6,6 +6,7 @@
 #include "stockwork/biot/rock.h"
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace stockwork
@@ -22,16 +23,16 @@ struct InitialCrack
   };
 
   std::vector<dealii::Point<dim>> points; ///< polyline in 2-D
-  Kind                            kind = Kind::open;
+  Kind kind = Kind::open;
 };
 
 /// What a fracture model may know of the case. Everything outlives the model.
 template <int dim>
 struct Scene
 {
-  const Rock                            &rock;
-  std::vector<InitialCrack<dim>>         cracks;
-  bool                                   has_pore_pressure;
+  const Rock &rock;
+  std::vector<InitialCrack<dim>> cracks;
+  bool has_pore_pressure;
 
   /// Total in-situ stress at a point, tension positive [Pa].
   std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> in_situ_stress;
@@ -40,5 +41,9 @@ struct Scene
 
   /// Diameter of the domain [m], for tolerances.
   double domain_size;
+
+  /// Fluid pressure in all cracks, where the case gives it [Pa]; zero in a dry case. NaN: the fluid
+  /// network solves for it.
+  double crack_pressure = std::numeric_limits<double>::quiet_NaN();
 };
 } // namespace stockwork

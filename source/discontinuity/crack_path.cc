@@ -1,0 +1,366 @@
+#include "discontinuity/crack_path.h"
+
+#include <deal.II/dofs/dof_accessor.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/grid/reference_cell.h>
+
+#include "stockwork/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace stockwork
+{
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+/// First and second vertex of each face of a quadrilateral, in the direction of its unit
+/// coordinate.
+constexpr unsigned int face_vertices[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+
+double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+std::string text(const Point<2> &p)
+{
+  std::ostringstream out;
+  out << '(' << p[0] << ", " << p[1] << ')';
+  return out.str();
+}
+
+/// The unit coordinates of the point that divides a face in the given proportion.
+Point<2> unit_point_on_face(const unsigned int face, const double share)
+{
+  Point<2> p;
+  const unsigned int normal_axis = face / 2;
+  p[normal_axis] = face % 2;
+  p[1 - normal_axis] = share;
+  return p;
+}
+
+/// Put one end of a piece on a face, away from the corners.
+void place_end(CrackPiece<2> &piece, const unsigned int end, const unsigned int face, double share)
+{
+  share = std::min(std::max(share, corner_clearance), 1. - corner_clearance);
+  const Point<2> &a = piece.corners[face_vertices[face][0]];
+  const Point<2> &b = piece.corners[face_vertices[face][1]];
+  piece.faces[end] = face;
+  piece.ends[end] = a + share * (b - a);
+  piece.unit_ends[end] = unit_point_on_face(face, share);
+}
+
+/// Where a polyline crosses a face of a cell.
+struct Crossing
+{
+  double arc; ///< along the polyline from its first point
+  unsigned int face;
+  double share; ///< along the face from its first vertex
+};
+
+/// A polyline with both ends prolonged to rays, so that every cell is crossed as a whole.
+class ProlongedPolyline
+{
+public:
+  ProlongedPolyline(const std::vector<Point<2>> &given, const double domain_size)
+    : points(given)
+    , tolerance(1e-9 * domain_size)
+  {
+    for (unsigned int k = 1; k < given.size(); ++k)
+      length += given[k].distance(given[k - 1]);
+    const Tensor<1, 2> first = given[0] - given[1];
+    const Tensor<1, 2> last = given.back() - given[given.size() - 2];
+    points.front() += domain_size * first / first.norm();
+    points.back() += domain_size * last / last.norm();
+    start = -domain_size;
+  }
+
+  /// All crossings of the edge from a to b, by arc and share from a.
+  void cross_edge(const Point<2> &a,
+                  const Point<2> &b,
+                  const unsigned int face,
+                  std::vector<Crossing> &crossings) const
+  {
+    // Both cells at an edge must find the same crossing to the last digit.
+    const bool swap = b[0] < a[0] || (b[0] == a[0] && b[1] < a[1]);
+    const Point<2> &p = swap ? b : a, &q = swap ? a : b;
+    const Tensor<1, 2> edge = q - p;
+    double arc = start;
+    for (unsigned int k = 0; k + 1 < points.size(); ++k)
+    {
+      const Tensor<1, 2> line = points[k + 1] - points[k];
+      const double extent = line.norm();
+      // A vertex on the line counts as being on its left.
+      const double to_p = cross(line, p - points[k]) / extent;
+      const double to_q = cross(line, q - points[k]) / extent;
+      const bool left_p = to_p > -tolerance, left_q = to_q > -tolerance;
+      const bool left_k = cross(edge, points[k] - p) >= 0.,
+                 left_k1 = cross(edge, points[k + 1] - p) >= 0.;
+      if (left_p != left_q && left_k != left_k1)
+      {
+        double share = std::min(std::max(to_p / (to_p - to_q), 0.), 1.);
+        const Tensor<1, 2> way = p + share * edge - points[k];
+        crossings.push_back({arc + way * line / extent, face, swap ? 1. - share : share});
+      }
+      arc += extent;
+    }
+  }
+
+  double length = 0.;
+
+private:
+  std::vector<Point<2>> points;
+  double tolerance;
+  double start;
+};
+
+struct Found
+{
+  double arc;
+  CrackPiece<2> piece;
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &arc &piece;
+  }
+};
+} // namespace
+
+std::uint64_t hash_combine(const std::uint64_t seed, const std::int64_t value)
+{
+  // The finalizer of splitmix64 (Steele, Lea and Flood 2014).
+  std::uint64_t x = seed + 0x9e3779b97f4a7c15ull + static_cast<std::uint64_t>(value);
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+template <int dim>
+std::uint64_t
+hash_point(const std::uint64_t seed, const Point<dim> &point, const double domain_size)
+{
+  std::uint64_t hash = seed;
+  for (unsigned int d = 0; d < dim; ++d)
+    hash = hash_combine(hash, std::llround(point[d] / (1e-9 * domain_size)));
+  return hash;
+}
+
+template <int dim>
+Tensor<1, dim> CrackPiece<dim>::normal() const
+{
+  static_assert(dim == 2, "a polyline has a normal in two dimensions only");
+  const Tensor<1, dim> t = tangent();
+  Tensor<1, dim> n;
+  n[0] = -t[1];
+  n[1] = t[0];
+  return n;
+}
+
+template <int dim>
+bool CrackPiece<dim>::plus_side(const Point<dim> &unit_point) const
+{
+  return cross(unit_ends[1] - unit_ends[0], unit_point - unit_ends[0]) > 0.;
+}
+
+template <int dim>
+double CrackPiece<dim>::cell_size() const
+{
+  return std::sqrt(0.5 * std::abs(cross(corners[3] - corners[0], corners[2] - corners[1])));
+}
+
+template <int dim>
+std::uint64_t CrackPiece<dim>::key(const double domain_size) const
+{
+  return hash_point(0x5e6, centre(), domain_size);
+}
+
+template <int dim>
+double CrackPath<dim>::length() const
+{
+  double sum = 0.;
+  for (const auto &piece : pieces)
+    sum += piece.length();
+  return sum;
+}
+
+template <int dim>
+CrackPiece<dim> reversed(const CrackPiece<dim> &piece)
+{
+  CrackPiece<dim> r = piece;
+  std::swap(r.faces[0], r.faces[1]);
+  std::swap(r.ends[0], r.ends[1]);
+  std::swap(r.unit_ends[0], r.unit_ends[1]);
+  std::swap(r.at_boundary[0], r.at_boundary[1]);
+  return r;
+}
+
+template <int dim>
+std::array<unsigned char, CrackPiece<dim>::n_corners>
+held_components(const Discretization<dim> &discretization,
+                const typename dealii::DoFHandler<dim>::active_cell_iterator &cell)
+{
+  std::array<unsigned char, CrackPiece<dim>::n_corners> held{};
+  const auto &fe = cell->get_fe();
+  std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  cell->get_dof_indices(dofs);
+  const unsigned int per_vertex = fe.n_dofs_per_vertex();
+  for (unsigned int v = 0; v < CrackPiece<dim>::n_corners; ++v)
+    for (unsigned int i = 0; i < per_vertex; ++i)
+    {
+      // Degrees of freedom at vertices come first in a cell, vertex by vertex.
+      const unsigned int local = v * per_vertex + i;
+      const unsigned int component = fe.system_to_component_index(local).first;
+      if (component >= dim || !discretization.constraints.is_constrained(dofs[local]))
+        continue;
+      const auto *entries = discretization.constraints.get_constraint_entries(dofs[local]);
+      if (entries != nullptr && !entries->empty())
+        throw InputError("A crack passes the hanging node " + text(cell->vertex(v)) +
+                         "; the cells along a crack must have one size. Refine the mesh around "
+                         "the crack or shift the crack.");
+      held[v] |= 1u << component;
+    }
+  return held;
+}
+
+template <int dim>
+CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
+                            const std::vector<Point<dim>> &polyline,
+                            const double domain_size,
+                            const Collectives &collectives)
+{
+  if (polyline.size() < 2)
+    throw InputError("A crack needs at least two points.");
+  const ProlongedPolyline line(polyline, domain_size);
+
+  std::vector<Found> found;
+  std::vector<Crossing> crossings;
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      crossings.clear();
+      for (unsigned int f = 0; f < 4; ++f)
+        line.cross_edge(cell->vertex(face_vertices[f][0]), cell->vertex(face_vertices[f][1]), f,
+                        crossings);
+      std::sort(crossings.begin(), crossings.end(),
+                [](const Crossing &a, const Crossing &b) { return a.arc < b.arc; });
+      for (unsigned int i = 0; i + 1 < crossings.size(); i += 2)
+      {
+        const double middle = 0.5 * (crossings[i].arc + crossings[i + 1].arc);
+        if (middle < 0. || middle > line.length || crossings[i].face == crossings[i + 1].face)
+          continue;
+        Found f;
+        f.arc = middle;
+        f.piece.cell = cell->id();
+        for (unsigned int v = 0; v < 4; ++v)
+          f.piece.corners[v] = cell->vertex(v);
+        for (unsigned int e = 0; e < 2; ++e)
+        {
+          place_end(f.piece, e, crossings[i + e].face, crossings[i + e].share);
+          f.piece.at_boundary[e] = cell->face(crossings[i + e].face)->at_boundary();
+        }
+        f.piece.held = held_components(discretization, cell);
+        found.push_back(f);
+      }
+    }
+  found = collectives.gather(found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found &a, const Found &b) { return a.arc < b.arc; });
+
+  if (found.empty())
+    throw InputError("The crack from " + text(polyline.front()) + " to " + text(polyline.back()) +
+                     " is shorter than half a cell or lies outside the mesh.");
+  CrackPath<dim> path;
+  for (const Found &f : found)
+  {
+    if (!path.pieces.empty() &&
+        path.pieces.back().ends[1].distance(f.piece.ends[0]) > 1e-8 * domain_size)
+      throw InputError(
+        "The cells along the crack change their size, or the crack leaves the mesh, near " +
+        text(f.piece.ends[0]) + "; a crack needs cells of one refinement level along its way.");
+    path.pieces.push_back(f.piece);
+  }
+  path.is_tip = {{!path.pieces.front().at_boundary[0], !path.pieces.back().at_boundary[1]}};
+  return path;
+}
+
+template <int dim>
+CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+                              const unsigned int face,
+                              const Point<dim> &tip,
+                              const Tensor<1, dim> &direction)
+{
+  CrackPiece<dim> piece;
+  piece.cell = cell->id();
+  for (unsigned int v = 0; v < 4; ++v)
+    piece.corners[v] = cell->vertex(v);
+
+  const Point<dim> &a = piece.corners[face_vertices[face][0]];
+  const Tensor<1, dim> edge = piece.corners[face_vertices[face][1]] - a;
+  place_end(piece, 0, face, (tip - a) * edge / edge.norm_square());
+  piece.ends[0] = tip;
+
+  // The normal of the face into the cell.
+  Tensor<1, dim> inward;
+  inward[0] = -edge[1] / edge.norm();
+  inward[1] = edge[0] / edge.norm();
+  if (inward * (cell->center() - tip) < 0.)
+    inward *= -1.;
+  Tensor<1, dim> d = direction / direction.norm();
+  if (const double into = d * inward; into < 0.01)
+  {
+    const Tensor<1, dim> along = d - into * inward;
+    d = 0.01 * inward + (along.norm() > 0. ? along / along.norm() : Tensor<1, dim>());
+  }
+
+  // The first of the other faces that the ray meets; with straight edges there is exactly one, but
+  // a ray into a corner may miss both by a rounding error, so the nearest miss is taken.
+  double best = std::numeric_limits<double>::infinity();
+  unsigned int exit = 0;
+  double share = 0.5;
+  for (unsigned int f = 0; f < 4; ++f)
+    if (f != face)
+    {
+      const Point<dim> &p = piece.corners[face_vertices[f][0]];
+      const Tensor<1, dim> e = piece.corners[face_vertices[f][1]] - p;
+      const double determinant = cross(d, e);
+      if (std::abs(determinant) < 1e-14 * e.norm())
+        continue;
+      const double along_ray = cross(p - tip, e) / determinant;
+      const double along_edge = cross(p - tip, d) / determinant;
+      if (along_ray <= 0.)
+        continue;
+      const double miss = std::max({0., -along_edge, along_edge - 1.});
+      if (miss < best)
+      {
+        best = miss;
+        exit = f;
+        share = along_edge;
+      }
+    }
+  if (!std::isfinite(best))
+    throw SolveError("A crack at " + text(tip) + " does not find its way through the next cell.");
+  place_end(piece, 1, exit, share);
+  piece.at_boundary = {{cell->face(face)->at_boundary(), cell->face(exit)->at_boundary()}};
+  return piece;
+}
+
+template struct CrackPiece<2>;
+template struct CrackPath<2>;
+template std::uint64_t hash_point<2>(const std::uint64_t, const Point<2> &, const double);
+template CrackPiece<2> reversed(const CrackPiece<2> &);
+template std::array<unsigned char, 4>
+held_components(const Discretization<2> &, const dealii::DoFHandler<2>::active_cell_iterator &);
+template CrackPath<2> cut_polyline(const Discretization<2> &,
+                                   const std::vector<Point<2>> &,
+                                   const double,
+                                   const Collectives &);
+template CrackPiece<2> continue_into<2>(const dealii::DoFHandler<2>::active_cell_iterator &,
+                                        const unsigned int,
+                                        const Point<2> &,
+                                        const Tensor<1, 2> &);
+} // namespace stockwork

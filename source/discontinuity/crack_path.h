@@ -1,0 +1,154 @@
+#pragma once
+
+#include <deal.II/base/point.h>
+#include <deal.II/grid/cell_id.h>
+
+#include <boost/serialization/array.hpp>
+
+#include "stockwork/fracture/collectives.h"
+#include "stockwork/mesh/discretization.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// The straight part of a crack inside one cell. It enters and leaves through faces of the cell and
+/// carries all that is needed to know its place and its unknowns without access to the cell, so
+/// that every rank can hold every crack.
+template <int dim>
+struct CrackPiece
+{
+  static constexpr unsigned int n_corners = 1 << dim;
+
+  dealii::CellId cell;
+  std::array<dealii::Point<dim>, n_corners> corners; ///< vertices of the cell
+  std::array<unsigned char, 2> faces;                ///< through which it enters and leaves
+  std::array<dealii::Point<dim>, 2> ends;            ///< where it enters and leaves
+  std::array<dealii::Point<dim>, 2> unit_ends;       ///< the same in unit-cell coordinates
+  std::array<bool, 2> at_boundary{{false, false}};   ///< the face is on the domain's boundary
+
+  /// Components of displacement that a boundary condition holds at each corner, one bit each.
+  std::array<unsigned char, n_corners> held{};
+
+  double length() const
+  {
+    return ends[0].distance(ends[1]);
+  }
+
+  dealii::Point<dim> centre() const
+  {
+    return ends[0] + 0.5 * (ends[1] - ends[0]);
+  }
+
+  /// Unit vector from entry to exit.
+  dealii::Tensor<1, dim> tangent() const
+  {
+    return (ends[1] - ends[0]) / length();
+  }
+
+  /// Unit normal, to the left of the tangent: it points from the minus to the plus side.
+  dealii::Tensor<1, dim> normal() const;
+
+  /// Is a point of the unit cell on the plus side?
+  bool plus_side(const dealii::Point<dim> &unit_point) const;
+
+  /// Size of the cell, the square root of its area [m].
+  double cell_size() const;
+
+  /// The same on every rank and on every mesh that keeps this cell.
+  std::uint64_t key(const double domain_size) const;
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &cell &corners &faces &ends &unit_ends &at_boundary &held;
+  }
+};
+
+/// A tip or a mouth: the end of a crack.
+enum class CrackEnd : unsigned char
+{
+  first = 0,
+  last = 1
+};
+
+/// A crack as a chain of pieces. The last end of a piece is the first end of the next one.
+template <int dim>
+struct CrackPath
+{
+  std::vector<CrackPiece<dim>> pieces;
+  /// An end that can grow; false at a mouth on the boundary and where growth has stopped.
+  std::array<bool, 2> is_tip{{true, true}};
+
+  const CrackPiece<dim> &piece_at(const CrackEnd end) const
+  {
+    return end == CrackEnd::first ? pieces.front() : pieces.back();
+  }
+
+  dealii::Point<dim> tip(const CrackEnd end) const
+  {
+    return piece_at(end).ends[static_cast<int>(end)];
+  }
+
+  /// Unit vector out of the crack at an end.
+  dealii::Tensor<1, dim> direction(const CrackEnd end) const
+  {
+    return (end == CrackEnd::first ? -1. : 1.) * piece_at(end).tangent();
+  }
+
+  double length() const;
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &pieces &is_tip;
+  }
+};
+
+/// Crossings stay this share of an edge away from its ends. Larger values trap shallow cracks along
+/// a mesh line, smaller ones gain nothing.
+constexpr double corner_clearance = 1e-3;
+
+/// Cut the mesh along a polyline: the chain of pieces, the same on all ranks.
+///
+/// A crack consists of whole cells: an end inside a cell moves along the crack to the nearest edge,
+/// and a kink inside a cell is cut short. A vertex on the polyline counts as being on the plus
+/// side, so a crack along a mesh line runs `corner_clearance` of an edge beside it.
+/// @throws InputError if the crack lies outside the mesh or passes cells of different size
+template <int dim>
+CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
+                            const std::vector<dealii::Point<dim>> &polyline,
+                            const double domain_size,
+                            const Collectives &collectives);
+
+/// The piece that continues a crack from @p tip on face @p face of @p cell along @p direction. The
+/// direction keeps a component of at least 0.01 into the cell.
+template <int dim>
+CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+                              const unsigned int face,
+                              const dealii::Point<dim> &tip,
+                              const dealii::Tensor<1, dim> &direction);
+
+/// A piece with its first and last end exchanged.
+template <int dim>
+CrackPiece<dim> reversed(const CrackPiece<dim> &piece);
+
+/// Look up which displacements boundary conditions hold at the corners of a cell.
+/// @throws InputError where a hanging node meets the crack
+template <int dim>
+std::array<unsigned char, CrackPiece<dim>::n_corners>
+held_components(const Discretization<dim> &discretization,
+                const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+
+/// A hash of integers, for keys.
+std::uint64_t hash_combine(const std::uint64_t seed, const std::int64_t value);
+
+/// A hash of a place, exact to 1e-9 of the size of the domain.
+template <int dim>
+std::uint64_t
+hash_point(const std::uint64_t seed, const dealii::Point<dim> &point, const double domain_size);
+} // namespace stockwork

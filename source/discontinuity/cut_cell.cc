@@ -1,0 +1,166 @@
+#include "discontinuity/cut_cell.h"
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <array>
+
+namespace stockwork
+{
+using dealii::Point;
+
+namespace
+{
+/// Position of a point on the boundary of the unit square, counted counterclockwise from the
+/// origin, 0 to 4.
+double around(const Point<2> &p, const unsigned int face)
+{
+  switch (face)
+  {
+  case 0:
+    return 4. - p[1];
+  case 1:
+    return 1. + p[1];
+  case 2:
+    return p[0];
+  default:
+    return 3. - p[0];
+  }
+}
+
+/// Add the rule on a triangle.
+void add_triangle(const Point<2> &a,
+                  const Point<2> &b,
+                  const Point<2> &c,
+                  const dealii::Quadrature<2> &rule,
+                  std::vector<Point<2>> &points,
+                  std::vector<double> &weights)
+{
+  const dealii::Tensor<1, 2> ab = b - a, ac = c - a;
+  const double determinant = std::abs(ab[0] * ac[1] - ab[1] * ac[0]);
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    points.push_back(a + rule.point(q)[0] * ab + rule.point(q)[1] * ac);
+    weights.push_back(rule.weight(q) * determinant);
+  }
+}
+
+/// Add the rule on a convex polygon as a fan of triangles.
+void add_polygon(const std::vector<Point<2>> &corners,
+                 const dealii::Quadrature<2> &rule,
+                 std::vector<Point<2>> &points,
+                 std::vector<double> &weights)
+{
+  for (unsigned int i = 1; i + 1 < corners.size(); ++i)
+    add_triangle(corners[0], corners[i], corners[i + 1], rule, points, weights);
+}
+} // namespace
+
+dealii::Quadrature<2> split_quadrature(const CrackPiece<2> &piece, const unsigned int degree)
+{
+  // Gradients of Q_k functions have total degree 2k-1 at most; their products need 4k-2.
+  const dealii::QWitherdenVincentSimplex<2> rule(degree + 2);
+
+  const Point<2> corner[4] = {{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}};
+  // Walk counterclockwise from one end of the piece to the other; what lies between is one part.
+  const auto part = [&](const unsigned int from, const unsigned int to)
+  {
+    const double start = around(piece.unit_ends[from], piece.faces[from]);
+    double stop = around(piece.unit_ends[to], piece.faces[to]);
+    if (stop < start)
+      stop += 4.;
+    std::vector<Point<2>> polygon{piece.unit_ends[from]};
+    for (unsigned int i = static_cast<unsigned int>(start) + 1; i < stop; ++i)
+      polygon.push_back(corner[i % 4]);
+    polygon.push_back(piece.unit_ends[to]);
+    return polygon;
+  };
+
+  std::vector<Point<2>> points;
+  std::vector<double> weights;
+  add_polygon(part(0, 1), rule, points, weights);
+  add_polygon(part(1, 0), rule, points, weights);
+  return dealii::Quadrature<2>(points, weights);
+}
+
+template <int dim>
+std::array<double, CrackPiece<dim>::n_corners> corner_functions(const Point<dim> &unit_point)
+{
+  std::array<double, CrackPiece<dim>::n_corners> values;
+  for (unsigned int v = 0; v < values.size(); ++v)
+    values[v] = dealii::GeometryInfo<dim>::d_linear_shape_function(unit_point, v);
+  return values;
+}
+
+template <int dim>
+CutGeometry<dim>
+make_cut_geometry(const dealii::Mapping<dim> &mapping,
+                  const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
+                  const CrackPiece<dim> &piece,
+                  const unsigned int degree)
+{
+  constexpr unsigned int n_corners = CutGeometry<dim>::n_corners;
+
+  const dealii::Quadrature<dim> rule = split_quadrature(piece, degree);
+  const dealii::FE_Q<dim> q1(1);
+  dealii::FEValues<dim> fe_values(mapping, q1, rule,
+                                  dealii::update_values | dealii::update_gradients |
+                                    dealii::update_JxW_values);
+  fe_values.reinit(cell);
+
+  std::array<bool, n_corners> plus;
+  for (unsigned int v = 0; v < n_corners; ++v)
+    plus[v] = piece.plus_side(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
+
+  CutGeometry<dim> geometry;
+  geometry.points = rule.get_points();
+  geometry.weights = fe_values.get_JxW_values();
+  geometry.values.resize(rule.size() * n_corners, 0.);
+  geometry.gradients.resize(rule.size() * n_corners);
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const int here = piece.plus_side(rule.point(q));
+    for (unsigned int v = 0; v < n_corners; ++v)
+      if (const int jump = here - int(plus[v]); jump != 0)
+      {
+        geometry.values[q * n_corners + v] = jump * fe_values.shape_value(v, q);
+        geometry.gradients[q * n_corners + v] = jump * fe_values.shape_grad(v, q);
+      }
+  }
+  return geometry;
+}
+
+template <int dim>
+CutCell<dim> make_cut_cell(const CutGeometry<dim> &geometry,
+                           const std::vector<EnrichedColumn> &columns)
+{
+  constexpr unsigned int n_corners = CutGeometry<dim>::n_corners;
+
+  CutCell<dim> cut;
+  cut.points = geometry.points;
+  cut.weights = geometry.weights;
+  cut.values.reserve(geometry.points.size() * columns.size());
+  cut.gradients.reserve(geometry.points.size() * columns.size());
+  for (const EnrichedColumn &column : columns)
+  {
+    cut.extra.push_back(column.extra);
+    cut.component.push_back(column.component);
+  }
+  for (unsigned int q = 0; q < geometry.points.size(); ++q)
+    for (const EnrichedColumn &column : columns)
+    {
+      cut.values.push_back(geometry.values[q * n_corners + column.corner]);
+      cut.gradients.push_back(geometry.gradients[q * n_corners + column.corner]);
+    }
+  return cut;
+}
+
+template std::array<double, 4> corner_functions(const Point<2> &);
+template CutGeometry<2> make_cut_geometry(const dealii::Mapping<2> &,
+                                          const dealii::Triangulation<2>::active_cell_iterator &,
+                                          const CrackPiece<2> &,
+                                          const unsigned int);
+template CutCell<2> make_cut_cell(const CutGeometry<2> &, const std::vector<EnrichedColumn> &);
+} // namespace stockwork

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/grid/tria.h>
+
+#include "discontinuity/crack_path.h"
+#include "stockwork/fracture/cell_role.h"
+
+#include <vector>
+
+namespace stockwork
+{
+/// Quadrature on both sides of the crack in a cell, and the functions that jump across it there:
+/// for each corner i the shifted enrichment N_i (H - H_i) with the Q1 function N_i and H = 1 on the
+/// plus, 0 on the minus side (Belytschko et al. 2001 with the shift of Zi and Belytschko 2003).
+/// The functions vanish at all corners and on all faces that the crack does not meet, so
+/// neighbouring cells need not know of them.
+template <int dim>
+struct CutGeometry
+{
+  static constexpr unsigned int n_corners = CrackPiece<dim>::n_corners;
+
+  std::vector<dealii::Point<dim>> points;        ///< in unit-cell coordinates
+  std::vector<double> weights;                   ///< times the Jacobian
+  std::vector<double> values;                    ///< [q * n_corners + corner]
+  std::vector<dealii::Tensor<1, dim>> gradients; ///< real space, [q * n_corners + corner]
+};
+
+/// Unknown index, corner and component of one column of a cut cell.
+struct EnrichedColumn
+{
+  unsigned int extra;
+  unsigned int corner;
+  unsigned int component;
+};
+
+/// A quadrature rule on the unit cell that is split by the straight line between two points on
+/// faces of it. Exact for polynomials of total degree 2 degree + 3 on either side; weights sum
+/// to 1.
+dealii::Quadrature<2> split_quadrature(const CrackPiece<2> &piece, const unsigned int degree);
+
+/// Geometry of a cut cell for bulk displacements of polynomial degree @p degree.
+template <int dim>
+CutGeometry<dim>
+make_cut_geometry(const dealii::Mapping<dim> &mapping,
+                  const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
+                  const CrackPiece<dim> &piece,
+                  const unsigned int degree);
+
+/// The cut cell as the bulk sees it.
+template <int dim>
+CutCell<dim> make_cut_cell(const CutGeometry<dim> &geometry,
+                           const std::vector<EnrichedColumn> &columns);
+
+/// Q1 functions of the corners at a point of the unit cell.
+template <int dim>
+std::array<double, CrackPiece<dim>::n_corners>
+corner_functions(const dealii::Point<dim> &unit_point);
+} // namespace stockwork

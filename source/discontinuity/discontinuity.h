@@ -1,0 +1,147 @@
+#pragma once
+
+#include <deal.II/base/array_view.h>
+
+#include "discontinuity/crack_path.h"
+#include "discontinuity/cut_cell.h"
+#include "discontinuity/enrichment.h"
+#include "stockwork/fracture/segment.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace stockwork
+{
+/// The cracks of a body, their unknowns and the cells they cut, kept in step with one another.
+///
+/// Paths and numbering are held by every rank; cut cells by the owner of the cell.
+template <int dim>
+class Discontinuity
+{
+public:
+  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  /// `scale` is the typical size of a jump [m], for the convergence test.
+  Discontinuity(const double domain_size, const double scale);
+
+  /// The mesh is new. Existing cracks keep their cells.
+  /// @throws SolveError if a cut cell is not in the mesh any more
+  void setup(const Discretization<dim> &discretization, const Collectives &collectives);
+
+  /// Replace all cracks by those along the polylines. After setup().
+  void cut(const std::vector<std::vector<dealii::Point<dim>>> &polylines,
+           const Collectives &collectives);
+
+  /// Put back cracks that were taken from paths() on this mesh.
+  void restore(std::vector<CrackPath<dim>> earlier);
+
+  /// Take over cracks from a restart file, before or after setup().
+  void replace(std::vector<CrackPath<dim>> others);
+
+  const std::vector<CrackPath<dim>> &paths() const
+  {
+    return cracks;
+  }
+
+  /// A crack that shall go on by one cell.
+  struct Advance
+  {
+    unsigned int crack;
+    CrackEnd end;
+    dealii::Tensor<1, dim> direction;
+  };
+
+  enum class Outcome : unsigned char
+  {
+    grown,
+    reached_boundary, ///< has grown, and its tip has become a mouth on the domain's boundary
+    reached_crack,    ///< the next cell is cut already
+    needs_mesh        ///< the next cell has another size: the mesh must be refined first
+  };
+
+  /// Let cracks grow, all at once; the same outcomes, in the given order, on every rank.
+  std::vector<Outcome> grow(const std::vector<Advance> &advances, const Collectives &collectives);
+
+  /// A tip does not grow any more.
+  void stop(const unsigned int crack, const CrackEnd end)
+  {
+    cracks[crack].is_tip[static_cast<int>(end)] = false;
+  }
+
+  const Enrichment<dim> &enrichment() const
+  {
+    return unknowns;
+  }
+
+  /// The cut cell with this active cell index, if this rank owns it and it is cut.
+  const CutCell<dim> *cut_cell(const unsigned int active_cell_index) const
+  {
+    return active_cell_index < entry_of_cell.size() && entry_of_cell[active_cell_index] >= 0
+             ? &entries[entry_of_cell[active_cell_index]].cut
+             : nullptr;
+  }
+
+  bool is_cut(const dealii::CellId &cell) const
+  {
+    return piece_of_cell.count(cell) != 0;
+  }
+
+  /// A piece whose cell this rank owns.
+  struct OwnedPiece
+  {
+    unsigned int crack;
+    unsigned int piece;
+    CellIterator cell;
+  };
+
+  std::vector<OwnedPiece> owned_pieces() const;
+
+  /// The pieces of this rank as segments: geometry, neighbours, opening and pore pressure. The
+  /// function gives the in-situ pore pressure.
+  std::vector<Segment<dim>>
+  segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
+
+  double size_of_domain() const
+  {
+    return domain_size;
+  }
+
+private:
+  /// A cut cell of this rank.
+  struct Entry
+  {
+    CellIterator cell;
+    CutGeometry<dim> geometry;
+    std::vector<EnrichedColumn> columns; ///< those that `cut` was made for
+    CutCell<dim> cut;
+  };
+
+  /// Number the unknowns and bring `piece_of_cell` and the columns of the cut cells up to date.
+  void renumber();
+
+  Entry &add_entry(const CellIterator &cell, const CrackPiece<dim> &piece);
+
+  void collect_entries();
+
+  double domain_size;
+  double scale;
+  std::unique_ptr<Discretization<dim>> discretization;
+  std::vector<CrackPath<dim>> cracks;
+  Enrichment<dim> unknowns;
+  std::map<dealii::CellId, std::pair<unsigned, unsigned>> piece_of_cell; ///< crack, piece
+  std::vector<Entry> entries;
+  std::vector<int> entry_of_cell; ///< by active cell index
+};
+
+/// Ask for cells of a size along the cracks, and for some rings of them around each tip.
+/// @param size [m]; zero: that of the cut cells
+/// @param sizes by active cell index [m], lowered where need be
+template <int dim>
+void request_cell_size(const Discretization<dim> &discretization,
+                       const Discontinuity<dim> &discontinuity,
+                       const double size,
+                       const unsigned int rings_ahead,
+                       std::vector<float> &sizes);
+} // namespace stockwork

@@ -1,0 +1,69 @@
+#include "discontinuity/enrichment.h"
+
+#include <unordered_map>
+#include <unordered_set>
+
+namespace stockwork
+{
+namespace
+{
+constexpr unsigned int face_vertices[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+}
+
+template <int dim>
+void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
+                              const double domain_size,
+                              const double scale)
+{
+  all_unknowns.clear();
+  piece_columns.assign(cracks.size(), {});
+  for (unsigned int c = 0; c < cracks.size(); ++c)
+  {
+    const auto &pieces = cracks[c].pieces;
+    const auto vertex_key = [&](const CrackPiece<dim> &piece, const unsigned int corner)
+    { return hash_point(hash_combine(0xa, c), piece.corners[corner], domain_size); };
+
+    std::unordered_set<std::uint64_t> closed;
+    for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+    {
+      const CrackPiece<dim> &piece = cracks[c].piece_at(end);
+      const unsigned int e = static_cast<unsigned int>(end);
+      if (!piece.at_boundary[e])
+        for (const unsigned int corner : face_vertices[piece.faces[e]])
+          closed.insert(vertex_key(piece, corner));
+    }
+
+    std::unordered_map<std::uint64_t, unsigned int> numbers;
+    piece_columns[c].resize(pieces.size());
+    for (unsigned int i = 0; i < pieces.size(); ++i)
+      for (unsigned int v = 0; v < CrackPiece<dim>::n_corners; ++v)
+      {
+        const std::uint64_t key = vertex_key(pieces[i], v);
+        if (closed.count(key) != 0)
+          continue;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!(pieces[i].held[v] & (1u << d)))
+          {
+            const std::uint64_t unknown = hash_combine(key, d);
+            const auto [entry, is_new] = numbers.emplace(unknown, all_unknowns.size());
+            if (is_new)
+              all_unknowns.push_back({unknown, 0., scale});
+            piece_columns[c][i].push_back({entry->second, v, d});
+          }
+      }
+  }
+}
+
+template <int dim>
+JumpShapes<dim>::JumpShapes(const CrackPiece<dim> &piece)
+{
+  const double offset = 0.5 / std::sqrt(3.);
+  for (unsigned int q = 0; q < n_points; ++q)
+    values[q] =
+      corner_functions<dim>(piece.unit_ends[0] + (q == 0 ? 0.5 - offset : 0.5 + offset) *
+                                                   (piece.unit_ends[1] - piece.unit_ends[0]));
+}
+
+template class Enrichment<2>;
+template struct JumpShapes<2>;
+} // namespace stockwork

@@ -1,0 +1,199 @@
+#include "discontinuity/interaction_integral.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <cmath>
+
+namespace stockwork
+{
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+/// Gradient [i][j] = u_i,j of Williams' field for a unit stress intensity, in the frame of the tip.
+Tensor<2, 2> williams_gradient(
+  const bool shear, const double x1, const double x2, const double mu, const double kappa)
+{
+  const double r = std::hypot(x1, x2), theta = std::atan2(x2, x1);
+  const double c = std::cos(0.5 * theta), s = std::sin(0.5 * theta);
+  // u_i = sqrt(r) f_i(theta) / (2 mu sqrt(2 pi))
+  double f[2], df[2];
+  if (!shear)
+  {
+    f[0] = c * (kappa - 1. + 2. * s * s);
+    f[1] = s * (kappa + 1. - 2. * c * c);
+    df[0] = -0.5 * s * (kappa - 1. + 2. * s * s) + 2. * s * c * c;
+    df[1] = 0.5 * c * (kappa + 1. - 2. * c * c) + 2. * s * s * c;
+  }
+  else
+  {
+    f[0] = s * (kappa + 1. + 2. * c * c);
+    f[1] = -c * (kappa - 1. - 2. * s * s);
+    df[0] = 0.5 * c * (kappa + 1. + 2. * c * c) - 2. * s * s * c;
+    df[1] = 0.5 * s * (kappa - 1. - 2. * s * s) + 2. * s * c * c;
+  }
+  const double factor = 1. / (2. * mu * std::sqrt(2. * dealii::numbers::PI * r));
+  Tensor<2, 2> gradient;
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    gradient[i][0] = factor * (0.5 * std::cos(theta) * f[i] - std::sin(theta) * df[i]);
+    gradient[i][1] = factor * (0.5 * std::sin(theta) * f[i] + std::cos(theta) * df[i]);
+  }
+  return gradient;
+}
+
+SymmetricTensor<2, 2>
+hooke(const SymmetricTensor<2, 2> &strain, const double lambda, const double mu)
+{
+  SymmetricTensor<2, 2> stress = 2. * mu * strain;
+  const double mean = lambda * trace(strain);
+  stress[0][0] += mean;
+  stress[1][1] += mean;
+  return stress;
+}
+
+/// Falls smoothly from one to zero between inner and outer radius.
+struct Weight
+{
+  double inner, outer;
+
+  double value(const double r) const
+  {
+    const double s = std::min(std::max((r - inner) / (outer - inner), 0.), 1.);
+    return 1. - s * s * (3. - 2. * s);
+  }
+
+  double slope(const double r) const
+  {
+    const double s = (r - inner) / (outer - inner);
+    return s <= 0. || s >= 1. ? 0. : -6. * s * (1. - s) / (outer - inner);
+  }
+};
+} // namespace
+
+template <int dim>
+StressIntensity stress_intensity(const unsigned int crack,
+                                 const CrackEnd end,
+                                 const double radius,
+                                 const Discretization<dim> &discretization,
+                                 const Discontinuity<dim> &discontinuity,
+                                 const Scene<dim> &scene,
+                                 const State &state,
+                                 const Collectives &collectives)
+{
+  const CrackPath<dim> &path = discontinuity.paths()[crack];
+  const Point<dim> tip = path.tip(end);
+  const Tensor<1, dim> along = path.direction(end);
+  Tensor<1, dim> across;
+  across[0] = -along[1];
+  across[1] = along[0];
+  Tensor<2, dim> frame; // rows: the axes at the tip
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    frame[0][d] = along[d];
+    frame[1][d] = across[d];
+  }
+  const RockProperties &rock = scene.rock.main();
+  const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
+  const double kappa = (lambda + 3. * mu) / (lambda + mu);
+  const Weight weight{0.25 * radius, radius};
+
+  const auto &fe = discretization.dof_handler.get_fe();
+  const dealii::QGauss<dim> gauss(4);
+  const dealii::FEValuesExtractors::Vector displacement(0);
+  const auto flags =
+    dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
+  dealii::FEValues<dim> plain_values(discretization.mapping, fe, gauss, flags);
+
+  std::vector<double> sums(2, 0.);
+  const auto add_points = [&](const dealii::FEValues<dim> &fe_values, const CutCell<dim> *cut)
+  {
+    std::vector<Tensor<2, dim>> gradients(fe_values.n_quadrature_points);
+    fe_values[displacement].get_function_gradients(state.current.bulk, gradients);
+    for (unsigned int q = 0; q < gradients.size(); ++q)
+    {
+      const Tensor<1, dim> x = frame * (fe_values.quadrature_point(q) - tip);
+      const double r = x.norm();
+      if (weight.slope(r) == 0.)
+        continue;
+      Tensor<2, dim> gradient = gradients[q];
+      if (cut != nullptr)
+        for (unsigned int c = 0; c < cut->n_columns(); ++c)
+          gradient[cut->component[c]] +=
+            state.current.extra[cut->extra[c]] * cut->gradients[q * cut->n_columns() + c];
+      gradient = frame * gradient * transpose(frame);
+      const SymmetricTensor<2, dim> stress = hooke(symmetrize(gradient), lambda, mu);
+      const double dA = cut != nullptr ? cut->weights[q] : fe_values.JxW(q);
+      const Tensor<1, dim> dq = weight.slope(r) / r * x;
+      for (unsigned int mode = 0; mode < 2; ++mode)
+      {
+        const Tensor<2, dim> unit = williams_gradient(mode == 1, x[0], x[1], mu, kappa);
+        const SymmetricTensor<2, dim> unit_stress = hooke(symmetrize(unit), lambda, mu);
+        double integrand = -(stress * symmetrize(unit)) * dq[0];
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            integrand += (stress[i][j] * unit[i][0] + unit_stress[i][j] * gradient[i][0]) * dq[j];
+        sums[mode] += integrand * dA;
+      }
+    }
+  };
+
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const auto &low = cell->vertex(0), &high = cell->vertex((1 << dim) - 1);
+      if ((low + 0.5 * (high - low)).distance(tip) > radius + 0.75 * low.distance(high))
+        continue;
+      if (const CutCell<dim> *cut = discontinuity.cut_cell(cell->active_cell_index()))
+      {
+        dealii::FEValues<dim> cut_values(discretization.mapping, fe,
+                                         dealii::Quadrature<dim>(cut->points), flags);
+        cut_values.reinit(cell);
+        add_points(cut_values, cut);
+      }
+      else
+      {
+        plain_values.reinit(cell);
+        add_points(plain_values, nullptr);
+      }
+    }
+  collectives.sum(sums);
+
+  // The loaded faces. [[u^a]],1 = -(kappa+1)/(2 mu sqrt(2 pi r)); with r = s^2 it is smooth.
+  const dealii::QGauss<1> line(4);
+  for (const auto &piece : path.pieces)
+  {
+    const double from = piece.ends[0].distance(tip), to = piece.ends[1].distance(tip);
+    if (std::min(from, to) >= radius)
+      continue;
+    const double pressure =
+      state.segment_pressure ? state.segment_pressure(piece.key(scene.domain_size)) : 0.;
+    const Tensor<1, dim> load =
+      -1. * (frame * (pressure * across + scene.in_situ_stress(piece.centre()) * across));
+    const double a = std::sqrt(std::min(from, to)), b = std::sqrt(std::max(from, to));
+    double integral = 0.;
+    for (unsigned int q = 0; q < line.size(); ++q)
+    {
+      const double s = a + (b - a) * line.point(q)[0];
+      integral += weight.value(s * s) * 2. * (b - a) * line.weight(q);
+    }
+    integral *= -(kappa + 1.) / (2. * mu * std::sqrt(2. * dealii::numbers::PI));
+    sums[0] += load[1] * integral;
+    sums[1] += load[0] * integral;
+  }
+  const double factor = 0.5 * rock.plane_modulus();
+  return {factor * sums[0], factor * sums[1]};
+}
+
+template StressIntensity stress_intensity(const unsigned int,
+                                          const CrackEnd,
+                                          const double,
+                                          const Discretization<2> &,
+                                          const Discontinuity<2> &,
+                                          const Scene<2> &,
+                                          const State &,
+                                          const Collectives &);
+} // namespace stockwork

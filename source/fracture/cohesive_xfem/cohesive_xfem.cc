@@ -1,0 +1,494 @@
+#include "fracture/cohesive_xfem/cohesive_xfem.h"
+
+#include <deal.II/dofs/dof_accessor.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/unordered_map.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include "fracture/cohesive_xfem/tip_stress.h"
+#include "stockwork/base/error.h"
+#include "stockwork/fracture/registry.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace stockwork::cohesive_xfem
+{
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+/// Unit vector in the direction of v, its angle rounded to 1e-6, so that the noise of a solver
+/// neither tilts a crack nor tells numbers of ranks apart.
+Tensor<1, 2> rounded_direction(const Tensor<1, 2> &v)
+{
+  const double grid = 1e-6;
+  const double angle = std::round(std::atan2(v[1], v[0]) / grid) * grid;
+  Tensor<1, 2> t;
+  t[0] = std::cos(angle);
+  t[1] = std::sin(angle);
+  // Rounding leaves 1e-7 of a right angle; along the axes a crack shall be exactly straight.
+  for (unsigned int d = 0; d < 2; ++d)
+    if (std::abs(t[d]) < grid)
+    {
+      t[d] = 0.;
+      t[1 - d] = t[1 - d] > 0. ? 1. : -1.;
+    }
+  return t;
+}
+
+CohesiveLaw
+make_law(const Parameters &parameters, const RockProperties &rock, const double strength)
+{
+  const double shear_energy = std::isnan(rock.shear_energy_release_rate)
+                                ? rock.energy_release_rate
+                                : rock.shear_energy_release_rate;
+  return CohesiveLaw::with_elastic_share(strength, parameters.shear_strength_ratio * strength,
+                                         rock.energy_release_rate, shear_energy,
+                                         parameters.mode_exponent, parameters.elastic_share);
+}
+} // namespace
+
+template <int dim>
+CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &scene)
+  : parameters(parameters)
+  , scene(scene)
+  , discontinuity(scene.domain_size, 1.)
+{
+  const RockProperties &rock = scene.rock.main();
+  if (!(rock.energy_release_rate > 0.))
+    throw InputError("The cohesive crack model needs the rock's energy release rate G_c "
+                     "(Rock / Energy release rate).");
+  if (scene.cracks.empty())
+    throw InputError("The cohesive crack model needs an initial crack or notch to grow from.");
+  // Until the cell size is known, any positive strength will do.
+  law = make_law(parameters, rock, std::isnan(rock.tensile_strength) ? 1. : rock.tensile_strength);
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::setup(const Discretization<dim> &d, const Collectives &collectives)
+{
+  discretization = std::make_unique<Discretization<dim>>(d);
+  discontinuity.setup(d, collectives);
+  if (!started)
+    start(collectives);
+  advances.assign(discontinuity.paths().size(), {{0, 0}});
+  refresh_segments();
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::start(const Collectives &collectives)
+{
+  std::vector<std::vector<Point<dim>>> polylines;
+  for (const auto &crack : scene.cracks)
+    polylines.push_back(crack.points);
+  discontinuity.cut(polylines, collectives);
+
+  messages.clear();
+  double size = 0.;
+  for (const auto &path : discontinuity.paths())
+    for (const auto &piece : path.pieces)
+      size = std::max(size, piece.cell_size());
+
+  const RockProperties &rock = scene.rock.main();
+  double strength = rock.tensile_strength;
+  std::ostringstream message;
+  if (std::isnan(strength))
+  {
+    strength = std::sqrt(rock.plane_modulus() * rock.energy_release_rate / (4. * size));
+    message << "Tensile strength: " << strength
+            << " Pa, chosen so that the cohesive length is four "
+            << "cells of " << size << " m.";
+    messages.push_back(message.str());
+  }
+  else if (const double length =
+             rock.plane_modulus() * rock.energy_release_rate / (strength * strength);
+           size > 0.25 * length * (1. + 1e-6))
+  {
+    message << "The cohesive length E'G_c/T^2 = " << length << " m is not resolved by cells of "
+            << size << " m; pressure and width will be too large. Use cells of at most "
+            << 0.25 * length << " m, or a lower tensile strength.";
+    messages.push_back(message.str());
+  }
+  law = make_law(parameters, rock, strength);
+
+  committed_damage.clear();
+  initial_pressure.clear();
+  for (unsigned int c = 0; c < scene.cracks.size(); ++c)
+    for (const auto &piece : discontinuity.paths()[c].pieces)
+    {
+      const std::uint64_t key = piece.key(scene.domain_size);
+      PointDamage d;
+      d.fill(scene.cracks[c].kind == InitialCrack<dim>::Kind::open ? 1. : 0.);
+      committed_damage[key] = d;
+      // The pressure at which the crack begins to open.
+      const auto n = piece.normal();
+      initial_pressure[key] = std::max(0., -(n * (scene.in_situ_stress(piece.centre()) * n)));
+    }
+  committed_paths = discontinuity.paths();
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::refresh_segments()
+{
+  all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
+  for (Segment<dim> &segment : all_segments)
+  {
+    segment.given_pressure = scene.crack_pressure;
+    if (const auto found = initial_pressure.find(segment.key); found != initial_pressure.end())
+      segment.initial_pressure = found->second;
+  }
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::begin_step(const StepContext &)
+{
+  advances.assign(discontinuity.paths().size(), {{0, 0}});
+}
+
+
+template <int dim>
+std::vector<ExtraUnknown> CohesiveXFEM<dim>::extra_unknowns() const
+{
+  std::vector<ExtraUnknown> all = discontinuity.enrichment().unknowns();
+  for (ExtraUnknown &unknown : all)
+    unknown.scale = law.critical_opening();
+  return all;
+}
+
+
+template <int dim>
+dealii::ArrayView<const Segment<dim>> CohesiveXFEM<dim>::segments() const
+{
+  return dealii::make_array_view(all_segments);
+}
+
+
+template <int dim>
+CellRole<dim> CohesiveXFEM<dim>::role(const CellIterator &cell) const
+{
+  return {discontinuity.cut_cell(cell->active_cell_index()), nullptr};
+}
+
+
+template <int dim>
+typename CohesiveXFEM<dim>::PointDamage
+CohesiveXFEM<dim>::damage(const CrackPiece<dim> &piece) const
+{
+  const auto found = committed_damage.find(piece.key(scene.domain_size));
+  return found == committed_damage.end() ? PointDamage{} : found->second;
+}
+
+
+template <int dim>
+NormalShear CohesiveXFEM<dim>::separation(const CrackPiece<dim> &piece,
+                                          const JumpShapes<dim> &shapes,
+                                          const unsigned int point,
+                                          const std::vector<EnrichedColumn> &columns,
+                                          const std::vector<double> &a) const
+{
+  const Tensor<1, dim> jump = shapes.jump(point, columns, a);
+  return {jump * piece.normal(), jump * piece.tangent()};
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
+{
+  LocalSystem local;
+  for (const auto &owned : discontinuity.owned_pieces())
+  {
+    const CrackPiece<dim> &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
+    const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
+    if (columns.empty())
+      continue;
+    const JumpShapes<dim> shapes(piece);
+    const PointDamage history = damage(piece);
+    const Tensor<1, dim> n = piece.normal(), t = piece.tangent();
+    const Tensor<1, dim> in_situ = scene.in_situ_stress(piece.centre()) * n;
+    const double weight = piece.length() / n_points;
+
+    local.extra.clear();
+    for (const EnrichedColumn &column : columns)
+      local.extra.push_back(column.extra);
+    local.reinit();
+    for (unsigned int q = 0; q < n_points; ++q)
+    {
+      const CohesiveResponse response =
+        law.evaluate(separation(piece, shapes, q, columns, state.current.extra), history[q]);
+      // The traction that the crack changes: what was there before is taken away.
+      const Tensor<1, dim> traction =
+        response.traction.normal * n + response.traction.shear * t - in_situ;
+      const auto &k = response.tangent;
+      for (unsigned int i = 0; i < columns.size(); ++i)
+      {
+        const double shape_i = shapes.values[q][columns[i].corner] * weight;
+        const unsigned int di = columns[i].component;
+        local.residual(i) += shape_i * traction[di];
+        if (sink.wants_matrix())
+          for (unsigned int j = 0; j < columns.size(); ++j)
+          {
+            const unsigned int dj = columns[j].component;
+            local.matrix(i, j) += shape_i * shapes.values[q][columns[j].corner] *
+                                  (n[di] * (k[0][0] * n[dj] + k[0][1] * t[dj]) +
+                                   t[di] * (k[1][0] * n[dj] + k[1][1] * t[dj]));
+          }
+      }
+    }
+    sink.add(local);
+  }
+}
+
+
+template <int dim>
+Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
+                                   const State &state,
+                                   const Collectives &collectives)
+{
+  using Advance = typename Discontinuity<dim>::Advance;
+  using Outcome = typename Discontinuity<dim>::Outcome;
+
+  const RockProperties &rock = scene.rock.main();
+  const double cohesive_length =
+    rock.plane_modulus() * rock.energy_release_rate / (law.strength * law.strength);
+
+  Verdict verdict;
+  std::vector<Advance> tips;
+  std::vector<HalfDisc<dim>> discs;
+  bool held_back = false;
+  if (parameters.growth)
+    for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+      for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+      {
+        const CrackPath<dim> &path = discontinuity.paths()[c];
+        if (!path.is_tip[static_cast<int>(end)])
+          continue;
+        const double h = path.piece_at(end).cell_size();
+        const double radius =
+          std::min(parameters.averaging_radius * h, std::max(0.5 * cohesive_length, 1.2 * h));
+        tips.push_back({c, end, path.direction(end)});
+        discs.push_back({path.tip(end), path.direction(end), radius});
+      }
+
+  const auto stresses =
+    average_stress(discs, *discretization, discontinuity, scene, state, collectives);
+  std::vector<Advance> growing;
+  std::vector<double> pressures;
+  for (unsigned int i = 0; i < tips.size(); ++i)
+  {
+    const CrackPiece<dim> &last = discontinuity.paths()[tips[i].crack].piece_at(tips[i].end);
+    const double pressure =
+      state.segment_pressure ? state.segment_pressure(last.key(scene.domain_size)) : 0.;
+    const auto principal = dealii::eigenvectors(stresses[i]);
+    const double drive = principal[0].first + pressure;
+    if (drive < law.strength * (1. - 1e-6))
+      continue;
+    if (advances[tips[i].crack][static_cast<int>(tips[i].end)] >= parameters.most_advances)
+    {
+      held_back = true;
+      continue;
+    }
+    // Orthogonal to the largest tension, forward.
+    Tensor<1, dim> direction;
+    direction[0] = -principal[0].second[1];
+    direction[1] = principal[0].second[0];
+    if (direction * tips[i].direction < 0.)
+      direction *= -1.;
+    tips[i].direction = rounded_direction(direction);
+    growing.push_back(tips[i]);
+    pressures.push_back(pressure);
+  }
+
+  bool grown = false, needs_mesh = false;
+  if (!growing.empty())
+  {
+    const auto outcomes = discontinuity.grow(growing, collectives);
+    for (unsigned int i = 0; i < growing.size(); ++i)
+    {
+      const unsigned int crack = growing[i].crack, end = static_cast<unsigned int>(growing[i].end);
+      const auto &path = discontinuity.paths()[crack];
+      std::ostringstream where;
+      where << "Crack " << crack + 1 << " at (" << path.tip(growing[i].end) << ") ";
+      if (outcomes[i] == Outcome::grown || outcomes[i] == Outcome::reached_boundary)
+      {
+        grown = true;
+        ++advances[crack][end];
+        initial_pressure[path.piece_at(growing[i].end).key(scene.domain_size)] = pressures[i];
+      }
+      if (outcomes[i] == Outcome::reached_boundary)
+        messages.push_back(where.str() + "has reached the boundary of the domain.");
+      if (outcomes[i] == Outcome::reached_crack)
+      {
+        discontinuity.stop(crack, growing[i].end);
+        messages.push_back(where.str() + "has met another crack and stops: crossing and "
+                                         "branching cracks are not supported.");
+      }
+      needs_mesh |= outcomes[i] == Outcome::needs_mesh;
+    }
+    refresh_segments();
+  }
+
+  if (grown)
+  {
+    verdict.kind = Verdict::Kind::topology_changed;
+    return verdict;
+  }
+  unsigned int most = 0;
+  for (const auto &ends : advances)
+    most = std::max({most, ends[0], ends[1]});
+  verdict.dt_limit = context.dt * (held_back || needs_mesh ? 0.5
+                                   : most > 1              ? 0.7
+                                   : most == 1             ? 1.
+                                                           : 1.3);
+  if (held_back)
+    verdict.reason = "a tip wants to advance by more than " +
+                     std::to_string(parameters.most_advances) + " cells in a step";
+  if (needs_mesh)
+    verdict.reason = "a tip waits for the mesh to be refined ahead of it";
+  return verdict;
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
+{
+  started = true;
+  for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+    for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
+    {
+      const CrackPiece<dim> &piece = discontinuity.paths()[c].pieces[i];
+      const auto &columns = discontinuity.enrichment().columns(c, i);
+      const JumpShapes<dim> shapes(piece);
+      const PointDamage old = damage(piece);
+      PointDamage now = old;
+      for (unsigned int q = 0; q < n_points; ++q)
+        if (old[q] < 1.)
+        {
+          const NormalShear gap = separation(piece, shapes, q, columns, state.current.extra);
+          now[q] = law.evaluate(gap, old[q]).damage;
+          dissipated += piece.length() / n_points *
+                        (law.dissipation(gap, now[q]) - law.dissipation(gap, old[q]));
+        }
+      committed_damage[piece.key(scene.domain_size)] = now;
+    }
+  committed_paths = discontinuity.paths();
+  initial_pressure.clear();
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::rollback()
+{
+  discontinuity.restore(committed_paths);
+  begin_step({});
+  refresh_segments();
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::wanted_cell_size(std::vector<float> &sizes) const
+{
+  request_cell_size(*discretization, discontinuity, parameters.cell_size, parameters.rings_ahead,
+                    sizes);
+}
+
+
+template <int dim>
+std::vector<std::string> CohesiveXFEM<dim>::take_messages()
+{
+  std::vector<std::string> taken;
+  taken.swap(messages);
+  return taken;
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::save(boost::archive::binary_oarchive &archive) const
+{
+  archive << committed_paths << committed_damage << dissipated << started << law.strength;
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
+{
+  double strength;
+  archive >> committed_paths >> committed_damage >> dissipated >> started >> strength;
+  law = make_law(parameters, scene.rock.main(), strength);
+  initial_pressure.clear();
+  discontinuity.replace(committed_paths);
+  if (discretization)
+  {
+    begin_step({});
+    refresh_segments();
+  }
+}
+
+
+template <int dim>
+FractureSummary CohesiveXFEM<dim>::summary(const State &, const Collectives &) const
+{
+  FractureSummary result;
+  for (const auto &path : discontinuity.paths())
+  {
+    result.length += path.length();
+    result.n_tips += path.is_tip[0] + path.is_tip[1];
+    for (const auto &piece : path.pieces)
+      for (const double d : damage(piece))
+        if (d >= 1.)
+          result.broken_length += piece.length() / n_points;
+  }
+  result.dissipated_energy = dissipated;
+  return result;
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
+{
+  for (const auto &owned : discontinuity.owned_pieces())
+  {
+    const CrackPiece<dim> &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
+    const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
+    const JumpShapes<dim> shapes(piece);
+    const PointDamage d = damage(piece);
+    double aperture = 0., shear = 0., mean_damage = 0.;
+    for (unsigned int q = 0; q < n_points; ++q)
+    {
+      const NormalShear gap = separation(piece, shapes, q, columns, state.current.extra);
+      aperture += gap.normal / n_points;
+      shear += gap.shear / n_points;
+      mean_damage += d[q] / n_points;
+    }
+    std::vector<std::pair<std::string, double>> values{{"aperture", aperture},
+                                                       {"slip", shear},
+                                                       {"damage", mean_damage},
+                                                       {"crack", owned.crack + 1.}};
+    if (state.segment_pressure)
+      values.emplace_back("fluid_pressure", state.segment_pressure(piece.key(scene.domain_size)));
+    sink.add_fracture_piece({piece.ends[0], piece.ends[1]}, values);
+  }
+}
+
+template class CohesiveXFEM<2>;
+
+
+void register_model(FractureModelRegistry &registry);
+
+void register_model(FractureModelRegistry &registry)
+{
+  FractureModelEntry entry;
+  entry.description = "Cohesive cracks that cut through cells (extended finite elements).";
+  entry.declare_parameters = Parameters::declare;
+  entry.create_2d = [](dealii::ParameterHandler &prm, const Scene<2> &scene)
+  { return std::make_unique<CohesiveXFEM<2>>(Parameters::parse(prm), scene); };
+  registry.add("cohesive_xfem", entry);
+}
+} // namespace stockwork::cohesive_xfem

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "discontinuity/discontinuity.h"
+#include "fracture/cohesive_xfem/law.h"
+#include "fracture/cohesive_xfem/parameters.h"
+#include "stockwork/fracture/model.h"
+
+#include <array>
+#include <unordered_map>
+
+namespace stockwork::cohesive_xfem
+{
+/// Cracks that cut through cells, held together by cohesive tractions; a tip advances by whole
+/// cells where the averaged total stress ahead of it plus its fluid pressure exceeds the tensile
+/// strength. After Wang (2016), with the criterion corrected; see README.md.
+template <int dim>
+class CohesiveXFEM : public FractureModel<dim>
+{
+public:
+  using typename FractureModel<dim>::CellIterator;
+
+  CohesiveXFEM(const Parameters &parameters, const Scene<dim> &scene);
+
+  void setup(const Discretization<dim> &discretization, const Collectives &collectives) override;
+
+  void begin_step(const StepContext &context) override;
+
+  std::vector<ExtraUnknown> extra_unknowns() const override;
+
+  dealii::ArrayView<const Segment<dim>> segments() const override;
+
+  CellRole<dim> role(const CellIterator &cell) const override;
+
+  void assemble(const StepContext &context, const State &state, Sink &sink) const override;
+
+  Verdict
+  advance(const StepContext &context, const State &state, const Collectives &collectives) override;
+
+  void commit(const StepContext &context, const State &state) override;
+
+  void rollback() override;
+
+  void wanted_cell_size(std::vector<float> &sizes) const override;
+
+  std::vector<std::string> take_messages() override;
+
+  void save(boost::archive::binary_oarchive &archive) const override;
+
+  void load(boost::archive::binary_iarchive &archive) override;
+
+  FractureSummary summary(const State &state, const Collectives &collectives) const override;
+
+  void write_fields(const State &state, FieldSink<dim> &sink) const override;
+
+private:
+  static constexpr unsigned int n_points = JumpShapes<dim>::n_points;
+  using PointDamage = std::array<double, n_points>;
+
+  /// Cut the initial cracks, choose the strength if it is not given, and say what is coarse.
+  void start(const Collectives &collectives);
+
+  void refresh_segments();
+
+  /// Committed damage of a piece; zero for a new one.
+  PointDamage damage(const CrackPiece<dim> &piece) const;
+
+  /// Separation of the faces in the frame of the piece.
+  NormalShear separation(const CrackPiece<dim> &piece,
+                         const JumpShapes<dim> &shapes,
+                         const unsigned int point,
+                         const std::vector<EnrichedColumn> &columns,
+                         const std::vector<double> &a) const;
+
+  Parameters parameters;
+  const Scene<dim> &scene;
+  CohesiveLaw law;
+  Discontinuity<dim> discontinuity;
+  std::unique_ptr<Discretization<dim>> discretization;
+  std::vector<Segment<dim>> all_segments;
+  std::vector<std::string> messages;
+
+  // History, the same on all ranks, by key of the piece.
+  std::unordered_map<std::uint64_t, PointDamage> committed_damage;
+  std::vector<CrackPath<dim>> committed_paths;
+  double dissipated = 0.; ///< [J/m]
+  bool started = false;   ///< a step has been accepted
+
+  // Of the current step.
+  std::vector<std::array<unsigned int, 2>> advances; ///< cells, by crack and end
+  std::unordered_map<std::uint64_t, double> initial_pressure;
+};
+} // namespace stockwork::cohesive_xfem

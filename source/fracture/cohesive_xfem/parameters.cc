@@ -1,0 +1,45 @@
+#include "fracture/cohesive_xfem/parameters.h"
+
+#include "stockwork/base/quantity.h"
+
+namespace stockwork::cohesive_xfem
+{
+void Parameters::declare(dealii::ParameterHandler &prm)
+{
+  const auto number = [&](const char *name, const char *value, const Range &range, const char *text)
+  { prm.declare_entry(name, value, Quantity(dimension::number, range), text); };
+  number("Shear strength ratio", "1", Range::positive(),
+         "Shear strength over the rock's tensile strength.");
+  number("Mixed-mode exponent", "2", Range::positive(),
+         "Exponent of the fracture energy between opening and shear (Benzeggagh and Kenane).");
+  number("Elastic share", "0.01", Range::open(0., 1.),
+         "Opening at which the strength is reached, as a share of the opening at which no traction "
+         "is left. Results change by less than 1 % below 0.01.");
+  number("Averaging radius", "1.5", Range::closed(1., 6.),
+         "Radius, in cells, over which the stress ahead of a tip is averaged; never more than half "
+         "the cohesive length if that is resolved.");
+  prm.declare_entry("Most advances per step", "4", dealii::Patterns::Integer(1),
+                    "Cells by which a tip may advance within a time step.");
+  prm.declare_entry(
+    "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
+    "Wanted size of the cells along the crack and ahead of its tips [m]; zero: that "
+    "of the given mesh.");
+  prm.declare_entry("Rings ahead", "8", dealii::Patterns::Integer(1),
+                    "Cells of this size kept ready around a tip.");
+  prm.declare_entry("Growth", "true", dealii::Patterns::Bool(), "Whether cracks may grow.");
+}
+
+Parameters Parameters::parse(dealii::ParameterHandler &prm)
+{
+  Parameters p;
+  p.shear_strength_ratio = get_quantity(prm, "Shear strength ratio", dimension::number);
+  p.mode_exponent = get_quantity(prm, "Mixed-mode exponent", dimension::number);
+  p.elastic_share = get_quantity(prm, "Elastic share", dimension::number);
+  p.averaging_radius = get_quantity(prm, "Averaging radius", dimension::number);
+  p.most_advances = prm.get_integer("Most advances per step");
+  p.cell_size = get_quantity(prm, "Cell size", dimension::length);
+  p.rings_ahead = prm.get_integer("Rings ahead");
+  p.growth = prm.get_bool("Growth");
+  return p;
+}
+} // namespace stockwork::cohesive_xfem

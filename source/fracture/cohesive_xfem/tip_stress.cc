@@ -1,0 +1,93 @@
+#include "fracture/cohesive_xfem/tip_stress.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+namespace stockwork::cohesive_xfem
+{
+using dealii::SymmetricTensor;
+
+template <int dim>
+std::vector<SymmetricTensor<2, dim>> average_stress(const std::vector<HalfDisc<dim>> &discs,
+                                                    const Discretization<dim> &discretization,
+                                                    const Discontinuity<dim> &discontinuity,
+                                                    const Scene<dim> &scene,
+                                                    const State &state,
+                                                    const Collectives &collectives)
+{
+  constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
+  constexpr unsigned int stride = n_components + 1;
+
+  const auto &fe = discretization.dof_handler.get_fe();
+  const dealii::QGauss<dim> quadrature(3);
+  dealii::FEValues<dim> fe_values(discretization.mapping, fe, quadrature,
+                                  dealii::update_values | dealii::update_gradients |
+                                    dealii::update_quadrature_points | dealii::update_JxW_values);
+  const dealii::FEValuesExtractors::Vector displacement(0);
+  const dealii::FEValuesExtractors::Scalar pore_pressure(dim);
+  std::vector<SymmetricTensor<2, dim>> strains(quadrature.size());
+  std::vector<double> pressures(quadrature.size(), 0.);
+
+  // Weighted sum of the stress and sum of the weights, disc by disc.
+  std::vector<double> sums(discs.size() * stride, 0.);
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned() || discontinuity.cut_cell(cell->active_cell_index()) != nullptr)
+      continue;
+    const auto &low = cell->vertex(0), &high = cell->vertex((1 << dim) - 1);
+    const auto middle = low + 0.5 * (high - low);
+    const double reach = 0.75 * low.distance(high);
+    bool evaluated = false;
+    for (unsigned int i = 0; i < discs.size(); ++i)
+    {
+      const HalfDisc<dim> &disc = discs[i];
+      if (middle.distance(disc.centre) > disc.radius + reach)
+        continue;
+      if (!evaluated)
+      {
+        fe_values.reinit(cell);
+        fe_values[displacement].get_function_symmetric_gradients(state.current.bulk, strains);
+        if (discretization.has_pore_pressure)
+          fe_values[pore_pressure].get_function_values(state.current.bulk, pressures);
+        evaluated = true;
+      }
+      const RockProperties &rock = scene.rock(cell->material_id());
+      const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+      {
+        const auto x = fe_values.quadrature_point(q);
+        const auto r = x - disc.centre;
+        const double distance = r.norm();
+        if (distance > disc.radius || r * disc.direction <= 0.)
+          continue;
+        const double ratio = distance / disc.radius;
+        const double weight = std::exp(-4. * ratio * ratio) * fe_values.JxW(q);
+        SymmetricTensor<2, dim> stress = scene.in_situ_stress(x) + 2. * mu * strains[q];
+        const double isotropic = lambda * trace(strains[q]) - rock.biot_coefficient * pressures[q];
+        for (unsigned int d = 0; d < dim; ++d)
+          stress[d][d] += isotropic;
+        for (unsigned int k = 0; k < n_components; ++k)
+          sums[i * stride + k] += weight * stress.access_raw_entry(k);
+        sums[i * stride + n_components] += weight;
+      }
+    }
+  }
+  collectives.sum(sums);
+
+  std::vector<SymmetricTensor<2, dim>> averages(discs.size());
+  for (unsigned int i = 0; i < discs.size(); ++i)
+    if (const double weight = sums[i * stride + n_components]; weight > 0.)
+      for (unsigned int k = 0; k < n_components; ++k)
+        averages[i].access_raw_entry(k) = sums[i * stride + k] / weight;
+    else
+      averages[i] = scene.in_situ_stress(discs[i].centre); // nothing but cut cells ahead
+  return averages;
+}
+
+template std::vector<SymmetricTensor<2, 2>> average_stress(const std::vector<HalfDisc<2>> &,
+                                                           const Discretization<2> &,
+                                                           const Discontinuity<2> &,
+                                                           const Scene<2> &,
+                                                           const State &,
+                                                           const Collectives &);
+} // namespace stockwork::cohesive_xfem

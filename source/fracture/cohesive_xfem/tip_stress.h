@@ -1,0 +1,32 @@
+#pragma once
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include "discontinuity/discontinuity.h"
+#include "stockwork/fracture/scene.h"
+#include "stockwork/fracture/state.h"
+
+#include <vector>
+
+namespace stockwork::cohesive_xfem
+{
+/// A half disc ahead of a crack tip.
+template <int dim>
+struct HalfDisc
+{
+  dealii::Point<dim> centre;
+  dealii::Tensor<1, dim> direction; ///< unit
+  double radius;
+};
+
+/// Total stress, tension positive, averaged over the uncut cells in each half disc with the weight
+/// exp(-4 r^2/R^2) (Wells and Sluys 2001). The same on all ranks.
+template <int dim>
+std::vector<dealii::SymmetricTensor<2, dim>>
+average_stress(const std::vector<HalfDisc<dim>> &discs,
+               const Discretization<dim> &discretization,
+               const Discontinuity<dim> &discontinuity,
+               const Scene<dim> &scene,
+               const State &state,
+               const Collectives &collectives);
+} // namespace stockwork::cohesive_xfem

@@ -1,0 +1,167 @@
+#include <deal.II/dofs/dof_accessor.h>
+
+#include "discontinuity/discontinuity.h"
+#include "discontinuity/interaction_integral.h"
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+#include "stockwork/fracture/registry.h"
+
+namespace stockwork::prescribed
+{
+using dealii::Point;
+using dealii::Tensor;
+
+/// Given cracks that neither grow nor resist opening: their faces carry the fluid's pressure and
+/// nothing else. The problem is linear, and faces may overlap where the load closes them.
+template <int dim>
+class Prescribed : public FractureModel<dim>
+{
+public:
+  using typename FractureModel<dim>::CellIterator;
+
+  Prescribed(dealii::ParameterHandler &prm, const Scene<dim> &scene)
+    : scene(scene)
+    , radius(get_quantity(prm, "Integral radius", dimension::number))
+    , cell_size(get_quantity(prm, "Cell size", dimension::length))
+    , discontinuity(scene.domain_size, 1.)
+  {
+    if (scene.cracks.empty())
+      throw InputError("The model 'prescribed' needs at least one crack (subsection Cracks).");
+  }
+
+  static void declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Integral radius", "8", Quantity(dimension::number, Range::closed(2., 1000.)),
+                      "Radius of the disc that stress intensity is computed from, in cells; never "
+                      "more than 0.4 of the crack.");
+    prm.declare_entry(
+      "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
+      "Wanted size of the cells along the crack [m]; zero: that of the given mesh.");
+  }
+
+  void setup(const Discretization<dim> &d, const Collectives &collectives) override
+  {
+    discretization = std::make_unique<Discretization<dim>>(d);
+    discontinuity.setup(d, collectives);
+    std::vector<std::vector<Point<dim>>> polylines;
+    for (const auto &crack : scene.cracks)
+      polylines.push_back(crack.points);
+    discontinuity.cut(polylines, collectives);
+
+    all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
+    for (Segment<dim> &segment : all_segments)
+    {
+      const auto &n = segment.normal;
+      segment.given_pressure = scene.crack_pressure;
+      segment.initial_pressure = std::max(0., -(n * (scene.in_situ_stress(segment.centre) * n)));
+    }
+  }
+
+  std::vector<ExtraUnknown> extra_unknowns() const override
+  {
+    return discontinuity.enrichment().unknowns();
+  }
+
+  dealii::ArrayView<const Segment<dim>> segments() const override
+  {
+    return dealii::make_array_view(all_segments);
+  }
+
+  CellRole<dim> role(const CellIterator &cell) const override
+  {
+    return {discontinuity.cut_cell(cell->active_cell_index()), nullptr};
+  }
+
+  /// The crack releases the in-situ traction of its faces.
+  void assemble(const StepContext &, const State &, Sink &sink) const override
+  {
+    LocalSystem local;
+    for (const auto &owned : discontinuity.owned_pieces())
+    {
+      const auto &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
+      const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
+      if (columns.empty())
+        continue;
+      const JumpShapes<dim> shapes(piece);
+      const Tensor<1, dim> traction = scene.in_situ_stress(piece.centre()) * piece.normal();
+      local.extra.clear();
+      for (const EnrichedColumn &column : columns)
+        local.extra.push_back(column.extra);
+      local.reinit();
+      for (unsigned int i = 0; i < columns.size(); ++i)
+        local.residual(i) =
+          -piece.length() * shapes.mean(columns[i].corner) * traction[columns[i].component];
+      sink.add(local);
+    }
+  }
+
+  void wanted_cell_size(std::vector<float> &sizes) const override
+  {
+    request_cell_size(*discretization, discontinuity, cell_size, 4, sizes);
+  }
+
+  FractureSummary summary(const State &state, const Collectives &collectives) const override
+  {
+    FractureSummary result;
+    for (const auto &path : discontinuity.paths())
+    {
+      result.length += path.length();
+      result.n_tips += path.is_tip[0] + path.is_tip[1];
+    }
+    result.broken_length = result.length;
+
+    const CrackPath<dim> &first = discontinuity.paths().front();
+    for (const CrackEnd end : {CrackEnd::last, CrackEnd::first})
+      if (first.is_tip[static_cast<int>(end)])
+      {
+        const double r = std::min(radius * first.piece_at(end).cell_size(), 0.4 * first.length());
+        const StressIntensity k =
+          stress_intensity(0, end, r, *discretization, discontinuity, scene, state, collectives);
+        result.stress_intensity_I = k.opening;
+        result.stress_intensity_II = k.shear;
+        break;
+      }
+    return result;
+  }
+
+  void write_fields(const State &state, FieldSink<dim> &sink) const override
+  {
+    for (const auto &owned : discontinuity.owned_pieces())
+    {
+      const auto &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
+      const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
+      const JumpShapes<dim> shapes(piece);
+      const Tensor<1, dim> jump = 0.5 * (shapes.jump(0, columns, state.current.extra) +
+                                         shapes.jump(1, columns, state.current.extra));
+      std::vector<std::pair<std::string, double>> values{{"aperture", jump * piece.normal()},
+                                                         {"slip", jump * piece.tangent()},
+                                                         {"damage", 1.},
+                                                         {"crack", owned.crack + 1.}};
+      if (state.segment_pressure)
+        values.emplace_back("fluid_pressure", state.segment_pressure(piece.key(scene.domain_size)));
+      sink.add_fracture_piece({piece.ends[0], piece.ends[1]}, values);
+    }
+  }
+
+private:
+  const Scene<dim> &scene;
+  double radius;
+  double cell_size;
+  Discontinuity<dim> discontinuity;
+  std::unique_ptr<Discretization<dim>> discretization;
+  std::vector<Segment<dim>> all_segments;
+};
+
+
+void register_model(FractureModelRegistry &registry);
+
+void register_model(FractureModelRegistry &registry)
+{
+  FractureModelEntry entry;
+  entry.description = "Given cracks that do not grow, under given or computed fluid pressure.";
+  entry.declare_parameters = Prescribed<2>::declare_parameters;
+  entry.create_2d = [](dealii::ParameterHandler &prm, const Scene<2> &scene)
+  { return std::make_unique<Prescribed<2>>(prm, scene); };
+  registry.add("prescribed", entry);
+}
+} // namespace stockwork::prescribed
