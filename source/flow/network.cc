@@ -89,12 +89,12 @@ void Network<dim>::set_fluid(const double viscosity,
 
 
 template <int dim>
-void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim> > &segments,
+void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &segments,
                                 const Collectives &collectives)
 {
   owned.assign(segments.begin(), segments.end());
 
-  std::vector<NetworkSegment<dim> > mine;
+  std::vector<NetworkSegment<dim>> mine;
   for (const Segment<dim> &segment : owned)
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
                     segment.given_pressure, segment.initial_pressure, collectives.rank(),
@@ -247,6 +247,19 @@ std::vector<double> Network<dim>::pressures(const Unknowns &unknowns) const
 
 
 template <int dim>
+double Network<dim>::pressure(const std::uint64_t key, const Unknowns &unknowns) const
+{
+  const auto segment =
+    std::lower_bound(network.begin(), network.end(), key,
+                     [](const auto &a, const std::uint64_t k) { return a.key < k; });
+  if (segment == network.end() || segment->key != key)
+    return 0.;
+  const unsigned int row = rows[segment - network.begin()];
+  return row == no_row ? segment->given_pressure : unknowns.extra[row];
+}
+
+
+template <int dim>
 typename Network<dim>::Values Network<dim>::evaluate(const State &state,
                                                      const Collectives &collectives) const
 {
@@ -303,6 +316,8 @@ void Network<dim>::assemble_segment(const unsigned int index,
   const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
   const double area = segment.area, dt = context.effective_dt();
   const double w = values.aperture[index], p = values.pressure[index];
+  // Pressures have a rate of their own; balances are integrated over 1/rate.
+  const double c_f = compressibility * context.pressure_rate / context.rate;
 
   // Places in the local system: bulk of B, bulk of P; extra of B, extra of P, own row, others'.
   const unsigned int b_bulk = 0, p_bulk = B.bulk.size(), b_extra = p_bulk + P.bulk.size(),
@@ -355,10 +370,9 @@ void Network<dim>::assemble_segment(const unsigned int index,
   if (own != no_row)
   {
     const double open = std::max(w, 0.), dp = p - values.pressure_reference[index];
-    local.residual(own) -=
-      area * (w - values.aperture_reference[index] + open * compressibility * dp);
-    local.matrix(own, own) -= area * open * compressibility;
-    add_aperture_slope(own, -area * (1. + (w > 0. ? compressibility * dp : 0.)));
+    local.residual(own) -= area * (w - values.aperture_reference[index] + open * c_f * dp);
+    local.matrix(own, own) -= area * open * c_f;
+    add_aperture_slope(own, -area * (1. + (w > 0. ? c_f * dp : 0.)));
   }
 
   // Flow to the neighbours.
@@ -439,6 +453,7 @@ FluidBalance Network<dim>::balance(const StepContext &context,
   const std::vector<double> leaked = leaked_in_step(context, values);
   // Storage terms of the scheme, carried over from its effective time to that of the step.
   const double scheme = context.dt * context.rate;
+  const double c_f = compressibility * context.pressure_rate / context.rate;
 
   FluidBalance balance;
   balance.step = all_wells.volumes(context, state);
@@ -448,7 +463,7 @@ FluidBalance Network<dim>::balance(const StepContext &context,
     const double gain =
       scheme * area *
       (w - values.aperture_reference[i] +
-       std::max(w, 0.) * compressibility * (values.pressure[i] - values.pressure_reference[i]));
+       std::max(w, 0.) * c_f * (values.pressure[i] - values.pressure_reference[i]));
     balance.fracture_volume += area * w;
     balance.step.in_fractures += gain;
     balance.step.leaked += leaked[i];

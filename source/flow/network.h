@@ -54,7 +54,7 @@ public:
   /// The fractures or the numbering of the unknowns are new. Collective. Segments that appear
   /// within a step were exposed within it: those of the first of two calls in its first half.
   /// @throws InputError when a perforation lies on no fracture
-  void set_segments(const dealii::ArrayView<const Segment<dim> > &owned, const Collectives &);
+  void set_segments(const dealii::ArrayView<const Segment<dim>> &owned, const Collectives &);
 
   /// One pressure for each segment without given pressure, then those of the wells.
   std::vector<ExtraUnknown> unknowns() const;
@@ -77,7 +77,7 @@ public:
   void rollback();
 
   /// In the order of their keys.
-  const std::vector<NetworkSegment<dim> > &segments() const
+  const std::vector<NetworkSegment<dim>> &segments() const
   {
     return network;
   }
@@ -87,6 +87,9 @@ public:
 
   /// One value per segment.
   std::vector<double> pressures(const Unknowns &) const;
+
+  /// Of the segment with this key; zero if there is none. See State::segment_pressure.
+  double pressure(std::uint64_t key, const Unknowns &) const;
 
   /// What has leaked from each segment up to the last accepted step, through both faces [m^3].
   std::vector<double> leaked_volumes() const;
@@ -161,11 +164,11 @@ private:
 
   Wells<dim> all_wells;
 
-  std::vector<NetworkSegment<dim> > network; ///< sorted by key
-  std::vector<std::vector<Edge> > edges;     ///< of each segment
-  std::vector<Segment<dim> > owned;          ///< with their functionals
-  std::vector<unsigned int> owned_index;     ///< in `network`
-  std::vector<unsigned int> rows;            ///< index of the pressure unknown, or invalid
+  std::vector<NetworkSegment<dim>> network; ///< sorted by key
+  std::vector<std::vector<Edge>> edges;     ///< of each segment
+  std::vector<Segment<dim>> owned;          ///< with their functionals
+  std::vector<unsigned int> owned_index;    ///< in `network`
+  std::vector<unsigned int> rows;           ///< index of the pressure unknown, or invalid
   unsigned int n_pressures = 0;
 
   // committed

@@ -28,7 +28,7 @@ TimeHistory::TimeHistory(const std::string &text,
   {
     if (text.compare(0, 4, "f(t)") == 0 && text.find('=') != std::string::npos)
     {
-      expression = std::make_shared<dealii::FunctionParser<1> >();
+      expression = std::make_shared<dealii::FunctionParser<1>>();
       expression->initialize("t", text.substr(text.find('=') + 1), {});
       expression->value(dealii::Point<1>(0.)); // muParser finds faults only now
     }

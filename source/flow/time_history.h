@@ -34,6 +34,6 @@ public:
 
 private:
   std::vector<double> times, values;
-  std::shared_ptr<dealii::FunctionParser<1> > expression;
+  std::shared_ptr<dealii::FunctionParser<1>> expression;
 };
 } // namespace stockwork

@@ -147,7 +147,7 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
 
 
 template <int dim>
-void Wells<dim>::locate(const std::vector<NetworkSegment<dim> > &segments)
+void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments)
 {
   for (Well &well : wells)
     for (Perforation &perforation : well.perforations)
@@ -285,7 +285,7 @@ void Wells<dim>::assemble(const StepContext &context,
     if (!well.is_direct() && !well.pressure_control)
     {
       const unsigned int index = well.pressure_index();
-      const double c = well.volume * compressibility;
+      const double c = well.volume * compressibility * context.pressure_rate / context.rate;
       local.extra = {index};
       local.reinit();
       local.residual(0) = dt * well.given(context) -
@@ -310,7 +310,7 @@ FluidVolumes Wells<dim>::volumes(const StepContext &context, const State &state)
       const unsigned int index = well.pressure_index();
       volumes.in_boreholes += well.volume * compressibility *
                               (state.current.extra[index] - state.rate_reference.extra[index]) *
-                              context.rate * context.dt;
+                              context.pressure_rate * context.dt;
     }
   }
   return volumes;

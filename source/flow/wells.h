@@ -50,7 +50,7 @@ public:
 
   /// Find the segments that the perforations open into.
   /// @throws InputError naming a point that lies on no segment
-  void locate(const std::vector<NetworkSegment<dim> > &segments);
+  void locate(const std::vector<NetworkSegment<dim>> &segments);
 
   std::vector<ExtraUnknown> unknowns() const;
 
