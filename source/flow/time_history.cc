@@ -1,6 +1,7 @@
 #include "flow/time_history.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "stockwork/base/error.h"
@@ -71,6 +72,21 @@ double TimeHistory::operator()(const double begin, const double end) const
       integral += values[k] * (to - from);
   }
   return integral / (end - begin);
+}
+
+double TimeHistory::magnitude() const
+{
+  double largest = 0.;
+  for (const double value : values)
+    largest = std::max(largest, std::abs(value));
+  if (expression)
+    for (int exponent = -6; exponent <= 9; ++exponent)
+    {
+      const double value = expression->value(dealii::Point<1>(std::pow(10., exponent)));
+      if (std::isfinite(value))
+        largest = std::max(largest, std::abs(value));
+    }
+  return largest;
 }
 
 double TimeHistory::next_jump(const double t) const

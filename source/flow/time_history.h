@@ -28,6 +28,9 @@ public:
   /// where a step runs across a change; the value at the end of an expression.
   double operator()(double begin, double end) const;
 
+  /// The greatest magnitude; of an expression, the greatest found at powers of ten of time.
+  double magnitude() const;
+
   /// The next time after t at which the value jumps [s]; infinity if there is none. Steps should
   /// end there.
   double next_jump(double t) const;

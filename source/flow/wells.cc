@@ -121,6 +121,10 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
                       (well.fraction * well.fraction);
       well.volume = get_quantity(prm, "Borehole volume", volume_dimension<dim>) * well.fraction;
 
+      // What is typical where the rate is not given: 1e-4 m^2/s, 10 l/s.
+      const double rate = well.pressure_control ? 0. : well.value.magnitude() * well.fraction;
+      well.conductance = (rate > 0. ? rate : dim == 2 ? 1e-4 : 1e-2) / 1e6;
+
       try
       {
         for (std::size_t begin = 0; begin < points.size();)
@@ -191,11 +195,9 @@ std::vector<ExtraUnknown> Wells<dim>::unknowns() const
     {
       ExtraUnknown unknown;
       unknown.key = flow_key(std::uint64_t(well.number) << 32 | k, 2);
+      unknown.scale = std::max(std::abs(well.initial_pressure), 1e6);
       if (k == well.perforations.size())
-      {
         unknown.initial = well.initial_pressure;
-        unknown.scale = std::max(std::abs(well.initial_pressure), 1e6);
-      }
       result.push_back(unknown);
     }
   return result;
@@ -252,7 +254,7 @@ void Wells<dim>::assemble(const StepContext &context,
       const unsigned int n = perforation.segments.size();
       const double q = well.perforation_rate(k, context, state);
 
-      // Unknowns: the segments' pressures, q_k, p_b
+      // Unknowns: the segments' pressures, y_k, p_b
       local.extra.clear();
       for (const unsigned int i : perforation.segments)
         local.extra.push_back(rows[i]);
@@ -268,15 +270,16 @@ void Wells<dim>::assemble(const StepContext &context,
       {
         const double borehole_pressure =
           well.pressure_control ? well.given(context) : state.current.extra[well.pressure_index()];
+        const double c = dt * well.conductance;
         local.residual(n) =
-          dt * (mean(perforation, pressures) - borehole_pressure + well.friction * q * std::abs(q));
+          c * (mean(perforation, pressures) - borehole_pressure + well.friction * q * std::abs(q));
         for (unsigned int i = 0; i < n; ++i)
-          local.matrix(i, n) = local.matrix(n, i) = dt / n;
-        local.matrix(n, n) = dt * 2. * well.friction * std::abs(q);
+          local.matrix(i, n) = local.matrix(n, i) = c / n;
+        local.matrix(n, n) = c * 2. * well.friction * std::abs(q) * well.conductance;
         if (!well.pressure_control)
         {
           local.residual(n + 1) = -dt * q;
-          local.matrix(n, n + 1) = local.matrix(n + 1, n) = -dt;
+          local.matrix(n, n + 1) = local.matrix(n + 1, n) = -c;
         }
       }
       sink.add(local);

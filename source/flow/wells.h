@@ -33,6 +33,10 @@ struct WellReport
 /// The rates q_i, and p_b where it is not given, are unknowns, solved with everything else: equal
 /// pressure without friction is an unstable split, and no splitting of the equations survives it.
 /// A well of given rate with one perforation and no storage needs no unknown.
+///
+/// The unknown of a rate is y = q/c, and its equation is multiplied by c, with c the well's
+/// conductance at 1 MPa: like all others of the flow it then is a pressure, and its equation a
+/// volume, and one tolerance fits all.
 template <int dim>
 class Wells
 {
@@ -98,8 +102,9 @@ private:
     double friction = 0.; ///< kappa, for the rate in the model
     double volume = 0.;   ///< of the borehole, the part in the model
     std::vector<Perforation> perforations;
+    double conductance = 1.; ///< c [m^3/(Pa s)]
     double initial_pressure = 0.;
-    unsigned int first_index = 0; ///< of q_0, q_1, ..., and then p_b
+    unsigned int first_index = 0; ///< of y_0, y_1, ..., and then p_b
 
     /// The given rate enters the segment's balance as a number.
     bool is_direct() const
@@ -126,7 +131,7 @@ private:
     double
     perforation_rate(const unsigned int k, const StepContext &context, const State &state) const
     {
-      return is_direct() ? given(context) : state.current.extra[first_index + k];
+      return is_direct() ? given(context) : conductance * state.current.extra[first_index + k];
     }
 
     double rate(const StepContext &context, const State &state) const;
