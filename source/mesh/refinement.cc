@@ -8,7 +8,8 @@ template <int dim>
 bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation,
                 const Geometry<dim> &geometry,
                 const std::vector<float> &wanted_size,
-                const std::vector<bool> &holds_fracture)
+                const std::vector<bool> &holds_fracture,
+                const bool coarsen)
 {
   AssertDimension(wanted_size.size(), triangulation.n_active_cells());
   const auto held = [&holds_fracture](const auto &cell)
@@ -26,7 +27,7 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
       cell->set_refine_flag();
     // A factor of two beyond what the merged cell needs, so that a wish that moves does not
     // split and merge by turns.
-    else if (4. * size <= wanted * (1. + 1e-5) && cell->level() > 0 &&
+    else if (coarsen && 4. * size <= wanted * (1. + 1e-5) && cell->level() > 0 &&
              !geometry.splits(cell->parent()))
       cell->set_coarsen_flag();
   }
@@ -48,9 +49,11 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
 template bool flag_cells<2>(dealii::parallel::distributed::Triangulation<2> &,
                             const Geometry<2> &,
                             const std::vector<float> &,
-                            const std::vector<bool> &);
+                            const std::vector<bool> &,
+                            bool);
 template bool flag_cells<3>(dealii::parallel::distributed::Triangulation<3> &,
                             const Geometry<3> &,
                             const std::vector<float> &,
-                            const std::vector<bool> &);
+                            const std::vector<bool> &,
+                            bool);
 } // namespace stockwork

@@ -8,12 +8,13 @@
 
 namespace stockwork
 {
-/// Set the flags of a mesh so that no owned cell is larger than wanted, and that cells much
-/// smaller than wanted are merged again where the initial mesh allows it. Neighbours differ by one
-/// level at most. Call Triangulation::execute_coarsening_and_refinement() afterwards, with the
-/// transfer of unknowns around it. Collective.
+/// Set the flags of a mesh so that no owned cell is larger than wanted, and, if asked to, that
+/// cells much smaller than wanted are merged again where the initial mesh allows it. Neighbours
+/// differ by one level at most. Call Triangulation::execute_coarsening_and_refinement()
+/// afterwards, with the transfer of unknowns around it. Collective.
 ///
-/// One call asks for one level; repeat until it returns false.
+/// One call asks for one level: repeat until it returns false, and coarsen in the first call only,
+/// since cells on the rim of what is wanted could be split and merged by turns forever.
 ///
 /// @param wanted_size longest edge [m] by active cell index; those of other ranks' cells are
 /// ignored, and infinity means that a cell does not matter
@@ -25,5 +26,6 @@ template <int dim>
 bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation,
                 const Geometry<dim> &geometry,
                 const std::vector<float> &wanted_size,
-                const std::vector<bool> &holds_fracture = {});
+                const std::vector<bool> &holds_fracture = {},
+                bool coarsen = false);
 } // namespace stockwork

@@ -1,0 +1,307 @@
+#include "output/checkpoint.h"
+
+#include <deal.II/distributed/solution_transfer.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/crc.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "output/directory.h"
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// First line of the file "state"; changes with the format.
+const std::string magic = "Stockwork checkpoint, format 1\n";
+
+/// Checksum as four bytes, the same on every machine.
+std::string seal(const std::string &bytes)
+{
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  std::string result;
+  for (unsigned int i = 0; i < 4; ++i)
+    result.push_back(static_cast<char>((crc.checksum() >> (8 * i)) & 0xff));
+  return result;
+}
+} // namespace
+
+Checkpoint::Checkpoint(const std::string &directory, MPI_Comm communicator)
+  : directory(directory)
+  , communicator(communicator)
+{
+}
+
+std::string Checkpoint::path(const std::string &name) const
+{
+  return directory + "/" + name;
+}
+
+bool Checkpoint::exists() const
+{
+  const bool mine =
+    Utilities::MPI::this_mpi_process(communicator) == 0 && std::filesystem::exists(path("state"));
+  return Utilities::MPI::max(mine ? 1 : 0, communicator) == 1;
+}
+
+template <int dim>
+void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangulation,
+                      const DoFHandler<dim> &dof_handler,
+                      const std::vector<const Vector *> &vectors,
+                      const std::string &bytes,
+                      const std::uint64_t fingerprint)
+{
+  std::string set;
+  on_root(communicator,
+          [&]()
+          {
+            std::filesystem::create_directories(directory);
+            // A run that starts afresh where an earlier one was replaces its checkpoint, but not
+            // before the new one is complete. A damaged one is nothing to keep.
+            if (state.set.empty() && std::filesystem::exists(path("state")))
+              try
+              {
+                state = read_state();
+              }
+              catch (const InputError &)
+              {
+              }
+            set = state.set == "a" ? "b" : "a";
+            // Per cell: the values of its unknowns, its status and its place in the tree; besides,
+            // a margin for headers.
+            const double cell_bytes =
+              vectors.size() * dof_handler.get_fe().n_dofs_per_cell() * sizeof(double) + 64.;
+            reserve_space(
+              static_cast<std::uint64_t>(triangulation.n_global_active_cells() * cell_bytes) +
+              bytes.size() + 65536);
+          });
+  set = Utilities::MPI::broadcast(communicator, set, 0);
+
+  parallel::distributed::SolutionTransfer<dim, Vector> transfer(dof_handler);
+  transfer.prepare_for_serialization(vectors);
+  triangulation.save(path("mesh_" + set));
+
+  on_root(communicator,
+          [&]()
+          {
+            State next;
+            next.fingerprint = fingerprint;
+            next.dimension = dim;
+            next.n_vectors = vectors.size();
+            next.n_dofs = dof_handler.n_dofs();
+            next.set = set;
+            next.bytes = bytes;
+            for (const auto &entry : std::filesystem::directory_iterator(directory))
+            {
+              const std::string name = entry.path().filename().string();
+              if (name.rfind("mesh_" + set, 0) == 0)
+                next.files.push_back(describe(name));
+            }
+            write_state(next);
+            next.bytes.clear();
+            state = next;
+          });
+}
+
+void Checkpoint::reserve_space(const std::uint64_t bytes) const
+{
+  // p4est aborts the program when a write fails. So make sure beforehand that there is room.
+  const std::string file = path("room");
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  int error = descriptor < 0 ? errno : posix_fallocate(descriptor, 0, bytes);
+  if (descriptor >= 0)
+    close(descriptor);
+  std::remove(file.c_str());
+  // File systems that cannot reserve are asked how much is free.
+  if (error == EOPNOTSUPP || error == EINVAL)
+    error = std::filesystem::space(directory).available < bytes ? ENOSPC : 0;
+  if (error != 0)
+    throw OutputError("There is no room for a checkpoint of " +
+                      std::to_string(bytes / 1000000 + 1) + " MB in " + directory + " (" +
+                      (error == EFBIG ? "file size limit, ulimit -f" : std::strerror(error)) +
+                      "). The previous checkpoint, if any, is intact; continue from it with "
+                      "--restart once there is room.");
+}
+
+Checkpoint::State::File Checkpoint::describe(const std::string &name) const
+{
+  std::ifstream file(path(name), std::ios::binary);
+  if (!file)
+    throw InputError("cannot read " + path(name));
+  boost::crc_32_type crc;
+  State::File result{name};
+  std::vector<char> buffer(1 << 20);
+  while (file)
+  {
+    file.read(buffer.data(), buffer.size());
+    crc.process_bytes(buffer.data(), file.gcount());
+    result.size += file.gcount();
+  }
+  result.checksum = crc.checksum();
+  return result;
+}
+
+void Checkpoint::write_state(const State &next) const
+{
+  std::ostringstream stream;
+  {
+    boost::archive::binary_oarchive archive(stream);
+    archive << next;
+  }
+  const std::string body = stream.str();
+  replace_file(path("state"), magic + seal(body) + body);
+}
+
+Checkpoint::State Checkpoint::read_state() const
+{
+  std::ifstream file(path("state"), std::ios::binary);
+  if (!file)
+    throw InputError("There is no checkpoint in " + directory +
+                     " to restart from. Was the earlier run given the same output directory, and "
+                     "did it get as far as its first checkpoint?");
+  std::ostringstream stream;
+  stream << file.rdbuf();
+  const std::string contents = stream.str();
+
+  const std::string damaged =
+    "The checkpoint in " + directory +
+    " is damaged. Start the run afresh, or put back a copy of the directory.";
+  if (contents.compare(0, magic.size(), magic) != 0)
+    throw InputError(contents.rfind("Stockwork checkpoint", 0) == 0
+                       ? "The checkpoint in " + directory +
+                           " was written by another version of the program."
+                       : damaged);
+  if (contents.size() < magic.size() + 4)
+    throw InputError(damaged);
+  const std::string body = contents.substr(magic.size() + 4);
+  if (contents.compare(magic.size(), 4, seal(body)) != 0)
+    throw InputError(damaged);
+
+  State result;
+  std::istringstream input(body);
+  boost::archive::binary_iarchive archive(input);
+  archive >> result;
+  for (const State::File &expected : result.files)
+  {
+    const bool there = std::filesystem::exists(path(expected.name));
+    const State::File found = there ? describe(expected.name) : State::File();
+    if (!there || found.size != expected.size || found.checksum != expected.checksum)
+      throw InputError(damaged);
+  }
+  return result;
+}
+
+std::string Checkpoint::read(const std::uint64_t fingerprint)
+{
+  try
+  {
+    on_root(communicator,
+            [&]()
+            {
+              State found = read_state();
+              if (found.fingerprint != fingerprint)
+                throw InputError(
+                  "The checkpoint in " + directory +
+                  " was written by a run of another deck, or this deck has been changed "
+                  "since. Restart with the deck as it was, or start afresh.");
+              state = std::move(found);
+            });
+  }
+  catch (const OutputError &error)
+  {
+    throw InputError(error.what());
+  }
+  state = Utilities::MPI::broadcast(communicator, state, 0);
+  std::string bytes;
+  std::swap(bytes, state.bytes);
+  return bytes;
+}
+
+template <int dim>
+void Checkpoint::load_mesh(parallel::distributed::Triangulation<dim> &triangulation) const
+{
+  AssertThrow(!state.set.empty(), ExcMessage("read() comes first"));
+  AssertThrow(state.dimension == dim, ExcDimensionMismatch(state.dimension, dim));
+  triangulation.load(path("mesh_" + state.set));
+}
+
+template <int dim>
+void Checkpoint::load_vectors(const DoFHandler<dim> &dof_handler,
+                              const std::vector<Vector *> &vectors) const
+{
+  AssertThrow(state.n_vectors == vectors.size(),
+              ExcDimensionMismatch(state.n_vectors, vectors.size()));
+  AssertThrow(state.n_dofs == dof_handler.n_dofs(),
+              ExcDimensionMismatch(state.n_dofs, dof_handler.n_dofs()));
+  parallel::distributed::SolutionTransfer<dim, Vector> transfer(dof_handler);
+  std::vector<Vector *> targets = vectors;
+  transfer.deserialize(targets);
+  for (Vector *vector : targets)
+    vector->compress(VectorOperation::insert);
+}
+
+void CheckpointSchedule::declare_parameters(ParameterHandler &prm)
+{
+  prm.enter_subsection("Checkpoint");
+  prm.declare_entry("Steps between", "0", Patterns::Integer(0),
+                    "Write a checkpoint after so many steps; 0: do not count steps.");
+  prm.declare_entry("Time between", "15 min", Quantity(dimension::time, Range::non_negative()),
+                    "Write a checkpoint after so much computing time; 0: do not look at the "
+                    "clock.");
+  prm.leave_subsection();
+}
+
+void CheckpointSchedule::parse_parameters(ParameterHandler &prm)
+{
+  prm.enter_subsection("Checkpoint");
+  steps_between = prm.get_integer("Steps between");
+  seconds_between = get_quantity(prm, "Time between", dimension::time);
+  prm.leave_subsection();
+}
+
+bool CheckpointSchedule::due(const unsigned int step, MPI_Comm communicator)
+{
+  const auto now = std::chrono::steady_clock::now();
+  const double waited = std::chrono::duration<double>(now - last_time).count();
+  const bool mine = (steps_between > 0 && step >= last_step + steps_between) ||
+                    (seconds_between > 0. && waited >= seconds_between);
+  if (Utilities::MPI::max(mine ? 1 : 0, communicator) == 0)
+    return false;
+  last_step = step;
+  last_time = now;
+  return true;
+}
+
+template void Checkpoint::save<2>(const parallel::distributed::Triangulation<2> &,
+                                  const DoFHandler<2> &,
+                                  const std::vector<const Vector *> &,
+                                  const std::string &,
+                                  std::uint64_t);
+template void Checkpoint::save<3>(const parallel::distributed::Triangulation<3> &,
+                                  const DoFHandler<3> &,
+                                  const std::vector<const Vector *> &,
+                                  const std::string &,
+                                  std::uint64_t);
+template void Checkpoint::load_mesh<2>(parallel::distributed::Triangulation<2> &) const;
+template void Checkpoint::load_mesh<3>(parallel::distributed::Triangulation<3> &) const;
+template void Checkpoint::load_vectors<2>(const DoFHandler<2> &,
+                                          const std::vector<Vector *> &) const;
+template void Checkpoint::load_vectors<3>(const DoFHandler<3> &,
+                                          const std::vector<Vector *> &) const;
+} // namespace stockwork
