@@ -210,6 +210,8 @@ void Geometry<dim>::make_box(ParameterHandler &prm)
   // First a box of unit cells, whose vertices are the indices of the mesh lines: the lines come
   // out exactly where the deck wants them.
   GridGenerator::subdivided_hyper_rectangle(*coarse, n_cells, Point<dim>(), index_of_upper, true);
+  for (const auto &cell : coarse->active_cell_iterators())
+    cell->set_material_id(0); // which "colorize" has set to the quadrant
   GridTools::transform(
     [&lines](const Point<dim> &index)
     {
@@ -344,6 +346,8 @@ void Geometry<dim>::create(Triangulation &triangulation) const
     if (changed)
       triangulation.execute_coarsening_and_refinement();
   }
+  // A triangulation that shares its cells out on request only has not done so yet.
+  triangulation.repartition();
 }
 
 template <int dim>

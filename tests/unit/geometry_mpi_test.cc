@@ -110,6 +110,8 @@ TEST_CASE("box: volume, sides, corners")
   CHECK(c.geometry.diameter() == doctest::Approx(std::sqrt(16.25)));
   CHECK(c.geometry.lower() == Point<2>(-1., 0.));
   CHECK(c.geometry.upper() == Point<2>(3., 0.5));
+  for (const auto &cell : c.triangulation.active_cell_iterators())
+    CHECK(cell->material_id() == 0);
 
   const Case<3> d(box("set Upper corner = 1, 2, 3\nset X spacing = 2 cells\n"
                       "set Y spacing = 3 cells\nset Z spacing = lines 0, 1, 3"));
