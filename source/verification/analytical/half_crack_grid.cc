@@ -1,5 +1,8 @@
 #include "verification/analytical/half_crack_grid.h"
 
+#include <boost/math/special_functions/ellint_rd.hpp>
+#include <boost/math/special_functions/ellint_rf.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,24 +29,53 @@ constexpr std::array<double, 7> second_difference = {1. / 90., -3. / 20., 3. / 2
 constexpr std::array<double, 7> third_difference = {1. / 8.,   -1., 13. / 8., 0.,
                                                     -13. / 8., 1.,  -1. / 8.};
 
-double kernel(const double x,
-              const double x_tip,
-              const double a,
-              const double s,
-              const double s_tip,
-              const double b)
+// A place on the crack, with what would cancel if it were computed from x.
+struct Place
 {
-  const double ahead = x_tip - s_tip; // s - x
-  double sum = -2. * x * std::log1p(-(a * s_tip + b * x_tip) / (a + b));
+  double x;
+  double tip;   // 1 - x
+  double chord; // sqrt(1 - x^2)
+};
+
+
+double line_kernel(const Place &field, const Place &source)
+{
+  const double ahead = field.tip - source.tip; // s - x
+  const double chords = field.chord + source.chord;
+  double sum =
+    -2. * field.x * std::log1p(-(field.chord * source.tip + source.chord * field.tip) / chords);
   if (ahead != 0.)
-    sum += ahead * std::log((a + b) * (a + b) / (std::abs(ahead) * (s + x)));
+    sum += ahead * std::log(chords * chords / (std::abs(ahead) * (source.x + field.x)));
   return 4. / pi * sum;
+}
+
+
+// (8/pi) s int_0^acos(s) sqrt(1 - (x/s)^2 cos^2) for s > x,
+// (8/pi) (s^2/x) int_0^acos(x) sin^2 / sqrt(1 - (s/x)^2 cos^2) for s < x, in Carlson's functions.
+double penny_kernel(const Place &field, const Place &source)
+{
+  using boost::math::ellint_rd;
+  using boost::math::ellint_rf;
+
+  const double ahead = field.tip - source.tip;
+  if (ahead == 0.)
+    return 8. / pi * source.x * source.tip;
+  const Place &outer = ahead > 0. ? source : field, &inner = ahead > 0. ? field : source;
+  const double k2 = std::pow(inner.x / outer.x, 2);
+  const double c2 = std::abs(ahead) * (outer.x + inner.x) / (outer.x * outer.x); // 1 - k2
+  const double u = outer.chord;
+  const double y = c2 * outer.x * outer.x, z = c2 + k2 * u * u;
+  const double sine_squared = u * u * u * c2 / 3. * ellint_rd(y, z, c2);
+  return 8. / pi *
+         (ahead > 0. ? source.x * (c2 * u * ellint_rf(c2, y, z) + k2 * sine_squared)
+                     : source.x * source.x / field.x * sine_squared);
 }
 } // namespace
 
 
-HalfCrackGrid::HalfCrackGrid(const double step, const double last)
-  : h(step)
+HalfCrackGrid::HalfCrackGrid(const CrackShape shape, const double step, const double last)
+  : crack(shape)
+  , h(step)
   , first(left_parameter)
   , matrix(static_cast<std::size_t>(std::lround((last - left_parameter) / step)) + 1)
 {
@@ -59,15 +91,20 @@ HalfCrackGrid::HalfCrackGrid(const double step, const double last)
 
   for (std::size_t i = 0; i < n; ++i)
   {
+    const Place field{position[i], tip_distance[i], chord[i]};
     for (std::size_t j = 0; j < n; ++j)
+    {
+      const Place source{position[j], tip_distance[j], chord[j]};
       matrix[i][j] =
         h * metric[j] *
-        kernel(position[i], tip_distance[i], chord[i], position[j], tip_distance[j], chord[j]);
+        (shape == CrackShape::line ? line_kernel(field, source) : penny_kernel(field, source));
+    }
 
-    // The trapezoidal rule is exact to all orders but for the singularity -(4/pi)(s - x) ln|s - x|
-    // at s = x, whose error is an expansion in zeta'(-2), zeta'(-4), ... (Navot 1962) times
-    // derivatives by v of s and of m ds/dv.
-    const double e = std::exp(-(first + i * h));
+    // The trapezoidal rule is exact to all orders but for the singularity
+    // -(4/pi) d (1 + curvature d) ln|d| at d = s - x = 0, whose error is an expansion in zeta'(-2),
+    // zeta'(-4), ... (Navot 1962) times derivatives by v of s and of m ds/dv.
+    const double curvature = shape == CrackShape::line ? 0. : 0.25 / position[i];
+    const double e = minus_log(i);
     const double d1 = metric[i];
     const double d2 = d1 * (e - 1.);
     const double d3 = d1 * (e * e - 3. * e + 1.);
@@ -84,15 +121,14 @@ HalfCrackGrid::HalfCrackGrid(const double step, const double last)
       const double f2 = second_difference[k + 3] / (h * h);
       const double f3 = third_difference[k + 3] / (h * h * h);
       matrix[i][j] -=
-        metric[j] * (c2 * (d1 * f1 + d2 / 2. * f0) +
+        metric[j] * (c2 * (d1 * f1 + (d2 / 2. + curvature * d1 * d1) * f0) +
                      c4 * (d1 * f3 / 6. + d2 / 2. * f2 / 2. + d3 / 6. * f1 + d4 / 24. * f0));
     }
   }
 }
 
 
-void HalfCrackGrid::integrate_to_tip(const std::vector<double> &f,
-                                     std::vector<double> &result) const
+void HalfCrackGrid::integrate(const std::vector<double> &f, std::vector<double> &result) const
 {
   const long n = size();
   result.resize(n);
@@ -106,6 +142,16 @@ void HalfCrackGrid::integrate_to_tip(const std::vector<double> &f,
 }
 
 
+void HalfCrackGrid::integrate_to_tip(const std::vector<double> &f,
+                                     std::vector<double> &result) const
+{
+  std::vector<double> weighted(f);
+  for (std::size_t i = 0; i < size(); ++i)
+    weighted[i] *= measure(i);
+  integrate(weighted, result);
+}
+
+
 void HalfCrackGrid::transpose_integrate(const double *g, std::vector<double> &result) const
 {
   const long n = size();
@@ -115,42 +161,33 @@ void HalfCrackGrid::transpose_integrate(const double *g, std::vector<double> &re
   {
     sum += g[q];
     for (long k = std::max(0L, q - 3); k <= std::min(n - 1, q + 4); ++k)
-      result[k] += h * one_step[k - q + 3] * metric[k] * sum;
+      result[k] += h * one_step[k - q + 3] * metric[k] * measure(k) * sum;
   }
 }
 
 
 std::vector<double> HalfCrackGrid::pressure(const double k, const std::vector<double> &m) const
 {
-  // p = k/4 + int_x^1 m (2/pi) acos(s) ds - int_0^x m (2/pi) asin(s) ds.
+  // p = p_k + int_x^1 m (1 - g) ds - int_0^x m g ds, where g is the uniform pressure with the
+  // stress intensity of unit pressure on |x| < s, and p_k that with the intensity of k.
+  const bool line = crack == CrackShape::line;
   const std::size_t n = size();
   std::vector<double> outer(n), inner(n), from_outer, from_inner;
   for (std::size_t i = 0; i < n; ++i)
   {
-    outer[i] = 2. / pi * m[i] * std::atan2(chord[i], position[i]);
-    inner[i] = 2. / pi * m[i] * std::atan2(position[i], chord[i]);
+    const double x = position[i];
+    outer[i] = m[i] * (line ? 2. / pi * std::atan2(chord[i], x) : chord[i]);
+    inner[i] = m[i] * (line ? 2. / pi * std::atan2(x, chord[i]) : x * x / (1. + chord[i]));
   }
-  integrate_to_tip(outer, from_outer);
+  integrate(outer, from_outer);
   // The integrand falls as a power of 1 - x beyond the last point.
   const double last = outer[n - 1] * metric[n - 1], before = outer[n - 2] * metric[n - 2];
   const double tail = last > 0. && before > last ? h * last / std::log(before / last) : 0.;
-  for (std::size_t i = 0; i < n; ++i)
-    from_outer[i] += tail;
 
-  // Summed from the inlet.
-  from_inner.assign(n, 0.);
-  for (std::size_t i = 1; i < n; ++i)
-  {
-    double step = 0.;
-    const long q = static_cast<long>(i) - 1;
-    for (long j = std::max(0L, q - 3); j <= std::min(static_cast<long>(n) - 1, q + 4); ++j)
-      step += h * one_step[j - q + 3] * inner[j] * metric[j];
-    from_inner[i] = from_inner[i - 1] + step;
-  }
-
+  integrate(inner, from_inner);
   std::vector<double> p(n);
   for (std::size_t i = 0; i < n; ++i)
-    p[i] = 0.25 * k + from_outer[i] - from_inner[i];
+    p[i] = (line ? 0.25 : pi / 8.) * k + from_outer[i] + tail - (from_inner[0] - from_inner[i]);
   return p;
 }
 

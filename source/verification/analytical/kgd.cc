@@ -1,6 +1,6 @@
 #include "verification/analytical/kgd.h"
 
-#include "verification/analytical/kgd_front.h"
+#include "verification/analytical/fracture_front.h"
 
 #include <boost/math/interpolators/cardinal_quintic_b_spline.hpp>
 
@@ -24,7 +24,7 @@ double depth_of_grid(const double toughness)
   return toughness < 0.3 ? 50. : 36.;
 }
 
-std::vector<double> logarithm_of_shape(const HalfCrackGrid &grid, const KgdFront &front)
+std::vector<double> logarithm_of_shape(const HalfCrackGrid &grid, const FractureFront &front)
 {
   std::vector<double> values(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i)
@@ -36,7 +36,7 @@ std::vector<double> logarithm_of_shape(const HalfCrackGrid &grid, const KgdFront
 
 struct KgdSimilarity::Profiles
 {
-  Profiles(const HalfCrackGrid &grid, const KgdFront &front, const double toughness)
+  Profiles(const HalfCrackGrid &grid, const FractureFront &front, const double toughness)
     : grid(grid)
     , gamma(front.gamma)
     , log_shape(logarithm_of_shape(grid, front), grid.first_parameter(), grid.step())
@@ -56,9 +56,9 @@ struct KgdSimilarity::Profiles
 KgdSimilarity::KgdSimilarity(const double dimensionless_toughness)
 {
   const double toughness = std::max(dimensionless_toughness, least_toughness);
-  const HalfCrackGrid grid(step, depth_of_grid(toughness));
-  KgdFront front = estimate_front(grid, toughness);
-  solve_front(grid, toughness, KgdMemory(), front);
+  const HalfCrackGrid grid(CrackShape::line, step, depth_of_grid(toughness));
+  FractureFront front = estimate_front(grid, toughness);
+  solve_front(grid, toughness, FrontMemory(), front);
   profiles = std::make_unique<Profiles>(grid, front, toughness);
 }
 

@@ -9,16 +9,21 @@
 
 namespace stockwork::analytical
 {
-/// The scaled equations of a plane-strain hydraulic fracture driven at a constant rate, with
+/// The scaled equations of a hydraulic fracture driven at a constant rate, in plane strain (n = 0,
+/// c = 2) or radial (n = 1, c = 2 pi), with
 ///   l = gamma L,  w = eps L gamma omega(xi),  p = eps E' Pi(xi),  xi = x/l,
-///   L = (E' Q0^3 t^4 / mu')^(1/6),  eps = (mu' / (E' t))^(1/3),  tau = ln t:
+///   L = (E' Q0^3 t^4 / mu')^(1/(6 + 3 n)),  eps = (mu' / (E' t))^(1/3),  tau = ln t:
 /// omega^3 Pi' = -q with the flux
-///   q = int_xi^1 (omega/3 + (gamma omega)_tau / gamma + chi / (gamma sqrt(1 - t0/t))) dxi
-///       + a (xi omega + int_xi^1 omega dxi),   a = 2/3 + gamma_tau / gamma,
-/// 2 gamma^2 q(0) = 1, omega -> K_m gamma^(-1/2) sqrt(1 - xi) at the tip, and Pi from omega by
-/// elasticity. Without leak-off (chi = 0) nothing depends on tau. chi = 2 C_L sqrt(t) / (eps L) is
-/// the leak-off coefficient, t0(x) the time at which the tip passed x.
-struct KgdFront
+///   xi^n q = int_xi^1 xi^n ((b - 1/3) omega + (gamma omega)_tau / gamma
+///                           + chi / (gamma sqrt(1 - t0/t))) dxi
+///            + a (xi^(n+1) omega + (n + 1) int_xi^1 xi^n omega dxi),
+///   b = 4/(6 + 3 n),  a = b + gamma_tau / gamma,
+/// c gamma^(n+2) (xi^n q)(0) = 1, omega -> K gamma^(-1/2) sqrt(1 - xi) at the tip, and Pi from
+/// omega by elasticity. K is the toughness in the same scaling, constant in time for n = 0 and
+/// growing as t^(1/9) for n = 1. chi = 2 C_L sqrt(t) / (eps L) is the leak-off coefficient, t0(x)
+/// the time at which the tip passed x. Without leak-off the plane-strain front does not depend on
+/// tau. (Detournay 2004; Savitski & Detournay 2002; Adachi & Detournay 2008.)
+struct FractureFront
 {
   double gamma = 0.;
   std::vector<double> omega;    // at the points of the grid
@@ -38,11 +43,11 @@ struct KgdFront
 /// What the solution at one time must know of earlier times and of its surroundings. d/dtau is
 /// approximated by rate times the new value plus a sum over earlier ones. Empty for the similarity
 /// solution.
-struct KgdMemory
+struct FrontMemory
 {
   /// Sets the rate and the histories from earlier solutions with their factors in the formula,
   /// whose factors sum to zero with the new one.
-  void remember(std::initializer_list<std::pair<double, const KgdFront &>> fronts);
+  void remember(std::initializer_list<std::pair<double, const FractureFront &>> fronts);
 
   double rate = 0.;
   double gamma_history = 0.;               // of gamma
@@ -58,12 +63,12 @@ struct KgdMemory
 
 
 /// A front between the viscosity and the toughness vertex to start Newton's method from.
-KgdFront estimate_front(const HalfCrackGrid &grid, double toughness);
+FractureFront estimate_front(const HalfCrackGrid &grid, double toughness);
 
 /// Newton's method for ln(omega) and ln(gamma), starting from `front`; throws SolveError if it
 /// does not converge.
 void solve_front(const HalfCrackGrid &grid,
                  double toughness,
-                 const KgdMemory &memory,
-                 KgdFront &front);
+                 const FrontMemory &memory,
+                 FractureFront &front);
 } // namespace stockwork::analytical

@@ -1,6 +1,6 @@
-#include "verification/analytical/kgd_history.h"
+#include "verification/analytical/hydraulic_fracture.h"
 
-#include "verification/analytical/kgd_front.h"
+#include "verification/analytical/fracture_front.h"
 #include "verification/analytical/roller_walls.h"
 
 #include <algorithm>
@@ -12,6 +12,7 @@ namespace stockwork::analytical
 {
 namespace
 {
+constexpr double pi = 3.14159265358979323846;
 constexpr double grid_step = 0.3;
 constexpr double least_toughness = 0.02;
 
@@ -93,9 +94,9 @@ struct TipPath
 } // namespace
 
 
-struct KgdHistory::Steps
+struct HydraulicFracture::Steps
 {
-  Steps(const KgdHistoryParameters &parameters, double last_time);
+  Steps(const HydraulicFractureParameters &parameters, double last_time);
 
   // A quantity of the steps at time t.
   double value(const std::vector<double> &of_steps, double t) const;
@@ -111,8 +112,10 @@ struct KgdHistory::Steps
   // Scales of the similarity solution.
   double length_scale(double t) const;
   double small_number(double t) const;
+  double toughness(double t) const;
 
-  double modulus, viscosity, rate, toughness;
+  CrackShape shape_of_crack;
+  double modulus, viscosity, rate, fracture_toughness;
   HalfCrackGrid grid;
   double time_step, first_log_time;                 // of ln t
   std::vector<double> log_gamma, log_efficiency;    // per step
@@ -120,31 +123,33 @@ struct KgdHistory::Steps
 };
 
 
-KgdHistory::Steps::Steps(const KgdHistoryParameters &parameters, const double last_time)
-  : modulus(parameters.fracture.plane_strain_modulus())
+HydraulicFracture::Steps::Steps(const HydraulicFractureParameters &parameters,
+                                const double last_time)
+  : shape_of_crack(parameters.shape)
+  , modulus(parameters.fracture.plane_strain_modulus())
   , viscosity(12. * parameters.fracture.viscosity)
   , rate(parameters.fracture.rate)
-  , toughness(std::max(parameters.fracture.dimensionless_toughness(), least_toughness))
-  , grid(grid_step, depth_of_grid(toughness))
+  , fracture_toughness(parameters.fracture.toughness)
+  , grid(shape_of_crack, grid_step, depth_of_grid(toughness(last_time * std::exp(-long_span))))
 {
   const bool walled = std::isfinite(parameters.half_width);
-  const bool leaking = parameters.leak_off_coefficient > 0.;
+  const bool slow = parameters.leak_off_coefficient > 0. || shape_of_crack == CrackShape::penny;
   const RollerWalls walls(parameters.half_width, parameters.half_height,
                           parameters.fracture.poisson_ratio);
   time_step = walled ? short_step : long_step;
-  const std::size_t n_steps = std::lround((leaking ? long_span : short_span) / time_step);
+  const std::size_t n_steps = std::lround((slow ? long_span : short_span) / time_step);
   first_log_time = std::log(last_time) - n_steps * time_step;
 
   TipPath path;
-  KgdFront front = estimate_front(grid, toughness);
-  solve_front(grid, toughness, KgdMemory(), front);
-  KgdFront earlier, two_earlier;
+  FractureFront front = estimate_front(grid, toughness(std::exp(first_log_time)));
+  solve_front(grid, toughness(std::exp(first_log_time)), FrontMemory(), front);
+  FractureFront earlier, two_earlier;
   for (std::size_t step = 0; step <= n_steps; ++step)
   {
     const double tau = first_log_time + step * time_step;
     const double t = std::exp(tau), scale = length_scale(t);
 
-    KgdMemory memory;
+    FrontMemory memory;
     memory.leak_off =
       2. * parameters.leak_off_coefficient * std::sqrt(t) / (small_number(t) * scale);
     memory.exposure = [&](const double gamma, std::vector<double> &result)
@@ -157,7 +162,7 @@ KgdHistory::Steps::Steps(const KgdHistoryParameters &parameters, const double la
       memory.remember({{-1. / time_step, earlier}});
     else if (step > 1)
       memory.remember({{-2. / time_step, earlier}, {0.5 / time_step, two_earlier}});
-    solve_front(grid, toughness, memory, front);
+    solve_front(grid, toughness(t), memory, front);
 
     path.log_time.push_back(tau);
     path.log_length.push_back(std::log(front.gamma * scale));
@@ -166,7 +171,7 @@ KgdHistory::Steps::Steps(const KgdHistoryParameters &parameters, const double la
     shape.emplace_back(grid.size());
     for (std::size_t j = 0; j < grid.size(); ++j)
       shape.back()[j] = std::log(front.omega[j] / grid.root()[j]);
-    pressure.push_back(front.pressure(grid, toughness));
+    pressure.push_back(front.pressure(grid, toughness(t)));
     if (confined)
     {
       const auto added = walls.pressure(grid, front.gamma * scale, front.omega);
@@ -179,25 +184,34 @@ KgdHistory::Steps::Steps(const KgdHistoryParameters &parameters, const double la
 }
 
 
-double KgdHistory::Steps::length_scale(const double t) const
+double HydraulicFracture::Steps::length_scale(const double t) const
 {
-  return std::pow(modulus * std::pow(rate, 3) * std::pow(t, 4) / viscosity, 1. / 6.);
+  return std::pow(modulus * std::pow(rate, 3) * std::pow(t, 4) / viscosity,
+                  shape_of_crack == CrackShape::penny ? 1. / 9. : 1. / 6.);
 }
 
 
-double KgdHistory::Steps::small_number(const double t) const
+double HydraulicFracture::Steps::small_number(const double t) const
 {
   return std::cbrt(viscosity / (modulus * t));
 }
 
 
-double KgdHistory::Steps::step_at(const double t) const
+double HydraulicFracture::Steps::toughness(const double t) const
+{
+  const double K = 4. * std::sqrt(2. / pi) * fracture_toughness /
+                   (modulus * small_number(t) * std::sqrt(length_scale(t)));
+  return std::max(K, least_toughness);
+}
+
+
+double HydraulicFracture::Steps::step_at(const double t) const
 {
   return std::clamp((std::log(t) - first_log_time) / time_step, 0., log_gamma.size() - 1.);
 }
 
 
-double KgdHistory::Steps::value(const std::vector<double> &of_steps, const double t) const
+double HydraulicFracture::Steps::value(const std::vector<double> &of_steps, const double t) const
 {
   const double position = step_at(t);
   const std::size_t first = first_of(4, position, of_steps.size());
@@ -209,9 +223,9 @@ double KgdHistory::Steps::value(const std::vector<double> &of_steps, const doubl
 }
 
 
-double KgdHistory::Steps::value(const std::vector<std::vector<double>> &of_steps,
-                                const double xi,
-                                const double t) const
+double HydraulicFracture::Steps::value(const std::vector<std::vector<double>> &of_steps,
+                                       const double xi,
+                                       const double t) const
 {
   const double time = step_at(t);
   const double place = (grid.parameter(xi) - grid.first_parameter()) / grid.step();
@@ -227,42 +241,43 @@ double KgdHistory::Steps::value(const std::vector<std::vector<double>> &of_steps
 }
 
 
-double KgdHistory::Steps::half_length(const double t) const
+double HydraulicFracture::Steps::half_length(const double t) const
 {
   return std::exp(value(log_gamma, t)) * length_scale(t);
 }
 
 
-KgdHistory::KgdHistory(const KgdHistoryParameters &parameters, const double last_time)
+HydraulicFracture::HydraulicFracture(const HydraulicFractureParameters &parameters,
+                                     const double last_time)
   : steps(std::make_unique<Steps>(parameters, last_time))
 {
 }
 
 
-KgdHistory::~KgdHistory() = default;
-KgdHistory::KgdHistory(KgdHistory &&) noexcept = default;
-KgdHistory &KgdHistory::operator=(KgdHistory &&) noexcept = default;
+HydraulicFracture::~HydraulicFracture() = default;
+HydraulicFracture::HydraulicFracture(HydraulicFracture &&) noexcept = default;
+HydraulicFracture &HydraulicFracture::operator=(HydraulicFracture &&) noexcept = default;
 
 
-double KgdHistory::half_length(const double t) const
+double HydraulicFracture::half_length(const double t) const
 {
   return steps->half_length(t);
 }
 
 
-double KgdHistory::inlet_opening(const double t) const
+double HydraulicFracture::inlet_opening(const double t) const
 {
   return opening(0., t);
 }
 
 
-double KgdHistory::inlet_pressure(const double t) const
+double HydraulicFracture::inlet_pressure(const double t) const
 {
   return pressure(0., t);
 }
 
 
-double KgdHistory::opening(const double x, const double t) const
+double HydraulicFracture::opening(const double x, const double t) const
 {
   const double l = half_length(t), xi = std::abs(x) / l;
   if (xi >= 1.)
@@ -272,26 +287,26 @@ double KgdHistory::opening(const double x, const double t) const
 }
 
 
-double KgdHistory::pressure(const double x, const double t) const
+double HydraulicFracture::pressure(const double x, const double t) const
 {
   return steps->small_number(t) * steps->modulus *
          steps->value(steps->pressure, std::abs(x) / half_length(t), t);
 }
 
 
-double KgdHistory::injected_volume(const double t) const
+double HydraulicFracture::injected_volume(const double t) const
 {
   return steps->rate * t;
 }
 
 
-double KgdHistory::fracture_volume(const double t) const
+double HydraulicFracture::fracture_volume(const double t) const
 {
   return injected_volume(t) * std::exp(steps->value(steps->log_efficiency, t));
 }
 
 
-double KgdHistory::leaked_volume(const double t) const
+double HydraulicFracture::leaked_volume(const double t) const
 {
   return injected_volume(t) - fracture_volume(t);
 }

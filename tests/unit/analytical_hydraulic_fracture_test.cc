@@ -1,6 +1,6 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
-#include "verification/analytical/kgd_history.h"
+#include "verification/analytical/hydraulic_fracture.h"
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@ TEST_CASE("KGD with Carter leak-off, from strong efficiency to almost none")
     CAPTURE(name);
     const ReferenceTable table(name);
     const double E = table.parameter("E"), nu = table.parameter("nu");
-    const KgdHistory fracture(
+    const HydraulicFracture fracture(
       {{E, nu, table.parameter("mu"), std::sqrt(E / (1. - nu * nu) * table.parameter("Gc")),
         table.parameter("Q0")},
        table.parameter("C_L")},
@@ -40,7 +40,7 @@ TEST_CASE("KGD with Carter leak-off: no leak-off gives the similarity solution")
 {
   const KgdParameters fluid{3e10, 0.25, 1e-3, 1e6, 1e-4};
   const Kgd impermeable(fluid);
-  const KgdHistory fracture({fluid, 0.}, 100.);
+  const HydraulicFracture fracture({fluid, 0.}, 100.);
   for (const double t : {1e-3, 1., 77.})
   {
     const double x = 0.83 * impermeable.half_length(t);
@@ -58,7 +58,7 @@ TEST_CASE("KGD between rollers")
   const KgdParameters fluid{E, nu, table.parameter("mu"),
                             std::sqrt(E / (1. - nu * nu) * table.parameter("Gc")),
                             table.parameter("Q0")};
-  const KgdHistory fracture({fluid, 0., 8., 8.}, table(table.rows() - 1, "t_s"));
+  const HydraulicFracture fracture({fluid, 0., 8., 8.}, table(table.rows() - 1, "t_s"));
   const auto time = [&](const auto i) { return table(i, "t_s"); };
   const auto each = RelativeTo::each;
   const double tolerance = 5e-4;
@@ -70,4 +70,64 @@ TEST_CASE("KGD between rollers")
                [&](const auto i) { return fracture.inlet_pressure(time(i)); });
   CHECK_COLUMN(table, "V_both_wings_m2", tolerance, each,
                [&](const auto i) { return fracture.fracture_volume(time(i)); });
+}
+
+namespace
+{
+HydraulicFracture radial(const double youngs_modulus,
+                         const double viscosity,
+                         const double toughness,
+                         const double rate,
+                         const double last_time)
+{
+  HydraulicFractureParameters parameters{{youngs_modulus, 0.25, viscosity, toughness, rate}};
+  parameters.shape = CrackShape::penny;
+  return HydraulicFracture(parameters, last_time);
+}
+} // namespace
+
+TEST_CASE("radial fracture: viscosity vertex")
+{
+  // The table was computed on another grid, to 4e-7 in the radius.
+  const ReferenceTable table("penny_M_vertex_profile");
+  const double E = 3e10, nu = 0.25, mu = 1e-3, Q0 = 0.0265, t = 100.;
+  const HydraulicFracture fracture = radial(E, mu, 0., Q0, t);
+  const double modulus = E / (1. - nu * nu), eps = std::cbrt(12. * mu / (modulus * t));
+  const double L = std::pow(modulus * std::pow(Q0, 3) * std::pow(t, 4) / (12. * mu), 1. / 9.);
+  const double R = fracture.half_length(t);
+  CHECK(R / L == doctest::Approx(0.697837).epsilon(2e-6));
+  CHECK(fracture.fracture_volume(t) == doctest::Approx(Q0 * t).epsilon(1e-5));
+  CHECK_COLUMN(table, "Omega", 2e-5, RelativeTo::largest,
+               [&](const auto i) { return fracture.opening(table(i, "rho") * R, t) / (eps * L); });
+  CHECK_COLUMN(table, "Pi", 2e-4, RelativeTo::largest,
+               [&](const auto i)
+               { return fracture.pressure(table(i, "rho") * R, t) / (eps * modulus); });
+}
+
+TEST_CASE("radial fracture: histories near both vertices")
+{
+  const ReferenceTable table("radial_pkn_benchmarks");
+  const HydraulicFracture tough = radial(3e10, 1e-6, 3e6, 0.0265, 400.);
+  const HydraulicFracture viscous = radial(3e10, 1e-3, 0., 0.0265, 400.);
+  double last_difference = 1.;
+  for (std::size_t i = 0; i < table.rows(); ++i)
+  {
+    const double t = table(i, "t_s"), R = table(i, "R_or_L_m");
+    if (table.text(i, "case") == "penny_viscosity")
+    {
+      CHECK(viscous.half_length(t) == doctest::Approx(R).epsilon(5e-6));
+      CHECK(viscous.inlet_opening(t) == doctest::Approx(table(i, "w0_m")).epsilon(2e-5));
+    }
+    else if (table.text(i, "case") == "penny_toughness")
+    {
+      // The table has no viscosity, whose effect fades as toughness grows in time.
+      const double difference = 1. - tough.half_length(t) / R;
+      CHECK(difference > 0.);
+      CHECK(difference < 1e-4);
+      CHECK(difference < last_difference);
+      CHECK(tough.inlet_opening(t) == doctest::Approx(table(i, "w0_m")).epsilon(5e-4));
+      CHECK(tough.pressure(0.5 * R, t) == doctest::Approx(table(i, "p0_Pa")).epsilon(1e-3));
+      last_difference = difference;
+    }
+  }
 }
