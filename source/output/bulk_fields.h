@@ -1,0 +1,45 @@
+#pragma once
+
+#include <deal.II/numerics/data_postprocessor.h>
+
+#include <map>
+#include <vector>
+
+#include "stockwork/fracture/model.h"
+
+namespace stockwork
+{
+/// From the bulk unknowns to what a user wants to see, point by point: displacement [m], and where
+/// there is a fluid, pore_pressure [Pa], effective_stress = total_stress + alpha p I, and flux
+/// -(k/mu) grad(p - p_0) [m/s]. Stress is the whole of it, in-situ part included [Pa].
+///
+/// In cells that a discontinuity cuts, the strain of the extra shape functions is added as its
+/// mean over the cell; the displacement is that at the vertices, interpolated.
+template <int dim>
+class BulkFields : public dealii::DataPostprocessor<dim>
+{
+public:
+  BulkFields(const Discretization<dim> &discretization,
+             const Scene<dim> &scene,
+             const FractureModel<dim> &model,
+             const State &state);
+
+  void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+                             std::vector<dealii::Vector<double>> &quantities) const override;
+
+  std::vector<std::string> get_names() const override;
+
+  std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
+  get_data_component_interpretation() const override;
+
+  dealii::UpdateFlags get_needed_update_flags() const override;
+
+private:
+  const Scene<dim> &scene;
+  const FractureModel<dim> &model;
+  bool has_pore_pressure;
+
+  /// Mean strain of the extra shape functions, by active cell index.
+  std::map<unsigned int, dealii::SymmetricTensor<2, dim>> extra_strain;
+};
+} // namespace stockwork

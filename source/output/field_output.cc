@@ -1,0 +1,195 @@
+#include "output/field_output.h"
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "output/bulk_fields.h"
+#include "output/checked_data.h"
+#include "output/directory.h"
+#include "output/fracture_fields.h"
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// Takes what the model adds.
+template <int dim>
+class Collector : public FieldSink<dim>
+{
+public:
+  void add_cell_field(const std::string &name, const std::vector<double> &values) override
+  {
+    cell_fields.emplace_back(name, Vector<double>(values.begin(), values.end()));
+  }
+
+  void add_fracture_piece(const std::vector<Point<dim>> &corners,
+                          const std::vector<std::pair<std::string, double>> &values) override
+  {
+    pieces.push_back({corners, values});
+  }
+
+  std::vector<std::pair<std::string, Vector<double>>> cell_fields;
+  std::vector<FracturePiece<dim>> pieces;
+};
+} // namespace
+
+template <int dim>
+void FieldOutput<dim>::declare_parameters(ParameterHandler &prm)
+{
+  prm.enter_subsection("Output");
+  prm.declare_entry("Fields", "true", Patterns::Bool(), "Write fields for ParaView (.vtu, .pvd).");
+  prm.declare_entry(
+    "Steps between fields", "10", Patterns::Integer(0),
+    "Write the fields after so many steps; 0: at the given times and the end only.");
+  prm.declare_entry("Times of fields", "", Quantities(dimension::time, Range::finite()),
+                    "Write the fields at these times, too; steps end there.");
+  prm.declare_entry("Higher order cells", "true", Patterns::Bool(),
+                    "Write quadratic elements as such (VTK's Lagrange cells) instead of four, or "
+                    "eight, linear ones.");
+  prm.leave_subsection();
+}
+
+template <int dim>
+void FieldOutput<dim>::parse_parameters(ParameterHandler &prm)
+{
+  prm.enter_subsection("Output");
+  enabled = prm.get_bool("Fields");
+  steps_between = prm.get_integer("Steps between fields");
+  times = get_quantities(prm, "Times of fields", dimension::time);
+  std::sort(times.begin(), times.end());
+  higher_order_cells = prm.get_bool("Higher order cells");
+  prm.leave_subsection();
+}
+
+template <int dim>
+void FieldOutput<dim>::open(const std::string &output_directory, MPI_Comm mpi_communicator)
+{
+  directory = output_directory;
+  communicator = mpi_communicator;
+  prepare_output_directory(enabled ? directory + "/vtu" : directory, communicator);
+}
+
+template <int dim>
+bool FieldOutput<dim>::due(const unsigned int step, const double time, const bool is_last) const
+{
+  if (!enabled)
+    return false;
+  return is_last || (steps_between > 0 && step % steps_between == 0) ||
+         next_time(last_time) <= time * (1. + 1e-12);
+}
+
+template <int dim>
+double FieldOutput<dim>::next_time(const double time) const
+{
+  for (const double t : times)
+    if (enabled && t > time + 1e-12 * std::abs(time))
+      return t;
+  return std::numeric_limits<double>::infinity();
+}
+
+template <int dim>
+void FieldOutput<dim>::write(const double time,
+                             const Discretization<dim> &discretization,
+                             const Scene<dim> &scene,
+                             const FractureModel<dim> &model,
+                             const State &state)
+{
+  Collector<dim> collector;
+  model.write_fields(state, collector);
+  const unsigned int rank = Utilities::MPI::this_mpi_process(communicator),
+                     n_ranks = Utilities::MPI::n_mpi_processes(communicator),
+                     degree = discretization.dof_handler.get_fe().degree;
+
+  CheckedData<DataOut<dim>> output;
+  output.attach_dof_handler(discretization.dof_handler);
+  const BulkFields<dim> fields(discretization, scene, model, state);
+  output.add_data_vector(state.current.bulk, fields);
+  Vector<float> region(discretization.triangulation.n_active_cells());
+  for (const auto &cell : discretization.triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      region(cell->active_cell_index()) = cell->material_id();
+  output.add_data_vector(region, "region");
+  for (const auto &field : collector.cell_fields)
+    output.add_data_vector(field.second, field.first, DataOut<dim>::type_cell_data);
+
+  DataOutBase::VtkFlags flags;
+  flags.print_date_and_time = false;
+  flags.compression_level = DataOutBase::VtkFlags::best_speed;
+  flags.write_higher_order_cells = higher_order_cells && degree > 1;
+  output.set_flags(flags);
+  output.build_patches(discretization.mapping, degree, DataOut<dim>::curved_boundary);
+
+  for (const std::string &bad : Utilities::MPI::all_gather(communicator, output.first_not_finite()))
+    if (!bad.empty())
+      throw SolveError("The field " + bad + " has a value that is not a number at t = " +
+                       to_string(time, dimension::time) + ".");
+  const std::string fracture = fracture_file(collector.pieces, communicator);
+  const bool has_fracture =
+    Utilities::MPI::broadcast(communicator, fracture.empty() ? 0 : 1, 0) == 1;
+
+  const std::string number = Utilities::int_to_string(bulk_records.size(), 4);
+  const auto piece_name = [&](const unsigned int r)
+  {
+    return n_ranks == 1 ? "fields_" + number + ".vtu"
+                        : "fields_" + number + "." + std::to_string(r) + ".vtu";
+  };
+  on_all(communicator,
+         [&]()
+         {
+           std::ostringstream stream;
+           output.write_vtu(stream);
+           write_file(directory + "/vtu/" + piece_name(rank), stream.str());
+         });
+  const std::string bulk_file =
+    "vtu/" + (n_ranks == 1 ? piece_name(0) : "fields_" + number + ".pvtu");
+  const std::string fracture_name = "vtu/fracture_" + number + ".vtu";
+  on_root(communicator,
+          [&]()
+          {
+            if (n_ranks > 1)
+            {
+              std::vector<std::string> names;
+              for (unsigned int r = 0; r < n_ranks; ++r)
+                names.push_back(piece_name(r));
+              std::ostringstream stream;
+              output.write_pvtu_record(stream, names);
+              write_file(directory + "/" + bulk_file, stream.str());
+            }
+            if (has_fracture)
+              write_file(directory + "/" + fracture_name, fracture);
+          });
+
+  // Only what is complete goes into the series.
+  bulk_records.emplace_back(time, bulk_file);
+  if (has_fracture)
+    fracture_records.emplace_back(time, fracture_name);
+  last_time = time;
+  on_root(communicator,
+          [&]()
+          {
+            write_pvd("fields.pvd", bulk_records);
+            if (has_fracture)
+              write_pvd("fracture.pvd", fracture_records);
+          });
+}
+
+template <int dim>
+void FieldOutput<dim>::write_pvd(const std::string &name, const Records &records) const
+{
+  std::ostringstream stream;
+  DataOutBase::write_pvd_record(stream, records);
+  replace_file(directory + "/" + name, stream.str());
+}
+
+template class FieldOutput<2>;
+template class FieldOutput<3>;
+} // namespace stockwork
