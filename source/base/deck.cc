@@ -252,7 +252,7 @@ std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
            std::find(section_names.begin(), section_names.end(), path) != section_names.end();
   };
 
-  std::vector<std::pair<Origin, std::string> > errors;
+  std::vector<std::pair<Origin, std::string>> errors;
   std::vector<std::string> warnings;
   for (const auto &[path, origin] : sections)
     if (!is_section(path) && is_section(section_of(path)))
@@ -316,6 +316,11 @@ Origin Deck::origin(const std::string &path) const
 {
   const auto entry = entries.find(path);
   return entry == entries.end() ? Origin() : entry->second.origin;
+}
+
+std::string Deck::located(const EntryError &error) const
+{
+  return origin(error.path()).text() + ": " + error.what();
 }
 
 std::string Deck::name() const

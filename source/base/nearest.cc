@@ -49,7 +49,7 @@ std::vector<std::string> nearest_names(const std::string &name,
 {
   const unsigned int tolerated = std::max<unsigned int>(1, (name.size() + 1) / 3);
 
-  std::vector<std::pair<unsigned int, std::string> > near;
+  std::vector<std::pair<unsigned int, std::string>> near;
   for (const std::string &candidate : candidates)
   {
     const unsigned int distance = edit_distance(name, candidate);

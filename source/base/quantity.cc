@@ -6,6 +6,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <cmath>
+#include <regex>
 #include <sstream>
 
 namespace stockwork
@@ -19,7 +20,12 @@ std::string with_article(const std::string &noun)
 
 std::string what_is_expected(const Dimension &expected)
 {
-  return with_article(expected.name) + " is expected, e.g. \"" + expected.example + "\"";
+  std::string text = with_article(expected.name) + " is expected";
+  if (expected.example[0] != '\0')
+    text += ", e.g. \"" + std::string(expected.example) + "\"";
+  else if (expected.unit[0] != '\0')
+    text += " (" + std::string(expected.unit) + ")";
+  return text;
 }
 
 /// Shortest decimal text that is read back as the same number, at least for numbers that people
@@ -88,6 +94,13 @@ Quantity::Quantity(const Dimension &dimension, const Range &range)
 {
 }
 
+Quantity::Quantity(const Dimension &dimension, const Range &range, const std::string &word)
+  : dimension(dimension)
+  , range(range)
+  , word(word)
+{
+}
+
 double Quantity::parse(const std::string &text) const
 {
   const double value = parse_quantity(text, dimension);
@@ -100,6 +113,8 @@ double Quantity::parse(const std::string &text) const
 
 bool Quantity::match(const std::string &text) const
 {
+  if (is_word(text))
+    return true;
   try
   {
     parse(text);
@@ -120,14 +135,18 @@ std::string Quantity::description(const OutputStyle style) const
                        number_text(range.max) + (range.max_open ? ")" : "]");
     if (dimension.unit[0] != '\0')
       text += std::string(" ") + dimension.unit;
+    if (word)
+      text += " or \"" + *word + "\"";
     return text + "]";
   }
   std::string text = with_article(dimension.name);
   const std::string ends = range.text(dimension);
   if (!ends.empty())
-    text += (ends.find("from") == 0 ? " " : " ") + ends;
+    text += " " + ends;
   else if (dimension.unit[0] != '\0')
     text += std::string(" (") + dimension.unit + ")";
+  if (word)
+    text += word->empty() ? ", or empty" : ", or '" + *word + "'";
   return text;
 }
 
@@ -138,20 +157,30 @@ std::unique_ptr<dealii::Patterns::PatternBase> Quantity::clone() const
 
 std::unique_ptr<Quantity> Quantity::create(const std::string &description)
 {
-  const std::string begin = "[Quantity ";
-  const auto in = description.rfind(" in ");
-  if (description.compare(0, begin.size(), begin) != 0 || in == std::string::npos)
+  static const std::regex form(
+    "\\[Quantity (.*) in ([(\\[])([^,]*), ([^)\\]]*)([)\\]]) ?(.*?)(?: or \"(.*)\")?\\]");
+  std::smatch part;
+  if (!std::regex_match(description, part, form))
     return nullptr;
-  const Dimension *dimension = named_dimension(description.substr(begin.size(), in - begin.size()));
-  const auto comma = description.find(", ", in);
-  const auto end = description.find_first_of(")]", in);
-  if (dimension == nullptr || comma == std::string::npos || end == std::string::npos)
-    return nullptr;
-  const auto bound = [&](const std::size_t first, const std::size_t last)
-  { return evaluate_unit_expression(description.substr(first, last - first)).value; };
-  return std::make_unique<Quantity>(*dimension,
-                                    Range{bound(in + 5, comma), bound(comma + 2, end),
-                                          description[in + 4] == '(', description[end] == ')'});
+
+  Dimension dimension;
+  const auto texts = std::make_shared<const std::pair<std::string, std::string>>(part[1], part[6]);
+  if (const Dimension *known = named_dimension(texts->first))
+    dimension = *known;
+  else
+  {
+    if (!texts->second.empty())
+      dimension = evaluate_unit_expression(texts->second).dimension;
+    dimension.name = texts->first.c_str();
+    dimension.unit = texts->second.c_str();
+  }
+  const auto bound = [](const std::string &text) { return evaluate_unit_expression(text).value; };
+  auto result = std::make_unique<Quantity>(
+    dimension, Range{bound(part[3]), bound(part[4]), part[2] == "(", part[5] == ")"});
+  if (part[7].matched)
+    result->word = part[7];
+  result->texts = texts;
+  return result;
 }
 
 Quantities::Quantities(const Dimension &dimension,
@@ -240,6 +269,16 @@ double get_quantity(const dealii::ParameterHandler &prm,
   {
     throw InputError("'" + entry + "': " + error.what());
   }
+}
+
+std::optional<double> get_optional_quantity(const dealii::ParameterHandler &prm,
+                                            const std::string &entry,
+                                            const Dimension &dimension)
+{
+  const std::string text = prm.get(entry);
+  if (text.empty() || text == "auto")
+    return std::nullopt;
+  return get_quantity(prm, entry, dimension);
 }
 
 std::vector<double> get_quantities(const dealii::ParameterHandler &prm,

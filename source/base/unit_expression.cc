@@ -116,7 +116,7 @@ Dimension scaled_sum(const Dimension &a, const double s, const Dimension &b)
 /// Symbols that people type, in ASCII.
 std::string plain_ascii(std::string text)
 {
-  static const std::vector<std::pair<std::string, std::string> > symbols = {
+  static const std::vector<std::pair<std::string, std::string>> symbols = {
     {"\u00b5", "u"},  {"\u03bc", "u"},  {"\u00b7", "*"}, {"\u00b0", " deg"},
     {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00d7", "*"}, {"\u2212", "-"}};
   for (const auto &[symbol, ascii] : symbols)

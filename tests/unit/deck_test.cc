@@ -116,6 +116,8 @@ TEST_CASE("entries, sections, comments, continued lines, origins")
   CHECK(deck.origin("Mesh/Box/Cells").text() == "a.prm:10");
   CHECK(deck.origin("Rock/Poisson ratio").text() == "default value");
   CHECK(deck.peek("Mesh/Box/Cells").value() == "9");
+  CHECK(deck.located(EntryError("Rock/Young modulus", "15.96 GPa", "less")) ==
+        "a.prm:4: 'Rock/Young modulus' is '15.96 GPa'; allowed is less");
   CHECK_FALSE(deck.peek("Rock/Poisson ratio").has_value());
 }
 

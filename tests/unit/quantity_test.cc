@@ -157,6 +157,38 @@ TEST_CASE("patterns can be read back from their machine style description")
   CHECK_FALSE(list->match("1 m"));
 }
 
+TEST_CASE("a word instead of a value")
+{
+  const Quantity modulus(dim::stress, Range::positive(), "auto");
+  CHECK(modulus.match("auto"));
+  CHECK(modulus.match("3 GPa"));
+  CHECK_FALSE(modulus.match("automatic"));
+  CHECK_FALSE(modulus.match(""));
+  CHECK(modulus.description(Quantity::Text) == "a stress > 0 Pa, or 'auto'");
+  const auto copy = Quantity::create(modulus.description());
+  REQUIRE(copy);
+  CHECK(copy->match("auto"));
+  CHECK(copy->description() == modulus.description());
+  CHECK(Quantity(dim::stress, Range::any(), "").match(""));
+
+  dealii::ParameterHandler prm;
+  prm.declare_entry("Strength", "", Quantity(dim::stress, Range::positive(), ""), "");
+  CHECK_FALSE(get_optional_quantity(prm, "Strength", dim::stress).has_value());
+  prm.set("Strength", std::string("3 MPa"));
+  CHECK(get_optional_quantity(prm, "Strength", dim::stress).value() == 3e6);
+}
+
+TEST_CASE("a dimension of one's own")
+{
+  constexpr Dimension friction{-5, 1, 0, 0, "perforation friction", "Pa/(m^3/s)^2"};
+  static_assert(friction != dim::pressure, "");
+  const auto pattern = Quantity::create(Quantity(friction, Range::positive()).description());
+  REQUIRE(pattern);
+  CHECK(pattern->parse("2 kPa s^2/m^6") == doctest::Approx(2e3));
+  CHECK(message("3 m", friction) ==
+        "\"3 m\" is a length; a perforation friction is expected (Pa/(m^3/s)^2)");
+}
+
 TEST_CASE("lists")
 {
   const Quantities values(dim::length);

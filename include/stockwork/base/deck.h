@@ -14,6 +14,7 @@ class ParameterHandler;
 namespace stockwork
 {
 class DeckReader;
+class EntryError;
 
 /// Where an entry's value comes from.
 struct Origin
@@ -60,6 +61,9 @@ public:
 
   /// Where the effective value of "Section/Sub/Entry" was written.
   Origin origin(const std::string &path) const;
+
+  /// The message of an error with the place where the entry was written before it.
+  std::string located(const EntryError &error) const;
 
   /// The deck's file as given, for messages.
   const std::string &file() const

@@ -4,7 +4,9 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dealii
@@ -139,6 +141,9 @@ class Quantity : public dealii::Patterns::PatternBase
 public:
   explicit Quantity(const Dimension &dimension, const Range &range = Range::finite());
 
+  /// Instead of a value the entry may also hold this word, "auto" or nothing at all ("").
+  Quantity(const Dimension &dimension, const Range &range, const std::string &word);
+
   bool match(const std::string &text) const override;
 
   /// Machine style can be read back by create(); Text and LaTeX are sentences.
@@ -152,9 +157,19 @@ public:
   /// The value in SI. @throws InputError for nonsense, a wrong dimension or a value out of range.
   double parse(const std::string &text) const;
 
+  /// True for the word that may stand instead of a value.
+  bool is_word(const std::string &text) const
+  {
+    return word.has_value() && text == *word;
+  }
+
 private:
   Dimension dimension;
   Range range;
+  std::optional<std::string> word;
+
+  /// Owns the texts of a dimension that create() has read.
+  std::shared_ptr<const std::pair<std::string, std::string>> texts;
 };
 
 /// A list of physical quantities of one kind, separated by ',' or ';'. An empty text is the
@@ -180,12 +195,17 @@ private:
   unsigned int min_size, max_size;
 };
 
-/// The SI value of an entry of the current subsection. @throws EntryError
+/// The SI value of an entry of the current subsection. @throws InputError
 double get_quantity(const dealii::ParameterHandler &prm,
                     const std::string &entry,
                     const Dimension &dimension);
 
-/// The SI values of a list entry of the current subsection. @throws EntryError
+/// The same for an entry that may be empty or "auto": nothing then. @throws InputError
+std::optional<double> get_optional_quantity(const dealii::ParameterHandler &prm,
+                                            const std::string &entry,
+                                            const Dimension &dimension);
+
+/// The SI values of a list entry of the current subsection. @throws InputError
 std::vector<double> get_quantities(const dealii::ParameterHandler &prm,
                                    const std::string &entry,
                                    const Dimension &dimension);
