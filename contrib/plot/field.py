@@ -16,13 +16,16 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
+from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import vtu  # noqa: E402
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "xy": 1, "xz": 2, "yx": 3, "yy": 4, "yz": 5,
               "zx": 6, "zy": 7, "zz": 8}
+
+UNITS = {"pore_pressure": ("MPa", 1e-6), "total_stress": ("MPa", 1e-6),
+         "effective_stress": ("MPa", 1e-6), "displacement": ("mm", 1e3), "flux": ("m/s", 1.)}
 
 
 def choose(grid, name, component):
@@ -59,7 +62,7 @@ def window_of(grid, lines):
 
 
 def draw(options):
-    time, path = vtu.at_time(vtu.series(options.directory, "solution"), options.time)
+    time, path = vtu.at_time(vtu.series(options.directory, "fields"), options.time)
     grid = vtu.read(path)
     lines, aperture = np.zeros((0, 2, 2)), np.zeros(0)
     if os.path.exists(os.path.join(options.directory, "fracture.pvd")):
@@ -71,7 +74,7 @@ def draw(options):
         0.06 * (window[3] - window[2]) / opening if opening > 0 else 0.)
 
     values, at_points = choose(grid, options.field, options.component)
-    corners, cells = grid.cells(vtu.QUAD)
+    corners, cells = grid.quadrilaterals()
     centres = grid.points[corners].mean(axis=1)
     margin = 0.1 * max(window[1] - window[0], window[3] - window[2])
     seen = ((centres[:, 0] > window[0] - margin) & (centres[:, 0] < window[1] + margin)
@@ -82,7 +85,8 @@ def draw(options):
     moved = grid.points[:, :2].copy()
     if "displacement" in grid.point_data:
         moved += warp * grid.point_data["displacement"][:, :2]
-    colour = values[corners].mean(axis=1) if at_points else values[cells]
+    unit, factor = UNITS.get(options.field, ("-", 1.))
+    colour = factor * (values[corners].mean(axis=1) if at_points else values[cells])
 
     figure, ax = plt.subplots(figsize=(7, 7 * min(1.2, max(
         0.35, (window[3] - window[2]) / (window[1] - window[0]))) + 0.3))
@@ -101,22 +105,22 @@ def draw(options):
         normal = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
         normal /= np.linalg.norm(normal, axis=1)[:, None]
         half = (0.5 * warp * np.maximum(aperture, 0.))[:, None] * normal
-        ax.add_collection(PolyCollection(
-            np.stack([faces[:, 0] + half, faces[:, 1] + half, faces[:, 1] - half,
-                      faces[:, 0] - half], axis=1), facecolors="white", edgecolors="crimson",
-            linewidths=0.8))
+        upper, lower = faces + half[:, None], faces - half[:, None]
+        ax.add_collection(PolyCollection(np.concatenate([upper, lower[:, ::-1]], axis=1),
+                                         facecolors="white", edgecolors="white"))
+        ax.add_collection(LineCollection(np.concatenate([upper, lower]), colors="crimson",
+                                         linewidths=1.))
     ax.set_xlim(window[0], window[1])
     ax.set_ylim(window[2], window[3])
     ax.set_aspect("equal")
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")
-    figure.colorbar(shown, ax=ax, shrink=0.8,
-                    label=options.field.replace("_", " ") + " " + (options.component or ""))
+    name = " ".join(filter(None, (options.field.replace("_", " "), options.component)))
+    figure.colorbar(shown, ax=ax, shrink=0.8, label=f"{name} [{unit}]")
     ax.set_title(f"t = {time:.4g} s" + (f", opening drawn × {warp:.3g}" if warp else ""),
                  fontsize=10)
-    figure.tight_layout()
     output = options.output or os.path.join(options.directory, options.field + ".png")
-    figure.savefig(output, dpi=110)
+    figure.savefig(output, dpi=110, bbox_inches="tight")
     print(output)
 
 

@@ -12,7 +12,7 @@ TYPES = {"Int8": "i1", "UInt8": "u1", "Int32": "i4", "UInt32": "u4", "Int64": "i
          "Float32": "f4", "Float64": "f8"}
 
 # VTK's cell types, as used here.
-VERTEX, LINE, POLY_LINE, TRIANGLE, QUAD, HEXAHEDRON = 1, 3, 4, 5, 9, 12
+LINE, QUAD, LAGRANGE_QUAD = 3, 9, 70
 
 
 class Grid:
@@ -31,6 +31,12 @@ class Grid:
             return np.zeros((0, 0), int), chosen
         size = self.offsets[chosen[0]] - begins[chosen[0]]
         return self.connectivity[begins[chosen][:, None] + np.arange(size)], chosen
+
+    def quadrilaterals(self):
+        """(corner indices (n, 4), cell numbers) of all quadrilaterals of any order."""
+        kinds = [self.cells(kind) for kind in (QUAD, LAGRANGE_QUAD)]
+        return (np.concatenate([c[:, :4] for c, _ in kinds if len(c)] or [np.zeros((0, 4), int)]),
+                np.concatenate([n for _, n in kinds]))
 
 
 def read(path):

@@ -61,14 +61,14 @@ def write_run(directory):
     displacement = np.stack([0 * x, np.sign(y) * np.exp(-abs(y)) * 1e-3, 0 * x], axis=-1)
     crack = np.linspace(0, 4, 9)
     for i in range(2):
-        write_vtu(f"{directory}/solution-{i}.vtu", points, cells, vtu.QUAD,
+        write_vtu(f"{directory}/fields-{i}.vtu", points, cells, vtu.QUAD,
                   {"displacement": displacement.reshape(-1, 3).astype("f4"),
                    "pore_pressure": (1e6 * np.exp(-x**2 - y**2)).ravel().astype("f4")})
         write_vtu(f"{directory}/fracture-{i}.vtu", np.stack([crack, 0 * crack], axis=1),
                   np.stack([np.arange(8), np.arange(1, 9)], axis=1), vtu.LINE,
                   {"aperture": (1e-3 * np.sqrt(1 - (crack / 4)**2)).astype("f4"),
                    "fluid_pressure": (1e6 + 0 * crack).astype("f4")})
-    for name in ("solution", "fracture"):
+    for name in ("fields", "fracture"):
         with open(f"{directory}/{name}.pvd", "w", encoding="utf-8") as file:
             file.write("<VTKFile><Collection>" + "".join(
                 f'<DataSet timestep="{i}" file="{name}-{i}.vtu"/>' for i in range(2))
