@@ -97,8 +97,9 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
   std::vector<NetworkSegment<dim>> mine;
   for (const Segment<dim> &segment : owned)
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
-                    segment.given_pressure, segment.initial_pressure, collectives.rank(),
-                    segment.neighbours});
+                    segment.given_pressure, segment.initial_pressure,
+                    segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
+                    collectives.rank(), segment.neighbours});
   network = collectives.gather(mine);
   std::sort(network.begin(), network.end(),
             [](const auto &a, const auto &b) { return a.key < b.key; });
@@ -130,6 +131,13 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
       edges[i].push_back({j, neighbour.distance, twin->distance, neighbour.width});
     }
 
+  if (leak_off == LeakOff::resolved &&
+      (rock_mobility <= 0. ||
+       std::any_of(network.begin(), network.end(),
+                   [](const auto &segment) { return !segment.rock_has_pore_pressure; })))
+    throw EntryError("Fracture flow/Leak-off", "resolved",
+                     "another law where the rock has no pore pressure or is impermeable");
+
   all_wells.locate(network);
   set_offset(0);
 
@@ -149,12 +157,16 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
 template <int dim>
 void Network<dim>::set_offset(const unsigned int first_index)
 {
-  n_pressures = 0;
+  unsigned int next = first_index;
   rows.assign(network.size(), no_row);
+  leak_off_rows.assign(network.size(), no_row);
   for (unsigned int i = 0; i < network.size(); ++i)
     if (!network[i].has_given_pressure())
-      rows[i] = first_index + n_pressures++;
-  all_wells.set_offset(first_index + n_pressures);
+      rows[i] = next++;
+  for (unsigned int i = 0; i < network.size(); ++i)
+    if (leaks_into_pores(network[i]))
+      leak_off_rows[i] = next++;
+  all_wells.set_offset(next);
 }
 
 
@@ -162,15 +174,17 @@ template <int dim>
 std::vector<ExtraUnknown> Network<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> result;
+  const auto add = [&](const std::uint64_t key, const double initial) {
+    result.push_back({key, initial, std::max(std::abs(initial), 1e6)});
+  };
   for (const auto &segment : network)
     if (!segment.has_given_pressure())
-    {
-      ExtraUnknown unknown;
-      unknown.key = flow_key(segment.key, 1);
-      unknown.initial = segment.initial_pressure;
-      unknown.scale = std::max(std::abs(segment.initial_pressure), 1e6);
-      result.push_back(unknown);
-    }
+      add(flow_key(segment.key, 1), segment.initial_pressure);
+  for (const auto &segment : network)
+    if (leaks_into_pores(segment))
+      add(flow_key(segment.key, 3),
+          (segment.has_given_pressure() ? segment.given_pressure : segment.initial_pressure) -
+            segment.in_situ_pore_pressure);
   const auto of_wells = all_wells.unknowns();
   result.insert(result.end(), of_wells.begin(), of_wells.end());
   return result;
@@ -280,6 +294,10 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
   values.pore_pressure.assign(all.begin() + 2 * n, all.end());
   values.pressure = pressures(state.current);
   values.pressure_reference = pressures(state.rate_reference);
+  values.cake_drop.resize(n);
+  for (unsigned int i = 0; i < n; ++i)
+    values.cake_drop[i] = leak_off_rows[i] == no_row ? values.pressure[i] - values.pore_pressure[i]
+                                                     : state.current.extra[leak_off_rows[i]];
   return values;
 }
 
@@ -319,13 +337,12 @@ void Network<dim>::assemble_segment(const unsigned int index,
   // Pressures have a rate of their own; balances are integrated over 1/rate.
   const double c_f = compressibility * context.pressure_rate / context.rate;
 
-  // Places in the local system: bulk of B, bulk of P; extra of B, extra of P, own row, others'.
-  const unsigned int b_bulk = 0, p_bulk = B.bulk.size(), b_extra = p_bulk + P.bulk.size(),
-                     p_extra = b_extra + B.extra.size();
+  // Places in the local system: bulk of B and P, extra of B, own row, others'.
+  const unsigned int cake_row = leak_off_rows[index], p_bulk = B.bulk.size();
   local.bulk = B.bulk;
-  local.bulk.insert(local.bulk.end(), P.bulk.begin(), P.bulk.end());
+  if (cake_row != no_row)
+    local.bulk.insert(local.bulk.end(), P.bulk.begin(), P.bulk.end());
   local.extra = B.extra;
-  local.extra.insert(local.extra.end(), P.extra.begin(), P.extra.end());
   const auto place_of = [&](const unsigned int row) -> unsigned int
   {
     if (row == no_row)
@@ -333,7 +350,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
     local.extra.push_back(row);
     return local.bulk.size() + local.extra.size() - 1;
   };
-  const unsigned int own = place_of(rows[index]);
+  const unsigned int own = place_of(rows[index]), cake = place_of(cake_row);
 
   static thread_local std::vector<unsigned int> others;
   others.clear();
@@ -341,30 +358,28 @@ void Network<dim>::assemble_segment(const unsigned int index,
     others.push_back(place_of(rows[edge.other]));
   local.reinit();
 
-  // For each entry of B and of P, its place and coefficient.
-  const auto for_entries = [](const LinearFunctional &functional, const unsigned int bulk,
-                              const unsigned int extra, const auto &action)
+  // For each entry of B, its place and coefficient.
+  const auto for_B = [&](const auto &action)
   {
-    for (unsigned int i = 0; i < functional.bulk.size(); ++i)
-      action(bulk + i, functional.bulk_coefficients[i]);
-    for (unsigned int i = 0; i < functional.extra.size(); ++i)
-      action(extra + i, functional.extra_coefficients[i]);
+    for (unsigned int i = 0; i < B.bulk.size(); ++i)
+      action(i, B.bulk_coefficients[i]);
+    for (unsigned int i = 0; i < B.extra.size(); ++i)
+      action(local.bulk.size() + i, B.extra_coefficients[i]);
   };
   const auto add_aperture_slope = [&](const unsigned int row, const double slope)
   {
-    for_entries(B, b_bulk, b_extra,
-                [&](const unsigned int column, const double b)
-                { local.matrix(row, column) += slope * b; });
+    for_B([&](const unsigned int column, const double b)
+          { local.matrix(row, column) += slope * b; });
   };
 
   // Load: external work A p dw.
-  for_entries(B, b_bulk, b_extra,
-              [&](const unsigned int row, const double b)
-              {
-                local.residual(row) -= area * p * b;
-                if (own != no_row)
-                  local.matrix(row, own) -= area * b;
-              });
+  for_B(
+    [&](const unsigned int row, const double b)
+    {
+      local.residual(row) -= area * p * b;
+      if (own != no_row)
+        local.matrix(row, own) -= area * b;
+    });
 
   // Storage.
   if (own != no_row)
@@ -403,26 +418,31 @@ void Network<dim>::assemble_segment(const unsigned int index,
     local.residual(own) -= 2. * area * dt / context.dt *
                            carter_volume(carter_coefficient, exposed_since(index, context),
                                          context.time - context.dt, context.time);
-  const double conductance = 2. * area * dt * leak_off_coefficient(index);
-  if (conductance > 0.)
+
+  // c d enters the balances of fracture and rock, and c (d - p + p_m) = 0.
+  const double c = 2. * area * dt * leak_off_coefficient(index), d = values.cake_drop[index];
+  if (c > 0. && own != no_row)
   {
-    // With v = e - P, e the unit vector of the own row: R -= c (p - p_m) v, J -= c v v^T.
-    const double difference = p - values.pore_pressure[index];
-    const auto for_v = [&](const auto &action)
+    local.residual(own) -= c * d;
+    if (cake == no_row)
+      local.matrix(own, own) -= c;
+  }
+  if (cake != no_row)
+  {
+    local.residual(cake) += c * (d - p + values.pore_pressure[index]);
+    local.matrix(cake, cake) += c;
+    const auto couple = [&](const unsigned int place, const double entry)
     {
-      if (own != no_row)
-        action(own, 1.);
-      for_entries(P, p_bulk, p_extra,
-                  [&](const unsigned int place, const double coefficient)
-                  { action(place, -coefficient); });
+      local.matrix(cake, place) += entry;
+      local.matrix(place, cake) += entry;
     };
-    for_v(
-      [&](const unsigned int row, const double v_row)
-      {
-        local.residual(row) -= conductance * difference * v_row;
-        for_v([&](const unsigned int column, const double v_column)
-              { local.matrix(row, column) -= conductance * v_row * v_column; });
-      });
+    if (own != no_row)
+      couple(own, -c);
+    for (unsigned int i = 0; i < P.bulk.size(); ++i)
+    {
+      local.residual(p_bulk + i) += c * d * P.bulk_coefficients[i];
+      couple(p_bulk + i, c * P.bulk_coefficients[i]);
+    }
   }
 }
 
@@ -438,8 +458,8 @@ std::vector<double> Network<dim>::leaked_in_step(const StepContext &context,
                    carter_volume(carter_coefficient, exposed_since(i, context),
                                  context.time - context.dt, context.time);
     else
-      volumes[i] = 2. * network[i].area * leak_off_coefficient(i) * context.dt *
-                   (values.pressure[i] - values.pore_pressure[i]);
+      volumes[i] =
+        2. * network[i].area * leak_off_coefficient(i) * context.dt * values.cake_drop[i];
   return volumes;
 }
 

@@ -56,7 +56,9 @@ public:
   /// @throws InputError when a perforation lies on no fracture
   void set_segments(const dealii::ArrayView<const Segment<dim>> &owned, const Collectives &);
 
-  /// One pressure for each segment without given pressure, then those of the wells.
+  /// One pressure for each segment without given pressure; one pressure drop p_f - p_m for each
+  /// segment that leaks into the rock's pores; then those of the wells. The drop could be
+  /// eliminated, but that would add to the rock's own matrix, which with it stays as it is.
   std::vector<ExtraUnknown> unknowns() const;
 
   /// Index of the first of unknowns() among all extra unknowns.
@@ -114,6 +116,7 @@ private:
     std::vector<double> aperture, aperture_reference;
     std::vector<double> pressure, pressure_reference;
     std::vector<double> pore_pressure;
+    std::vector<double> cake_drop; ///< of pressure across the face, for linear leak-off
   };
 
   /// What a segment remembers.
@@ -145,6 +148,13 @@ private:
   /// c_l of the linear leak-off laws [m/(Pa s)].
   double leak_off_coefficient(unsigned int segment) const;
 
+  /// Whether the pressure drop across the faces of a segment is an unknown.
+  bool leaks_into_pores(const NetworkSegment<dim> &segment) const
+  {
+    return segment.rock_has_pore_pressure &&
+           (leak_off == LeakOff::filter_cake || leak_off == LeakOff::resolved);
+  }
+
   /// Through both faces, in the step, by its own differences [m^3].
   std::vector<double> leaked_in_step(const StepContext &, const Values &) const;
 
@@ -169,7 +179,7 @@ private:
   std::vector<Segment<dim>> owned;          ///< with their functionals
   std::vector<unsigned int> owned_index;    ///< in `network`
   std::vector<unsigned int> rows;           ///< index of the pressure unknown, or invalid
-  unsigned int n_pressures = 0;
+  std::vector<unsigned int> leak_off_rows;  ///< index of the pressure drop, or invalid
 
   // committed
   std::map<std::uint64_t, History> history; ///< by key

@@ -17,7 +17,9 @@ struct NetworkSegment
   double area = 0.;
   double given_pressure = std::numeric_limits<double>::quiet_NaN();
   double initial_pressure = 0.;
-  unsigned int owner = 0; ///< rank
+  double in_situ_pore_pressure = 0.;
+  bool rock_has_pore_pressure = false; ///< as unknowns
+  unsigned int owner = 0;              ///< rank
   std::vector<typename Segment<dim>::Neighbour> neighbours;
 
   bool has_given_pressure() const
@@ -34,7 +36,8 @@ struct NetworkSegment
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &key &centre &normal &area &given_pressure &initial_pressure &owner &neighbours;
+    ar &key &centre &normal &area &given_pressure &initial_pressure &in_situ_pore_pressure
+      &rock_has_pore_pressure &owner &neighbours;
   }
 };
 

@@ -198,7 +198,7 @@ public:
   {
     const auto current = unknowns(bulk, extra);
     const auto reference = unknowns(bulk_reference, extra_reference);
-    const stockwork::State state{current, reference, reference, reference};
+    const stockwork::State state{current, reference, reference, reference, {}};
     return action(state);
   }
 

@@ -139,15 +139,18 @@ TEST_CASE("the matrix is the derivative of the residual")
   }
   chain.extra[0] = 2e-6;
   chain.extra[1] = -3e-6;
+  const unsigned int n_leaking = chain.extra.size() - 12; // none, or all
+  REQUIRE((n_leaking == 0 || n_leaking == 6));
   for (unsigned int k = 0; k < 5; ++k)
     chain.extra[2 + k] = 2e6 + 3e5 * k * k;
+  for (unsigned int k = 0; k < n_leaking; ++k)
+    chain.extra[7 + k] = 1e6 + 1e5 * k;
   for (unsigned int k = 0; k < 5; ++k) // rates of the first well, its pressure; of the second
-    chain.extra[7 + k] = std::vector<double>{3e5, -2e5, 4e5, 4e6, 3e5}[k];
-  REQUIRE(chain.extra.size() == 12);
+    chain.extra[7 + n_leaking + k] = std::vector<double>{3e5, -2e5, 4e5, 4e6, 3e5}[k];
   chain.bulk_reference[2] = 1e-4;
   chain.extra_reference[3] = 5e5;
 
-  std::vector<double> sizes(24, 1e6);
+  std::vector<double> sizes(12 + chain.extra.size(), 1e6);
   for (const unsigned int i : {0, 1, 2, 3, 4, 5, 12, 13})
     sizes[i] = 1e-6;
   CHECK(jacobian_error(chain, sizes) < 1e-7);
@@ -440,6 +443,7 @@ TEST_CASE("decks that make no sense")
   check({{"Wells/Well 1/Perforations", ""}}, "'Wells/Well 1/Perforations' is empty");
   check({{"Wells/Well 1/Rate", "3 MPa"}}, "'Wells/Well 1/Rate' is '3 MPa'");
   check({{"Wells/Well 1/Control", "none"}}, "'rate' or 'pressure'");
+  check({{"Fracture flow/Leak-off", "resolved"}}, "the rock has no pore pressure");
   check({{"Fracture flow/Leak-off", "carter"}}, "Carter coefficient");
 }
 
