@@ -59,10 +59,11 @@ double depth_of_grid(const double toughness)
 // When the tip passed each place.
 struct TipPath
 {
+  double first_exponent; // ln t0 over ln x before the first step
   std::vector<double> log_time, log_length;
 
   // 1/sqrt(1 - t0/t) at the points if the tip now, at ln t = tau, stands at exp(log_tip). ln t0
-  // is linear in ln x between the steps, and x grows as t0^(2/3) before the first.
+  // is linear in ln x between the steps.
   void exposure(const HalfCrackGrid &grid,
                 const double tau,
                 const double log_tip,
@@ -78,7 +79,7 @@ struct TipPath
         --k;
       double elapsed; // tau - ln t0
       if (log_length.empty())
-        elapsed = 1.5 * behind;
+        elapsed = first_exponent * behind;
       else if (k == log_length.size())
         elapsed = behind * (tau - log_time[k - 1]) / (log_tip - log_length[k - 1]);
       else if (k > 0)
@@ -86,7 +87,7 @@ struct TipPath
                   (log_length[k] - log_x) * (log_time[k] - log_time[k - 1]) /
                     (log_length[k] - log_length[k - 1]);
       else
-        elapsed = tau - log_time[0] + 1.5 * (log_length[0] - log_x);
+        elapsed = tau - log_time[0] + first_exponent * (log_length[0] - log_x);
       result[j] = 1. / std::sqrt(-std::expm1(-elapsed));
     }
   }
@@ -140,7 +141,7 @@ HydraulicFracture::Steps::Steps(const HydraulicFractureParameters &parameters,
   const std::size_t n_steps = std::lround((slow ? long_span : short_span) / time_step);
   first_log_time = std::log(last_time) - n_steps * time_step;
 
-  TipPath path;
+  TipPath path{shape_of_crack == CrackShape::penny ? 9. / 4. : 3. / 2., {}, {}};
   FractureFront front = estimate_front(grid, toughness(std::exp(first_log_time)));
   solve_front(grid, toughness(std::exp(first_log_time)), FrontMemory(), front);
   FractureFront earlier, two_earlier;
