@@ -102,7 +102,9 @@ public:
                  left_k1 = cross(edge, points[k + 1] - p) >= 0.;
       if (left_p != left_q && left_k != left_k1)
       {
-        double share = std::min(std::max(to_p / (to_p - to_q), 0.), 1.);
+        // Away from the corners, so that crossings near one corner keep their order.
+        const double share =
+          std::min(std::max(to_p / (to_p - to_q), corner_clearance), 1. - corner_clearance);
         const Tensor<1, 2> way = p + share * edge - points[k];
         crossings.push_back({arc + way * line / extent, face, swap ? 1. - share : share});
       }

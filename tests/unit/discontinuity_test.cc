@@ -8,6 +8,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <doctest/doctest.h>
 
@@ -33,7 +34,8 @@ struct Square
     dealii::GridGenerator::subdivided_hyper_cube(triangulation, n, -1., 1.);
     if (distort)
       dealii::GridTools::transform(
-        [](const Point<2> &p) {
+        [](const Point<2> &p)
+        {
           return Point<2>(p[0] + 0.06 * std::sin(3. * p[1]) * (1. - p[0] * p[0]),
                           p[1] + 0.05 * std::cos(2. * p[0]) * (1. - p[1] * p[1]));
         },
@@ -83,11 +85,12 @@ CrackPiece<2> piece_in_unit_cell(const Point<2> &a, const Point<2> &b)
 TEST_CASE("split quadrature: area and moments of both parts, down to slivers")
 {
   for (const double cut : {0.5, 0.3, 1e-2, 1e-4, 1e-8})
-    for (const auto &piece : {piece_in_unit_cell({0., cut}, {1., cut}),     // a row
-                              piece_in_unit_cell({1., cut}, {0., 0.4}),     // inclined, backwards
-                              piece_in_unit_cell({0., cut}, {cut, 0.}),     // a corner
-                              piece_in_unit_cell({1. - cut, 1.}, {1., 0.7}) // another one
-                             })
+    for (const auto &piece : {
+           piece_in_unit_cell({0., cut}, {1., cut}),     // a row
+           piece_in_unit_cell({1., cut}, {0., 0.4}),     // inclined, backwards
+           piece_in_unit_cell({0., cut}, {cut, 0.}),     // a corner
+           piece_in_unit_cell({1. - cut, 1.}, {1., 0.7}) // another one
+         })
     {
       const auto rule = split_quadrature(piece, 1);
       double area = 0., plus = 0., moment = 0.;
@@ -108,10 +111,7 @@ TEST_CASE("split quadrature: area and moments of both parts, down to slivers")
         std::vector<Point<2>> polygon{a, b};
         const Point<2> corner[4] = {{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}};
         const auto angle = [](const Point<2> &p) {
-          return p[1] == 0.   ? p[0] :
-                 p[0] == 1. ? 1. + p[1] :
-                 p[1] == 1. ? 3. - p[0] :
-                              4. - p[1];
+          return p[1] == 0. ? p[0] : p[0] == 1. ? 1. + p[1] : p[1] == 1. ? 3. - p[0] : 4. - p[1];
         };
         for (int k = 0; k < 8; ++k)
         {
@@ -178,7 +178,7 @@ TEST_CASE("a crack from the boundary has a mouth")
 TEST_CASE("a crack along a mesh line, through vertices, and at a shallow angle")
 {
   Square square(10);
-  for (const auto &line : {std::vector<Point<2>>{{-0.6, 0.}, {0.6, 0.}},      // on mesh lines
+  for (const auto &line : {std::vector<Point<2>>{{-0.6, 0.}, {0.6, 0.}}, // on mesh lines
                            std::vector<Point<2>>{{0.2, -0.6}, {0.2, 0.6}},
                            std::vector<Point<2>>{{-0.6, -0.6}, {0.6, 0.6}},   // through vertices
                            std::vector<Point<2>>{{-0.6, 1e-5}, {0.6, -1e-5}}, // through one
@@ -223,9 +223,8 @@ TEST_CASE("keys do not change when a crack grows, and come back after a rollback
   const auto &after = discontinuity.enrichment().unknowns();
   CHECK(after.size() == before.size() + 8);
   for (const auto &unknown : before)
-    CHECK(std::count_if(after.begin(), after.end(), [&](const ExtraUnknown &u) {
-            return u.key == unknown.key;
-          }) == 1);
+    CHECK(std::count_if(after.begin(), after.end(),
+                        [&](const ExtraUnknown &u) { return u.key == unknown.key; }) == 1);
 
   discontinuity.restore(paths);
   REQUIRE(discontinuity.enrichment().unknowns().size() == before.size());
@@ -260,7 +259,8 @@ TEST_CASE("growth goes on to the boundary, never turns back, and stops at anothe
 TEST_CASE("two cracks in one cell and a crack off the mesh are refused")
 {
   Square square(10);
-  CHECK_THROWS_AS(cut(square, {{{-0.6, 0.1}, {0.6, 0.1}}, {{-0.5, -0.6}, {-0.5, 0.6}}}), InputError);
+  CHECK_THROWS_AS(cut(square, {{{-0.6, 0.1}, {0.6, 0.1}}, {{-0.5, -0.6}, {-0.5, 0.6}}}),
+                  InputError);
   CHECK_THROWS_AS(cut(square, {{{2., 0.1}, {2.6, 0.1}}}), InputError);
 }
 
