@@ -70,7 +70,7 @@ private:
 
   std::string header;
   std::vector<std::string> columns;
-  std::vector<std::vector<std::string> > cells;
+  std::vector<std::vector<std::string>> cells;
 };
 
 
