@@ -247,6 +247,17 @@ BoundaryConditions<dim>::uses_reference() const
 
 template <int dim>
 bool
+BoundaryConditions<dim>::mentions_pore_pressure() const
+{
+  for (const Dirichlet &condition : dirichlet)
+    if (condition.component == dim)
+      return true;
+  return !prescribed_loads.flux.empty();
+}
+
+
+template <int dim>
+bool
 BoundaryConditions<dim>::constant_in_time() const
 {
   for (const Dirichlet &condition : dirichlet)

@@ -65,6 +65,10 @@ public:
   bool
   constant_in_time() const;
 
+  /// Is there any condition on pore pressure or flux?
+  bool
+  mentions_pore_pressure() const;
+
   /// Add hanging-node constraints and Dirichlet conditions at `time`; `increment` gets the same
   /// with zero values. Both are closed. Collective.
   void

@@ -235,11 +235,11 @@ BulkAssembly<dim>::matrix(const StepContext                   &context,
 
 
 template <int dim>
+template <class Function>
 void
-BulkAssembly<dim>::residual(const StepContext                  &context,
-                            const State                        &state,
-                            const Role                         &,
-                            TrilinosWrappers::MPI::BlockVector &residual) const
+BulkAssembly<dim>::for_each_residual(const StepContext &context,
+                                     const State       &state,
+                                     const Function    &use) const
 {
   const auto                          &fe = discretization.dof_handler.get_fe();
   const unsigned int                   n  = fe.n_dofs_per_cell();
@@ -283,8 +283,23 @@ BulkAssembly<dim>::residual(const StepContext                  &context,
                          local_residual);
         if (!loads.empty() && cell->at_boundary())
           subtract_loads(loads, cell, context, face_values, integrals.layout, local_residual);
-        discretization.constraints.distribute_local_to_global(local_residual, dofs, residual);
+        use(integrals.layout, dofs, local_residual);
       }
+}
+
+
+template <int dim>
+void
+BulkAssembly<dim>::residual(const StepContext                  &context,
+                            const State                        &state,
+                            const Role                         &,
+                            TrilinosWrappers::MPI::BlockVector &residual) const
+{
+  for_each_residual(context,
+                    state,
+                    [&](const auto &, const auto &dofs, const Vector<double> &local) {
+                      discretization.constraints.distribute_local_to_global(local, dofs, residual);
+                    });
   residual.compress(VectorOperation::add);
 }
 
@@ -434,6 +449,93 @@ BulkAssembly<dim>::cut_cells(const StepContext &context,
             }
           sink.add(local);
         }
+}
+
+
+template <int dim>
+double
+BulkAssembly<dim>::stored_fluid(const StepContext &context,
+                                const State       &state,
+                                const Role        &role) const
+{
+  const auto                          &fe = discretization.dof_handler.get_fe();
+  CellIntegrals<dim>                   integrals(discretization.mapping, fe, false);
+  const auto                          &layout = integrals.layout;
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  const double                         ratio = context.pressure_rate / context.rate;
+  double                               stored = 0.;
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        const RockProperties &properties = rock(cell->material_id());
+        integrals.reinit(cell);
+        cell->get_dof_indices(dofs);
+        const auto change = [&](const unsigned int i) {
+          return state.current.bulk(dofs[i]) - state.rate_reference.bulk(dofs[i]);
+        };
+        for (unsigned int a = 0; a < layout.n_p; ++a)
+          {
+            stored += ratio * properties.inverse_biot_modulus * integrals.pressure_means[a] *
+                      change(layout.p[a]);
+            for (unsigned int b = 0; b < layout.n_u; ++b)
+              for (unsigned int i = 0; i < dim; ++i)
+                stored += properties.biot_coefficient *
+                          integrals.divergences[(i * layout.n_p + a) * layout.n_u + b] *
+                          change(layout.u[b * dim + i]);
+          }
+        if (const CutCell<dim> *cut = role(cell).cut)
+          for (unsigned int q = 0; q < cut->points.size(); ++q)
+            for (unsigned int c = 0; c < cut->n_columns(); ++c)
+              {
+                const unsigned int k = cut->extra[c];
+                stored += properties.biot_coefficient * cut->weights[q] *
+                          cut->gradients[q * cut->n_columns() + c][cut->component[c]] *
+                          (state.current.extra[k] - state.rate_reference.extra[k]);
+              }
+      }
+  return stored;
+}
+
+
+template <int dim>
+double
+BulkAssembly<dim>::outflow(const StepContext &context, const State &state) const
+{
+  const auto &constraints = discretization.constraints;
+  double      volume      = 0.;
+  for_each_residual(context, state, [&](const BulkLayout<dim>                      &layout,
+                                        const std::vector<types::global_dof_index> &dofs,
+                                        const Vector<double>                       &residual) {
+    for (const unsigned int i : layout.p)
+      if (constraints.is_constrained(dofs[i]))
+        {
+          const auto *masters = constraints.get_constraint_entries(dofs[i]);
+          if (masters == nullptr || masters->empty())
+            volume += residual(i);
+        }
+  });
+  if (!loads.flux.empty())
+    {
+      const auto        &fe = discretization.dof_handler.get_fe();
+      FEFaceValues<dim> face_values(discretization.mapping,
+                                    fe,
+                                    QGauss<dim - 1>(fe.base_element(0).degree + 1),
+                                    update_quadrature_points | update_JxW_values);
+      for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary())
+              {
+                const auto flux = loads.flux.find(cell->face(f)->boundary_id());
+                if (flux == loads.flux.end())
+                  continue;
+                face_values.reinit(cell, f);
+                for (const unsigned int q : face_values.quadrature_point_indices())
+                  volume -= context.effective_dt() * face_values.JxW(q) *
+                            flux->second.value(face_values.quadrature_point(q), context.time);
+              }
+    }
+  return volume;
 }
 
 

@@ -60,7 +60,21 @@ public:
   void
   cut_cells(const StepContext &context, const State &state, const Role &role, Sink &sink) const;
 
+  /// Fluid that the pores of the owned cells have gained since the rate references [m^3 (/m)].
+  double
+  stored_fluid(const StepContext &context, const State &state, const Role &role) const;
+
+  /// Fluid that has left the owned cells through the boundary in the step [m^3 (/m)]: the reactions
+  /// to prescribed pore pressures, less the prescribed flux.
+  double
+  outflow(const StepContext &context, const State &state) const;
+
 private:
+  /// Call use(layout, dofs, residual) with the unconstrained residual of every owned cell.
+  template <class Function>
+  void
+  for_each_residual(const StepContext &context, const State &state, const Function &use) const;
+
   const Rock                &rock;
   const Loads<dim>          &loads;
   PressureStabilisation      stabilisation;

@@ -105,6 +105,17 @@ public:
     return all_wells.next_jump(t);
   }
 
+  /// Leak-off into pores that are resolved needs their pressure.
+  bool needs_pore_pressure() const
+  {
+    return leak_off == LeakOff::resolved;
+  }
+
+  double rate_of_first_well(double t) const
+  {
+    return all_wells.first_rate(t);
+  }
+
   void save(boost::archive::binary_oarchive &) const;
 
   void load(boost::archive::binary_iarchive &);

@@ -334,6 +334,7 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
     report.rate = well.rate(context, state);
     for (unsigned int k = 0; k < well.perforations.size(); ++k)
       report.perforation_rates.push_back(well.perforation_rate(k, context, state));
+    report.inlet_segment = well.perforations[0].segments[0];
     report.inlet_pressure = mean(well.perforations[0], pressures);
     report.inlet_aperture = mean(well.perforations[0], apertures);
 
@@ -342,6 +343,13 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
     reports.push_back(std::move(report));
   }
   return reports;
+}
+
+
+template <int dim>
+double Wells<dim>::first_rate(const double t) const
+{
+  return wells.empty() || wells[0].pressure_control ? 0. : wells[0].value(t, t);
 }
 
 

@@ -22,6 +22,7 @@ struct WellReport
   double borehole_pressure = 0.;         ///< [Pa]
   double inlet_pressure = 0.;            ///< in the fracture at the first perforation [Pa]
   double inlet_aperture = 0.;            ///< there [m]
+  unsigned int        inlet_segment     = 0;  ///< the first perforation opens into it
   std::vector<double> perforation_rates; ///< into the fracture [m^3/s]
 };
 
@@ -82,6 +83,10 @@ public:
 
   /// The next time after t at which a rate or pressure jumps.
   double next_jump(double t) const;
+
+  /// Rate of the first well as the deck gives it, for the whole fracture; zero where there is none
+  /// or its pressure is given.
+  double first_rate(double t) const;
 
 private:
   /// A perforation opens into the nearest segment; into several in equal parts where they are

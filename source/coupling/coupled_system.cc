@@ -1,0 +1,516 @@
+#include "coupling/coupled_system.h"
+
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+#include "coupling/system_sink.h"
+
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/block_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+FESystem<dim>
+make_element(const Discretisation &discretisation)
+{
+  const FE_Q<dim> displacement(discretisation.displacement_degree), pressure(1);
+  if (discretisation.has_pore_pressure)
+    return FESystem<dim>(displacement, dim, pressure, 1);
+  return FESystem<dim>(displacement, dim);
+}
+
+
+void
+truncate(Triplets &triplets, const std::size_t size)
+{
+  triplets.rows.resize(size);
+  triplets.columns.resize(size);
+  triplets.values.resize(size);
+}
+} // namespace
+
+
+template <int dim>
+void
+CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
+{
+  LinearSolverParameters::declare_parameters(prm);
+  prm.enter_subsection("Nonlinear solver");
+  prm.declare_entry("Tolerance",
+                    "1e-8",
+                    Quantity(dimension::number, Range::open(0., 1.)),
+                    "Reduction of the residual of each field against its greatest in the solve.");
+  prm.declare_entry("Maximum iterations",
+                    "25",
+                    Patterns::Integer(1),
+                    "A solve that takes more has failed, and the step is cut.");
+  prm.declare_entry("Maximum pressure change",
+                    "5 MPa",
+                    Quantity(dimension::pressure, Range::positive()),
+                    "An iteration that would change a fracture pressure by more is shortened.");
+  prm.leave_subsection();
+}
+
+
+template <int dim>
+CoupledSystem<dim>::CoupledSystem(RunContext                                 &run,
+                                  parallel::distributed::Triangulation<dim> &triangulation,
+                                  const Mapping<dim>                         &mapping,
+                                  const Rock                                 &rock,
+                                  const BoundaryConditions<dim>              &boundary_conditions,
+                                  FractureModel<dim>                         &model,
+                                  Network<dim>                               &network,
+                                  const Discretisation                       &discretisation,
+                                  ParameterHandler                           &prm)
+  : run(run)
+  , triangulation(triangulation)
+  , mapping(mapping)
+  , rock(rock)
+  , boundary_conditions(boundary_conditions)
+  , model(model)
+  , network(network)
+  , discretisation(discretisation)
+  , communication(run.communicator)
+  , fe(make_element<dim>(discretisation))
+  , dof_handler(triangulation)
+{
+  solver_parameters.parse_parameters(prm);
+  prm.enter_subsection("Nonlinear solver");
+  tolerance      = get_quantity(prm, "Tolerance", dimension::number);
+  max_iterations = prm.get_integer("Maximum iterations");
+  pressure_limit = get_quantity(prm, "Maximum pressure change", dimension::pressure);
+  prm.leave_subsection();
+}
+
+
+template <int dim>
+Discretization<dim>
+CoupledSystem<dim>::discretization() const
+{
+  return {triangulation,
+          dof_handler,
+          mapping,
+          increment_constraints,
+          discretisation.has_pore_pressure};
+}
+
+
+template <int dim>
+void
+CoupledSystem<dim>::setup_mesh(const double time)
+{
+  dof_handler.distribute_dofs(fe);
+  DoFRenumbering::Cuthill_McKee(dof_handler);
+  std::vector<unsigned int> block_of_component(fe.n_components(), 0);
+  if (discretisation.has_pore_pressure)
+    block_of_component[dim] = 1;
+  DoFRenumbering::component_wise(dof_handler, block_of_component);
+
+  const auto dofs_per_block = DoFTools::count_dofs_per_fe_block(dof_handler, block_of_component);
+  IndexSet   all_relevant;
+  DoFTools::extract_locally_relevant_dofs(dof_handler, all_relevant);
+  owned    = dof_handler.locally_owned_dofs().split_by_block(dofs_per_block);
+  relevant = all_relevant.split_by_block(dofs_per_block);
+
+  boundary_conditions.constrain(time, mapping, dof_handler, constraints, increment_constraints);
+  constraints_time = time;
+
+  {
+    BlockDynamicSparsityPattern pattern(relevant);
+    DoFTools::make_sparsity_pattern(dof_handler, pattern, increment_constraints, false);
+    model.add_couplings([&](const std::vector<types::global_dof_index> &dofs) {
+      increment_constraints.add_entries_local_to_global(dofs, pattern, false);
+    });
+    SparsityTools::distribute_sparsity_pattern(pattern,
+                                               dof_handler.locally_owned_dofs(),
+                                               run.communicator,
+                                               all_relevant);
+    system.bulk.clear();
+    system.bulk.reinit(owned, pattern, run.communicator);
+    if (discretisation.has_pore_pressure)
+      system.fixed_stress_mass.reinit(system.bulk.block(1, 1));
+  }
+  system.residual_bulk.reinit(owned, relevant, run.communicator, true);
+  linear_residual_bulk.reinit(owned, run.communicator);
+  ++stamps.mesh;
+  matrix_is_current = false;
+
+  bulk = std::make_unique<BulkAssembly<dim>>(rock,
+                                             boundary_conditions.loads(),
+                                             discretisation.stabilisation,
+                                             discretization());
+  if (!solver)
+    {
+      BulkStructure structure;
+      structure.dim               = dim;
+      structure.has_pore_pressure = discretisation.has_pore_pressure;
+      structure.n_dofs            = dof_handler.n_dofs();
+      structure.elastic_constant  = !discretisation.has_pore_pressure;
+      solver = make_linear_solver(solver_parameters, structure, run.communicator);
+    }
+  model.setup(discretization(), communication);
+}
+
+
+template <int dim>
+void
+CoupledSystem<dim>::renumber_extra(const std::vector<std::vector<double> *> &values)
+{
+  const ExtraNumbering old = numbering;
+  adopt_extra(old, values);
+}
+
+
+template <int dim>
+void
+CoupledSystem<dim>::adopt_extra(const ExtraNumbering                     &from,
+                                const std::vector<std::vector<double> *> &values)
+{
+  std::vector<ExtraUnknown> unknowns = model.extra_unknowns();
+  n_model_extra                      = unknowns.size();
+  network.set_segments(model.segments(), communication);
+  network.set_offset(n_model_extra);
+  const std::vector<ExtraUnknown> pressures = network.unknowns();
+  unknowns.insert(unknowns.end(), pressures.begin(), pressures.end());
+
+  ExtraNumbering now(std::move(unknowns));
+  for (std::vector<double> *vector : values)
+    *vector = now.transfer(from, *vector);
+  numbering = std::move(now);
+  ++stamps.extra;
+}
+
+
+template <int dim>
+TrilinosWrappers::MPI::BlockVector
+CoupledSystem<dim>::ghosted_vector() const
+{
+  TrilinosWrappers::MPI::BlockVector vector;
+  vector.reinit(owned, relevant, run.communicator);
+  return vector;
+}
+
+
+template <int dim>
+TrilinosWrappers::MPI::BlockVector
+CoupledSystem<dim>::owned_vector() const
+{
+  TrilinosWrappers::MPI::BlockVector vector;
+  vector.reinit(owned, run.communicator);
+  return vector;
+}
+
+
+template <int dim>
+State
+CoupledSystem<dim>::state(const Unknowns &current,
+                          const Unknowns &committed,
+                          const Unknowns &rate_reference,
+                          const Unknowns &acceleration_reference) const
+{
+  const auto segment_pressure = [this, &current](const std::uint64_t key) {
+    const auto &segments = network.segments();
+    const auto  position =
+      std::lower_bound(segments.begin(), segments.end(), key, [](const auto &segment, const auto k) {
+        return segment.key < k;
+      });
+    return position != segments.end() && position->key == key ?
+             network.pressures(current)[position - segments.begin()] :
+             0.;
+  };
+  return {current, committed, rate_reference, acceleration_reference, segment_pressure};
+}
+
+
+template <int dim>
+void
+CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
+{
+  const auto scope = run.timers.scope("assembly");
+  system.bulk      = 0.;
+  if (discretisation.has_pore_pressure)
+    system.fixed_stress_mass = 0.;
+  bulk->matrix(context,
+               [this](const auto &cell) { return model.role(cell); },
+               system.bulk,
+               discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr);
+  system.symmetric  = model.requirements().symmetric;
+  system.definite   = !discretisation.has_pore_pressure;
+  matrix_context    = context;
+  matrix_is_current = true;
+  bulk_was_touched  = false;
+  ++stamps.bulk_values;
+}
+
+
+template <int dim>
+void
+CoupledSystem<dim>::assemble_linear(const StepContext &context, const State &state)
+{
+  const bool coefficients_changed =
+    context.acceleration != matrix_context.acceleration ||
+    (discretisation.has_pore_pressure && (context.rate != matrix_context.rate ||
+                                          context.pressure_rate != matrix_context.pressure_rate));
+  if (!matrix_is_current || coefficients_changed || bulk_was_touched)
+    assemble_bulk_matrix(context);
+
+  const auto scope = run.timers.scope("assembly");
+  const auto role  = [this](const auto &cell) { return model.role(cell); };
+  system.residual_bulk = 0.;
+  bulk->residual(context, state, role, system.residual_bulk);
+
+  system.bulk_extra.clear();
+  system.extra_bulk.clear();
+  linear_extra_extra.clear();
+  linear_residual_extra.assign(numbering.size(), 0.);
+  if (n_model_extra > 0)
+    {
+      SystemSink sink(increment_constraints,
+                      system,
+                      system.residual_bulk,
+                      linear_residual_extra,
+                      linear_extra_extra,
+                      true);
+      bulk->cut_cells(context, state, role, sink);
+      system.residual_bulk.compress(VectorOperation::add);
+      communication.sum(linear_residual_extra);
+    }
+  linear_residual_bulk = system.residual_bulk;
+  n_linear_bulk_extra  = system.bulk_extra.values.size();
+  n_linear_extra_bulk  = system.extra_bulk.values.size();
+}
+
+
+template <int dim>
+void
+CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const State &state)
+{
+  if (bulk_was_touched)
+    assemble_linear(context, state); // the kept matrix has terms of the last iteration in it
+
+  const auto scope = run.timers.scope("fracture");
+  truncate(system.bulk_extra, n_linear_bulk_extra);
+  truncate(system.extra_bulk, n_linear_extra_bulk);
+  system.extra_extra    = linear_extra_extra;
+  system.residual_bulk  = 0.;
+  system.residual_extra.assign(numbering.size(), 0.);
+
+  SystemSink sink(increment_constraints,
+                  system,
+                  system.residual_bulk,
+                  system.residual_extra,
+                  system.extra_extra,
+                  true);
+  model.assemble(context, state, sink);
+  network.assemble(context, state, communication, sink);
+  system.residual_bulk.compress(VectorOperation::add);
+  if (numbering.size() > 0)
+    communication.sum(system.residual_extra);
+
+  bulk_was_touched = communication.max(sink.bulk_touched ? 1. : 0.) > 0.;
+  if (bulk_was_touched)
+    {
+      system.bulk.compress(VectorOperation::add);
+      ++stamps.bulk_values;
+    }
+  for (unsigned int b = 0; b < owned.size(); ++b)
+    system.residual_bulk.block(b) += linear_residual_bulk.block(b);
+  for (unsigned int i = 0; i < numbering.size(); ++i)
+    system.residual_extra[i] += linear_residual_extra[i];
+  ++stamps.extra_values;
+}
+
+
+template <int dim>
+void
+CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                                           const std::vector<double>                &dx_extra)
+{
+  auto product = owned_vector();
+  system.bulk.vmult(product, dx_bulk);
+  for (std::size_t k = 0; k < n_linear_bulk_extra; ++k)
+    product(system.bulk_extra.rows[k]) +=
+      system.bulk_extra.values[k] * dx_extra[system.bulk_extra.columns[k]];
+  product.compress(VectorOperation::add);
+  for (unsigned int b = 0; b < owned.size(); ++b)
+    linear_residual_bulk.block(b) += product.block(b);
+
+  if (numbering.size() == 0)
+    return;
+  auto ghosted = ghosted_vector();
+  ghosted      = dx_bulk;
+  std::vector<double> change(numbering.size(), 0.);
+  for (std::size_t k = 0; k < n_linear_extra_bulk; ++k)
+    change[system.extra_bulk.rows[k]] +=
+      system.extra_bulk.values[k] * ghosted(system.extra_bulk.columns[k]);
+  for (std::size_t k = 0; k < linear_extra_extra.values.size(); ++k)
+    change[linear_extra_extra.rows[k]] +=
+      linear_extra_extra.values[k] * dx_extra[linear_extra_extra.columns[k]];
+  communication.sum(change);
+  for (unsigned int i = 0; i < change.size(); ++i)
+    linear_residual_extra[i] += change[i];
+}
+
+
+template <int dim>
+typename CoupledSystem<dim>::Norms
+CoupledSystem<dim>::residual_norms() const
+{
+  Norms norms;
+  norms.momentum = system.residual_bulk.block(0).l2_norm();
+  if (discretisation.has_pore_pressure)
+    norms.mass = system.residual_bulk.block(1).l1_norm();
+  for (unsigned int i = 0; i < numbering.size(); ++i)
+    if (i < n_model_extra)
+      norms.extra += system.residual_extra[i] * system.residual_extra[i];
+    else
+      norms.fracture_fluid += std::abs(system.residual_extra[i]);
+  norms.extra = std::sqrt(norms.extra);
+  return norms;
+}
+
+
+template <int dim>
+NonlinearReport
+CoupledSystem<dim>::solve(const StepContext &context,
+                          Unknowns          &current,
+                          const Unknowns    &committed,
+                          const Unknowns    &rate_reference,
+                          const Unknowns    &acceleration_reference)
+{
+  NonlinearReport report;
+
+  // Essential conditions hold from the start, so that increments satisfy them with zero values.
+  if (context.time != constraints_time && !boundary_conditions.constant_in_time())
+    {
+      AffineConstraints<double> unused;
+      boundary_conditions.constrain(context.time, mapping, dof_handler, constraints, unused);
+      constraints_time = context.time;
+    }
+  auto values = owned_vector();
+  values      = current.bulk;
+  constraints.distribute(values);
+  current.bulk = values;
+
+  const State state = this->state(current, committed, rate_reference, acceleration_reference);
+  assemble_linear(context, state);
+  assemble_nonlinear(context, state);
+
+  const bool linear = numbering.size() == 0 && model.requirements().newton &&
+                      !model.requirements().changes_bulk && !bulk_was_touched;
+  const double injected = network.balance(context, state, communication).step.injected;
+  Norms        norms = residual_norms(), greatest = norms;
+  double       model_change = 0.;
+
+  auto                dx_bulk = owned_vector();
+  std::vector<double> dx_extra;
+  for (unsigned int iteration = 0;; ++iteration)
+    {
+      for (const auto &[now, most] : {std::make_pair(norms.momentum, &greatest.momentum),
+                                      std::make_pair(norms.mass, &greatest.mass),
+                                      std::make_pair(norms.extra, &greatest.extra),
+                                      std::make_pair(norms.fracture_fluid, &greatest.fracture_fluid)})
+        *most = std::max(*most, now);
+      if (!std::isfinite(norms.momentum + norms.mass + norms.extra + norms.fracture_fluid))
+        {
+          report.reason = "the residual is not a number";
+          return report;
+        }
+      // Forces of the bulk and of the fracture balance one another, so they share a scale.
+      const double force = std::max(greatest.momentum, greatest.extra);
+      const bool   small = model_change <= tolerance &&
+                         norms.momentum <= tolerance * force && norms.extra <= tolerance * force &&
+                         norms.mass <= tolerance * greatest.mass &&
+                         norms.fracture_fluid <= (injected > 0. ?
+                                                    1e-9 * injected :
+                                                    tolerance * greatest.fracture_fluid);
+      if (iteration > 0 && (small || linear))
+        {
+          report.converged  = true;
+          report.iterations = iteration;
+          return report;
+        }
+      if (force + greatest.mass + greatest.fracture_fluid == 0.)
+        {
+          report.converged = true; // nothing happens in this step
+          return report;
+        }
+      if (iteration == max_iterations)
+        {
+          report.iterations = iteration;
+          report.reason     = "no convergence in " + std::to_string(max_iterations) + " iterations";
+          return report;
+        }
+
+      try
+        {
+          const auto         scope = run.timers.scope("solve");
+          const LinearReport linear_report =
+            solver->solve(system, stamps, 0.01 * tolerance, dx_bulk, dx_extra);
+          report.linear_iterations += linear_report.iterations;
+          if (!linear_report.converged)
+            {
+              report.reason = "the linear solver has not converged";
+              return report;
+            }
+        }
+      catch (const SolveError &error)
+        {
+          report.reason = error.what();
+          return report;
+        }
+      double factor = 1.;
+      for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
+        factor = std::min(factor, pressure_limit / std::max(std::abs(dx_extra[i]), 1e-300));
+      if (factor < 1.)
+        {
+          dx_bulk *= factor;
+          for (double &value : dx_extra)
+            value *= factor;
+        }
+      values += dx_bulk;
+      constraints.distribute(values);
+      current.bulk = values;
+      for (unsigned int i = 0; i < numbering.size(); ++i)
+        current.extra[i] += dx_extra[i];
+      if (!linear)
+        {
+          model_change = model.update_iterate(context, state, communication);
+          if (!bulk_was_touched)
+            update_linear_residual(dx_bulk, dx_extra);
+          assemble_nonlinear(context, state);
+          norms = residual_norms();
+        }
+    }
+}
+
+
+template <int dim>
+typename CoupledSystem<dim>::PoreFluid
+CoupledSystem<dim>::pore_fluid(const StepContext &context, const State &state) const
+{
+  PoreFluid fluid;
+  if (!discretisation.has_pore_pressure)
+    return fluid;
+  fluid.stored  = communication.sum(bulk->stored_fluid(context, state, [this](const auto &cell) {
+    return model.role(cell);
+  }));
+  fluid.outflow = communication.sum(bulk->outflow(context, state));
+  return fluid;
+}
+
+
+template class CoupledSystem<2>;
+template class CoupledSystem<3>;
+} // namespace stockwork

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include "stockwork/fracture/scene.h"
+
+namespace stockwork
+{
+/// Subsection "Cracks": notches and natural fractures, the same for every fracture model.
+void
+declare_initial_cracks(dealii::ParameterHandler &prm);
+
+/// Throws InputError for a crack that is malformed or leaves the box from lower to upper.
+template <int dim>
+std::vector<InitialCrack<dim>>
+parse_initial_cracks(dealii::ParameterHandler &prm,
+                     const dealii::Point<dim> &lower,
+                     const dealii::Point<dim> &upper);
+} // namespace stockwork

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "stockwork/fracture/sink.h"
+
+#include "solvers/linear_system.h"
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+namespace stockwork
+{
+/// Adds local contributions to a LinearSystem, with the constraints of the bulk dofs resolved.
+/// Terms of the bulk block go into its matrix; `bulk_touched` tells whether there were any, since a
+/// matrix that is kept from one iteration to the next must not collect them twice.
+class SystemSink : public Sink
+{
+public:
+  /// The residual of the extra rows is added to `residual_extra`, this rank's part only.
+  SystemSink(const dealii::AffineConstraints<double>    &constraints,
+             LinearSystem                               &system,
+             dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk,
+             std::vector<double>                        &residual_extra,
+             Triplets                                   &extra_extra,
+             bool                                        wants_matrix);
+
+  bool
+  wants_matrix() const override
+  {
+    return with_matrix;
+  }
+
+  bool
+  wants_residual() const override
+  {
+    return true;
+  }
+
+  void
+  add(const LocalSystem &local) override;
+
+  bool bulk_touched = false;
+
+private:
+  const dealii::AffineConstraints<double>    &constraints;
+  LinearSystem                               &system;
+  dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk;
+  std::vector<double>                        &residual_extra;
+  Triplets                                   &extra_extra;
+  bool                                        with_matrix;
+};
+} // namespace stockwork

@@ -1,0 +1,270 @@
+#include "coupling/time_scheme.h"
+
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+#include <cmath>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// result = a x + b y, in all unknowns.
+void
+combine(Unknowns &result, const double a, const Unknowns &x, const double b, const Unknowns &y)
+{
+  result.bulk = x.bulk;
+  for (unsigned int k = 0; k < result.bulk.n_blocks(); ++k)
+    {
+      result.bulk.block(k) *= a;
+      if (b != 0.)
+        result.bulk.block(k).add(b, y.bulk.block(k));
+    }
+  result.extra.resize(x.extra.size());
+  for (unsigned int i = 0; i < x.extra.size(); ++i)
+    result.extra[i] = a * x.extra[i] + (b != 0. ? b * y.extra[i] : 0.);
+}
+} // namespace
+
+
+void
+TimeScheme::declare_parameters(ParameterHandler &prm)
+{
+  prm.enter_subsection("Time");
+  prm.declare_entry("Scheme",
+                    "auto",
+                    Patterns::Selection("auto|backward Euler|BDF2|Newmark"),
+                    "auto: Newmark with inertia; BDF2 for consolidation without a fracture; else "
+                    "backward Euler.");
+  prm.declare_entry("Inertia",
+                    "off",
+                    Patterns::Selection("off|on"),
+                    "Accelerations of rock and fluid together (u-p form).");
+  prm.declare_entry("Newmark beta",
+                    "0.25",
+                    Quantity(dimension::number, Range::positive()),
+                    "Unconditionally stable for 2 beta >= gamma >= 1/2.");
+  prm.declare_entry("Newmark gamma",
+                    "0.5",
+                    Quantity(dimension::number, Range::positive()),
+                    "Above 1/2 damps numerically, at the price of second order.");
+  prm.declare_entry("Theta",
+                    "0.5",
+                    Quantity(dimension::number, Range::closed(0.5, 1.)),
+                    "Of the pressure, with Newmark.");
+  prm.leave_subsection();
+}
+
+
+void
+TimeScheme::parse_parameters(ParameterHandler &prm, const bool smooth)
+{
+  prm.enter_subsection("Time");
+  const std::string name    = prm.get("Scheme");
+  const bool        inertia = prm.get("Inertia") == "on";
+  beta                      = get_quantity(prm, "Newmark beta", dimension::number);
+  gamma                     = get_quantity(prm, "Newmark gamma", dimension::number);
+  theta                     = get_quantity(prm, "Theta", dimension::number);
+  prm.leave_subsection();
+
+  if (name == "Newmark" || (name == "auto" && inertia))
+    scheme = Kind::newmark;
+  else if (name == "BDF2" || (name == "auto" && smooth))
+    scheme = Kind::bdf2;
+  else
+    scheme = Kind::backward_euler;
+
+  if (inertia != (scheme == Kind::newmark))
+    throw EntryError("Time/Scheme",
+                     name,
+                     inertia ? "Newmark or auto when Time/Inertia = on" :
+                               "not Newmark when Time/Inertia = off");
+  if (scheme == Kind::newmark && !(2. * beta >= gamma && gamma >= 0.5))
+    throw EntryError("Time/Newmark gamma",
+                     std::to_string(gamma),
+                     "at least 1/2 and at most 2 beta = " + std::to_string(2. * beta) +
+                       " (otherwise the scheme is unstable)");
+}
+
+
+void
+TimeScheme::initialise(const Unknowns &unknowns)
+{
+  if (scheme == Kind::backward_euler)
+    return;
+  combine(previous, 1., unknowns, 0., unknowns);
+  if (scheme == Kind::newmark)
+    {
+      combine(velocity, 0., unknowns, 0., unknowns);
+      combine(acceleration, 0., unknowns, 0., unknowns);
+    }
+}
+
+
+unsigned int
+TimeScheme::order() const
+{
+  return scheme == Kind::backward_euler ? 1 : 2;
+}
+
+
+StepContext
+TimeScheme::context(const double       time,
+                    const double       dt,
+                    const unsigned int step,
+                    const unsigned int attempt) const
+{
+  StepContext context;
+  context.time    = time + dt;
+  context.dt      = dt;
+  context.step    = step;
+  context.attempt = attempt;
+  context.rate = context.pressure_rate = 1. / dt;
+  if (scheme == Kind::bdf2 && n_accepted > 0)
+    {
+      const double r = dt / previous_dt;
+      context.rate = context.pressure_rate = (1. + 2. * r) / ((1. + r) * dt);
+    }
+  else if (scheme == Kind::newmark)
+    {
+      context.rate          = gamma / (beta * dt);
+      context.acceleration  = 1. / (beta * dt * dt);
+      context.pressure_rate = 1. / (theta * dt);
+    }
+  return context;
+}
+
+
+void
+TimeScheme::references(const StepContext &context,
+                       const Unknowns    &committed,
+                       Unknowns          &rate_reference,
+                       Unknowns          &acceleration_reference) const
+{
+  const double dt = context.dt;
+  if (scheme == Kind::bdf2 && n_accepted > 0)
+    {
+      const double r = dt / previous_dt;
+      combine(rate_reference,
+              (1. + r) * (1. + r) / (1. + 2. * r),
+              committed,
+              -r * r / (1. + 2. * r),
+              previous);
+    }
+  else if (scheme == Kind::newmark)
+    {
+      // u'' = (u - u_n - dt v_n)/(beta dt^2) - (1/(2 beta) - 1) a_n, and
+      // u'  = v_n + dt ((1-gamma) a_n + gamma u''), solved for the references.
+      combine(acceleration_reference, 1., committed, dt, velocity);
+      combine(acceleration_reference,
+              1.,
+              acceleration_reference,
+              beta * dt * dt * (0.5 / beta - 1.),
+              acceleration);
+      Unknowns known;
+      combine(known, 1., velocity, dt * (1. - gamma), acceleration);
+      combine(rate_reference, 1., acceleration_reference, -beta * dt / gamma, known);
+      if (rate_reference.bulk.n_blocks() > 1)
+        {
+          // p' = (p - p_n)/(theta dt) - (1/theta - 1) p'_n
+          auto &pressure = rate_reference.bulk.block(1);
+          pressure       = committed.bulk.block(1);
+          pressure.add((1. - theta) * dt, velocity.bulk.block(1));
+        }
+    }
+  else
+    combine(rate_reference, 1., committed, 0., committed);
+}
+
+
+void
+TimeScheme::accept(const StepContext &context, const Unknowns &committed, const Unknowns &current)
+{
+  if (scheme == Kind::newmark)
+    {
+      Unknowns rate_reference, acceleration_reference;
+      references(context, committed, rate_reference, acceleration_reference);
+      combine(velocity, context.rate, current, -context.rate, rate_reference);
+      if (velocity.bulk.n_blocks() > 1)
+        velocity.bulk.block(1) *= context.pressure_rate / context.rate;
+      combine(acceleration,
+              context.acceleration,
+              current,
+              -context.acceleration,
+              acceleration_reference);
+    }
+  if (scheme != Kind::backward_euler)
+    combine(previous, 1., committed, 0., committed);
+  previous_dt = context.dt;
+  ++n_accepted;
+}
+
+
+double
+TimeScheme::error_estimate(const StepContext &context,
+                           const Unknowns    &committed,
+                           const Unknowns    &current) const
+{
+  if (scheme != Kind::bdf2 || n_accepted < 2)
+    return -1.;
+  // The distance from the linear extrapolation is dt (dt + dt') / 2 times the second derivative;
+  // the error of a first-order formula, hence an upper bound of BDF2's.
+  const double r = context.dt / previous_dt;
+  double       difference = 0., size = 0.;
+  for (unsigned int k = 0; k < current.bulk.n_blocks(); ++k)
+    {
+      TrilinosWrappers::MPI::Vector extrapolated(
+        current.bulk.block(k).locally_owned_elements(), current.bulk.get_mpi_communicator());
+      TrilinosWrappers::MPI::Vector now(extrapolated), before(extrapolated), last(extrapolated);
+      now    = current.bulk.block(k);
+      last   = committed.bulk.block(k);
+      before = previous.bulk.block(k);
+      extrapolated = now;
+      extrapolated.add(-(1. + r), last);
+      extrapolated.add(r, before);
+      const double block_size = now.l2_norm();
+      if (block_size > 0.)
+        {
+          difference = std::max(difference, extrapolated.l2_norm() / block_size);
+          size       = 1.;
+        }
+    }
+  return size > 0. ? difference / (1. + r) : 0.;
+}
+
+
+void
+TimeScheme::predict(const StepContext &context, Unknowns &unknowns) const
+{
+  if (scheme == Kind::newmark)
+    {
+      Unknowns start;
+      combine(start, 1., unknowns, context.dt, velocity);
+      combine(unknowns, 1., start, 0.5 * context.dt * context.dt, acceleration);
+    }
+}
+
+
+std::vector<TrilinosWrappers::MPI::BlockVector *>
+TimeScheme::bulk_history()
+{
+  if (scheme == Kind::newmark)
+    return {&previous.bulk, &velocity.bulk, &acceleration.bulk};
+  if (scheme == Kind::bdf2)
+    return {&previous.bulk};
+  return {};
+}
+
+
+std::vector<std::vector<double> *>
+TimeScheme::extra_history()
+{
+  if (scheme == Kind::newmark)
+    return {&previous.extra, &velocity.extra, &acceleration.extra};
+  if (scheme == Kind::bdf2)
+    return {&previous.extra};
+  return {};
+}
+} // namespace stockwork

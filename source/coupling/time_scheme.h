@@ -1,0 +1,96 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include "stockwork/fracture/state.h"
+
+namespace stockwork
+{
+/// How rates are formed from the unknowns, and which history that takes.
+///
+/// Quasi-static: backward Euler, or BDF2 with variable steps (second order; the default for smooth
+/// consolidation). With inertia: Newmark for the displacement and the theta scheme for the
+/// pressure, both collocated at the end of the step.
+class TimeScheme
+{
+public:
+  enum class Kind
+  {
+    backward_euler,
+    bdf2,
+    newmark
+  };
+
+  static void
+  declare_parameters(dealii::ParameterHandler &prm);
+
+  /// `smooth`: nothing in the run changes abruptly, so `auto` may choose second order.
+  void
+  parse_parameters(dealii::ParameterHandler &prm, bool smooth);
+
+  /// The vectors of the history get the layout of `unknowns` and are zero; call once at the start.
+  void
+  initialise(const Unknowns &unknowns);
+
+  /// Coefficients of a step from the last accepted time.
+  StepContext
+  context(double time, double dt, unsigned int step, unsigned int attempt) const;
+
+  /// Fill the references that go with `context`.
+  void
+  references(const StepContext &context,
+             const Unknowns    &committed,
+             Unknowns          &rate_reference,
+             Unknowns          &acceleration_reference) const;
+
+  /// The step is accepted; `committed` is the state at its start, `current` at its end.
+  void
+  accept(const StepContext &context, const Unknowns &committed, const Unknowns &current);
+
+  /// An estimate of the local error of the step relative to the size of the solution, of order
+  /// order()+1 in dt; negative while there is not enough history.
+  double
+  error_estimate(const StepContext &context, const Unknowns &committed, const Unknowns &current) const;
+
+  /// Extrapolated start of the iteration, in place of the committed state `unknowns`.
+  void
+  predict(const StepContext &context, Unknowns &unknowns) const;
+
+  unsigned int
+  order() const;
+
+  Kind
+  kind() const
+  {
+    return scheme;
+  }
+
+  /// Vectors of history that must move with the mesh and into checkpoints.
+  std::vector<dealii::TrilinosWrappers::MPI::BlockVector *>
+  bulk_history();
+
+  /// The extra unknowns of the history, for renumbering.
+  std::vector<std::vector<double> *>
+  extra_history();
+
+  template <class Archive>
+  void
+  serialize(Archive &archive, const unsigned int)
+  {
+    archive &previous_dt &n_accepted;
+  }
+
+private:
+  Kind   scheme    = Kind::backward_euler;
+  double beta      = 0.25;
+  double gamma     = 0.5;
+  double theta     = 0.5;
+
+  double       previous_dt = 0.;
+  unsigned int n_accepted  = 0;
+
+  Unknowns previous;     ///< the state before the committed one (BDF2, error estimates)
+  Unknowns velocity;     ///< first derivative of the committed state (Newmark, theta)
+  Unknowns acceleration; ///< second derivative (Newmark)
+};
+} // namespace stockwork

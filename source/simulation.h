@@ -1,0 +1,33 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include "stockwork/base/deck.h"
+#include "stockwork/base/run_context.h"
+#include "stockwork/fracture/registry.h"
+
+#include <string>
+
+namespace stockwork
+{
+struct SimulationOptions
+{
+  std::string output_directory;
+  bool        check_only = false;
+  bool        restart    = false;
+};
+
+/// Declares every entry of a deck, those of all registered fracture models included.
+void
+declare_all_parameters(dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
+
+/// Runs the case that `prm` describes, from the mesh to summary.json.
+/// Throws InputError before anything is computed, SolveError when no step succeeds any more.
+template <int dim>
+void
+simulate(RunContext                  &run,
+         const Deck                  &deck,
+         dealii::ParameterHandler    &prm,
+         const FractureModelRegistry &registry,
+         const SimulationOptions     &options);
+} // namespace stockwork
