@@ -216,7 +216,7 @@ TimeScheme::error_estimate(const StepContext &context,
   for (unsigned int k = 0; k < current.bulk.n_blocks(); ++k)
     {
       TrilinosWrappers::MPI::Vector extrapolated(
-        current.bulk.block(k).locally_owned_elements(), current.bulk.get_mpi_communicator());
+        current.bulk.block(k).locally_owned_elements(), current.bulk.block(k).get_mpi_communicator());
       TrilinosWrappers::MPI::Vector now(extrapolated), before(extrapolated), last(extrapolated);
       now    = current.bulk.block(k);
       last   = committed.bulk.block(k);
