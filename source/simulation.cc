@@ -1,10 +1,8 @@
 #include "simulation.h"
 
 #include "stockwork/base/error.h"
-#include "stockwork/base/progress.h"
 #include "stockwork/base/quantity.h"
-#include "stockwork/base/run_summary.h"
-#include "stockwork/base/statistics.h"
+#include "stockwork/base/version.h"
 
 #include "biot/boundary_conditions.h"
 #include "biot/in_situ.h"
@@ -14,7 +12,7 @@
 #include "coupling/stepper.h"
 #include "flow/network.h"
 #include "mesh/geometry.h"
-#include "verification/error_record.h"
+#include "report.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/vector_tools.h>
@@ -146,40 +144,14 @@ make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const S
 }
 
 
-/// One row of the statistics; the same columns for every fracture model.
-template <int dim>
-std::map<std::string, double>
-observe(const CoupledSystem<dim>      &system,
-        const Stepper<dim>            &stepper,
-        const FractureModel<dim>      &model,
-        const Network<dim>            &network,
-        const InSitu<dim>             &in_situ)
+/// The next step towards a time that must be met: dt, or what is left, or half of it where dt would
+/// leave a crumb.
+double
+step_towards(const double left, const double dt)
 {
-  std::map<std::string, double> values;
-  const State                   state   = stepper.last_state();
-  const FractureSummary         summary = model.summary(state, system.collectives());
-  values["fracture_length"]             = summary.length;
-  values["broken_length"]               = summary.broken_length;
-  values["dissipated_energy"]           = summary.dissipated_energy;
-  if (summary.stress_intensity_I)
-    values["stress_intensity_I"] = *summary.stress_intensity_I;
-  if (summary.stress_intensity_II)
-    values["stress_intensity_II"] = *summary.stress_intensity_II;
-  const FluidBalance &balance = stepper.fluid_balance();
-  values["fracture_volume"]   = balance.fracture_volume;
-  values["injected_volume"]   = balance.total.injected - balance.total.outflow;
-  values["leaked_volume"]     = balance.total.leaked;
-  const auto wells = network.wells(stepper.last_context(), state, system.collectives());
-  if (!wells.empty())
-    {
-      values["inlet_aperture"] = wells[0].inlet_aperture;
-      values["inlet_pressure"] = wells[0].inlet_pressure;
-      // Over the in-situ stress across the fracture, which is what analytical solutions call p.
-      const auto &inlet = network.segments()[wells[0].inlet_segment];
-      values["net_inlet_pressure"] =
-        wells[0].inlet_pressure + inlet.normal * (in_situ.stress(inlet.centre) * inlet.normal);
-    }
-  return values;
+  if (left <= dt * (1. + 1e-9))
+    return left;
+  return left < 1.5 * dt ? 0.5 * left : dt;
 }
 } // namespace
 
@@ -267,106 +239,40 @@ simulate(RunContext                  &run,
     }
   scheme.initialise(stepper.committed);
 
-  // Output.
-  StatisticsTable statistics;
-  if (run.rank == 0)
-    {
-      std::filesystem::create_directories(options.output_directory);
-      statistics.open(options.output_directory + "/statistics.csv");
-    }
-  RunSummary summary;
-  summary.case_name      = deck.name();
-  summary.fracture_model = model_name;
-  summary.ranks          = run.n_ranks;
-  std::unique_ptr<ErrorRecord<dim>> errors;
-  if (reference)
-    errors = std::make_unique<ErrorRecord<dim>>(*reference, control.start_time, control.end_time);
-
-  run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
-          << " unknowns on " << run.n_ranks << " rank(s)\n"
-          << progress_header() << std::endl;
-
   // Time.
+  if (run.rank == 0)
+    std::filesystem::create_directories(options.output_directory);
+  run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
+          << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
+  Report<dim> report(run,
+                     system,
+                     stepper,
+                     *model,
+                     network,
+                     in_situ,
+                     *mapping,
+                     reference.get(),
+                     control,
+                     options.output_directory);
+  report.case_name  = deck.name();
+  report.model_name = model_name;
+  report.open(false, control.start_time);
+
   double time = control.start_time, dt = control.initial_step;
   for (unsigned int step = 1; time < control.end_time * (1. - 1e-12); ++step)
     {
-      const double     target = std::min(control.end_time, network.next_jump(time));
-      const double     left   = target - time;
-      const double     tried  = left < 1.5 * dt ? (left <= dt * (1. + 1e-9) ? left : 0.5 * left) : dt;
-      const StepReport report = stepper.advance(time, tried, step);
-      time                    = stepper.last_context().time;
-      dt = report.dt < tried || tried == dt ? report.next_dt : std::max(dt, report.next_dt);
-
-      ++summary.steps;
-      summary.rejected_steps += report.rejected;
-      summary.nonlinear_iterations += report.nonlinear_iterations;
-      summary.linear_iterations += report.linear_iterations;
-
-      const auto observed = observe(system, stepper, *model, network, in_situ);
-      const auto pores = system.pore_fluid(stepper.last_context(), stepper.last_state());
-      summary.fluid_balance.stored += pores.stored;
-      summary.fluid_balance.outflow += pores.outflow + stepper.fluid_balance().step.outflow;
-      summary.fluid_balance.relative_error =
-        std::max(summary.fluid_balance.relative_error, stepper.fluid_balance().relative_error);
-      if (errors)
-        {
-          errors->add_fields(
-            time, report.dt, *mapping, system.bulk_dofs(), stepper.committed.bulk);
-          errors->add_values(time, report.dt, observed);
-        }
-      statistics.set("step", step);
-      statistics.set("time", time, "s");
-      statistics.set("time_step", report.dt, "s");
-      for (const auto &[name, value] : observed)
-        statistics.set(name, value);
-      if (errors)
-        for (const auto &[name, error] : errors->errors())
-          statistics.set("error_" + name, error.final);
-      statistics.end_row();
-
-      Progress progress;
-      progress.step                 = step;
-      progress.time                 = time;
-      progress.start_time           = control.start_time;
-      progress.end_time             = control.end_time;
-      progress.time_step            = report.dt;
-      progress.nonlinear_iterations = report.nonlinear_iterations;
-      progress.linear_iterations    = report.linear_iterations;
-      progress.rejected             = report.rejected;
-      progress.fracture_length      = observed.at("fracture_length");
-      if (observed.count("inlet_aperture"))
-        {
-          progress.inlet_aperture = observed.at("inlet_aperture");
-          progress.inlet_pressure = observed.at("inlet_pressure");
-        }
-      progress.fluid_balance = stepper.fluid_balance().relative_error;
-      progress.wall_seconds  = run.timers.total();
-      run.out << progress_line(progress) << std::endl;
-
+      const double target = std::min(control.end_time, network.next_jump(time));
+      const double tried  = step_towards(target - time, dt);
+      const auto   taken  = stepper.advance(time, tried, step);
+      time                = stepper.last_context().time;
+      dt = taken.dt < tried || tried == dt ? taken.next_dt : std::max(dt, taken.next_dt);
+      report.add_step(step, taken);
       for (const std::string &message : model->take_messages())
         run.warn(message);
-      if (time < control.end_time)
+      if (time < control.end_time * (1. - 1e-12))
         adaptation.adapt(system, stepper);
     }
-
-  // What there is to say at the end.
-  for (const auto &[name, value] : statistics.final_values())
-    summary.final_values[name] = value;
-  if (errors)
-    for (const auto &[name, error] : errors->errors())
-      summary.errors[name] = {error.final, error.mean(), reference->name()};
-  const FluidVolumes total            = stepper.fluid_balance().total;
-  summary.fluid_balance.injected      = total.injected;
-  summary.fluid_balance.in_fractures  = total.in_fractures;
-  summary.fluid_balance.leaked        = total.leaked;
-  summary.cells                       = triangulation.n_global_active_cells();
-  summary.unknowns                    = system.n_unknowns();
-  summary.wall_seconds                = run.timers.seconds(run.communicator);
-  summary.peak_memory_bytes           = peak_memory(run.communicator);
-  summary.warnings                    = run.warnings;
-  if (run.rank == 0)
-    write_summary(options.output_directory + "/summary.json", summary);
-  run.timers.print(run.out.get_stream(), run.communicator);
+  report.finish(triangulation.n_global_active_cells());
 }
 
 
