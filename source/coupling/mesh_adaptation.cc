@@ -44,7 +44,7 @@ bool
 MeshAdaptation<dim>::flag()
 {
   std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
-  model.wanted_cell_size(wanted);
+  model.wanted_cell_size(triangulation, wanted);
   return flag_cells(triangulation, geometry, wanted);
 }
 
@@ -53,22 +53,15 @@ template <int dim>
 void
 MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
 {
-  system.setup_mesh(time);
-  bool changed = false;
   while (flag())
     {
       triangulation.execute_coarsening_and_refinement();
       if (triangulation.n_global_active_cells() > max_cells)
         throw InputError("The mesh has more than " + std::to_string(max_cells) +
                          " cells ('Mesh/Maximum number of cells'). Is the wanted cell size meant?");
-      system.setup_mesh(time);
-      changed = true;
     }
-  if (changed)
-    {
-      triangulation.repartition();
-      system.setup_mesh(time);
-    }
+  triangulation.repartition();
+  system.setup_mesh(time);
 }
 
 

@@ -338,13 +338,13 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
 }
 
 template <int dim>
-void request_cell_size(const Discretization<dim> &discretization,
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                        const Discontinuity<dim> &discontinuity,
                        const double wanted,
                        const unsigned int rings_ahead,
                        std::vector<float> &sizes)
 {
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const Point<dim> centre = cell->center();
@@ -364,8 +364,39 @@ void request_cell_size(const Discretization<dim> &discretization,
     }
 }
 
+template <int dim>
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                       const std::vector<Point<dim>> &corners,
+                       const double wanted,
+                       const unsigned int rings,
+                       std::vector<float> &sizes)
+{
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const Point<dim> centre = cell->center();
+      const double reach = 0.5 * cell->diameter() + rings * wanted;
+      for (unsigned int i = 0; i + 1 < corners.size(); ++i)
+      {
+        const Tensor<1, dim> edge = corners[i + 1] - corners[i];
+        const double along =
+          std::clamp(((centre - corners[i]) * edge) / edge.norm_square(), 0., 1.);
+        if (centre.distance(corners[i] + along * edge) < reach)
+        {
+          float &size = sizes[cell->active_cell_index()];
+          size = std::min(size, static_cast<float>(wanted));
+        }
+      }
+    }
+}
+
 template class Discontinuity<2>;
-template void request_cell_size(const Discretization<2> &,
+template void request_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
+                                const std::vector<Point<2>> &,
+                                const double,
+                                const unsigned int,
+                                std::vector<float> &);
+template void request_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
                                 const Discontinuity<2> &,
                                 const double,
                                 const unsigned int,

@@ -139,9 +139,17 @@ private:
 /// @param size [m]; zero: that of the cut cells
 /// @param sizes by active cell index [m], lowered where need be
 template <int dim>
-void request_cell_size(const Discretization<dim> &discretization,
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                        const Discontinuity<dim> &discontinuity,
                        const double size,
                        const unsigned int rings_ahead,
+                       std::vector<float> &sizes);
+
+/// The same for a crack that has not been cut into the mesh yet: so many rings all around.
+template <int dim>
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                       const std::vector<dealii::Point<dim>> &corners,
+                       const double size,
+                       const unsigned int rings,
                        std::vector<float> &sizes);
 } // namespace stockwork

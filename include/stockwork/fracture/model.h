@@ -153,10 +153,12 @@ public:
     return {};
   }
 
-  /// Raise the wanted size of cells (by active cell index, [m]) where the fracture is or may soon
-  /// be. Called between steps.
+  /// Lower the wanted size of cells (by active cell index, [m]) where the fracture is or may soon
+  /// be. Called before the first setup(), when nothing but the scene's cracks is known, and between
+  /// steps.
   virtual void
-  wanted_cell_size(std::vector<float> &) const
+  wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &,
+                   std::vector<float> &) const
   {}
 
   virtual void

@@ -393,9 +393,19 @@ void CohesiveXFEM<dim>::rollback()
 
 
 template <int dim>
-void CohesiveXFEM<dim>::wanted_cell_size(std::vector<float> &sizes) const
+void CohesiveXFEM<dim>::wanted_cell_size(
+  const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+  std::vector<float> &sizes) const
 {
-  request_cell_size(*discretization, discontinuity, parameters.cell_size, parameters.rings_ahead,
+  if (!discretization)
+  {
+    if (parameters.cell_size > 0.)
+      for (const auto &crack : scene.cracks)
+        request_cell_size(triangulation, crack.points, parameters.cell_size,
+                          parameters.rings_ahead, sizes);
+    return;
+  }
+  request_cell_size(triangulation, discontinuity, parameters.cell_size, parameters.rings_ahead,
                     sizes);
 }
 

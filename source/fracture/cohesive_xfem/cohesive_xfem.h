@@ -40,7 +40,8 @@ public:
 
   void rollback() override;
 
-  void wanted_cell_size(std::vector<float> &sizes) const override;
+  void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                        std::vector<float> &sizes) const override;
 
   std::vector<std::string> take_messages() override;
 

@@ -95,9 +95,14 @@ public:
     }
   }
 
-  void wanted_cell_size(std::vector<float> &sizes) const override
+  void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                        std::vector<float> &sizes) const override
   {
-    request_cell_size(*discretization, discontinuity, cell_size, 4, sizes);
+    if (discretization)
+      request_cell_size(triangulation, discontinuity, cell_size, 4, sizes);
+    else if (cell_size > 0.)
+      for (const auto &crack : scene.cracks)
+        request_cell_size(triangulation, crack.points, cell_size, 4, sizes);
   }
 
   FractureSummary summary(const State &state, const Collectives &collectives) const override
