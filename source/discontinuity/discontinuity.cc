@@ -378,7 +378,7 @@ void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &
       const double reach = 0.5 * cell->diameter() + rings * wanted;
       for (unsigned int i = 0; i + 1 < corners.size(); ++i)
       {
-        const Tensor<1, dim> edge = corners[i + 1] - corners[i];
+        const dealii::Tensor<1, dim> edge = corners[i + 1] - corners[i];
         const double along =
           std::clamp(((centre - corners[i]) * edge) / edge.norm_square(), 0., 1.);
         if (centre.distance(corners[i] + along * edge) < reach)
