@@ -72,6 +72,16 @@ std::string expand(const std::string &value, const unsigned int alternative)
   return result + value.substr(position);
 }
 
+/// "'a', 'b', ..." of a list that may be long.
+std::string shortened_list(std::vector<std::string> names)
+{
+  const std::size_t most = 12;
+  const bool many = names.size() > most;
+  if (many)
+    names.resize(most);
+  return quoted_list(names) + (many ? " and others" : "");
+}
+
 /// What the deck's author may have meant by an entry that does not exist: the nearest names of
 /// the same section, or the same or nearly the same name elsewhere.
 std::string hint_for_entry(const std::string &path, const std::vector<DeclaredEntry> &declared)
@@ -95,10 +105,19 @@ std::string hint_for_entry(const std::string &path, const std::vector<DeclaredEn
     return "did you mean " + quoted_list(hints, "or") + "?";
   if (here.empty())
     return "";
-  const bool many = here.size() > 12;
-  if (many)
-    here.resize(12);
-  return "the section has " + quoted_list(here) + (many ? ", ..." : "");
+  return "the section has " + shortened_list(here);
+}
+
+std::string hint_for_section(const std::string &path, const std::vector<std::string> &sections)
+{
+  const std::string hint = did_you_mean(path, sections);
+  if (!hint.empty())
+    return "; " + hint;
+  std::vector<std::string> siblings;
+  for (const std::string &section : sections)
+    if (section_of(section) == section_of(path))
+      siblings.push_back(name_of(section));
+  return siblings.empty() ? "" : "; there are " + shortened_list(siblings);
 }
 
 /// Leaves the entered subsections also when an exception passes.
@@ -256,12 +275,8 @@ std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
   std::vector<std::string> warnings;
   for (const auto &[path, origin] : sections)
     if (!is_section(path) && is_section(section_of(path)))
-    {
-      const std::string hint = did_you_mean(path, section_names);
-      errors.emplace_back(
-        origin, "there is no section '" + path + "'; " +
-                  (hint.empty() ? "the sections are " + quoted_list(section_names) : hint));
-    }
+      errors.emplace_back(origin, "there is no section '" + path + "'" +
+                                    hint_for_section(path, section_names));
 
   for (const auto &[path, given] : entries)
   {
@@ -291,10 +306,7 @@ std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
     }
     catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &)
     {
-      errors.emplace_back(given.origin,
-                          "'" + path + "' is " +
-                            (given.value.empty() ? "empty" : "'" + given.value + "'") + "; " +
-                            reason_of_mismatch(given.value, target->pattern));
+      errors.emplace_back(given.origin, mismatch_text(path, given.value, target->pattern));
     }
   }
 

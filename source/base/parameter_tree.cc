@@ -134,24 +134,25 @@ std::string allowed_text(const std::string &pattern)
   return pattern;
 }
 
-std::string reason_of_mismatch(const std::string &value, const std::string &pattern)
+std::string
+mismatch_text(const std::string &path, const std::string &value, const std::string &pattern)
 {
   try
   {
     if (const auto quantity = Quantity::create(pattern))
-      quantity->parse(value);
+      (void)quantity->parse(value);
     else if (const auto quantities = Quantities::create(pattern))
-      quantities->parse(value);
+      (void)quantities->parse(value);
   }
   catch (const InputError &error)
   {
-    return error.what();
+    return "'" + path + "': " + error.what();
   }
   std::smatch match;
   static const std::regex selection("\\[Selection (.*)\\]");
   std::string hint;
   if (std::regex_match(pattern, match, selection))
     hint = did_you_mean(value, alternatives(match[1]));
-  return "allowed is " + allowed_text(pattern) + (hint.empty() ? "" : "; " + hint);
+  return EntryError(path, value, allowed_text(pattern)).what() + (hint.empty() ? "" : "; " + hint);
 }
 } // namespace stockwork

@@ -2,7 +2,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +31,7 @@ std::vector<DeclaredEntry> declared_entries(const dealii::ParameterHandler &prm)
 /// What an entry may be, in words, from the machine style description of its pattern.
 std::string allowed_text(const std::string &pattern);
 
-/// Why @p value does not fit: allowed_text(), or for a quantity the exact reason.
-std::string reason_of_mismatch(const std::string &value, const std::string &pattern);
+/// The error message about an entry whose value does not fit its pattern.
+std::string
+mismatch_text(const std::string &path, const std::string &value, const std::string &pattern);
 } // namespace stockwork

@@ -13,8 +13,7 @@ namespace
 {
 constexpr unsigned int max_regions = 8;
 
-std::string
-region_section(const unsigned int region)
+std::string region_section(const unsigned int region)
 {
   return "Region " + std::to_string(region);
 }
@@ -22,133 +21,100 @@ region_section(const unsigned int region)
 
 /// The entries of one kind of rock. In a region's own subsection an empty entry means "as the
 /// rock at large".
-void
-declare_properties(ParameterHandler &prm, const bool is_region)
+void declare_properties(ParameterHandler &prm, const bool is_region)
 {
-  const auto declare = [&](const std::string          &name,
-                           const std::string          &value,
-                           const Patterns::PatternBase &pattern,
-                           const std::string          &text) {
+  const auto declare = [&](const std::string &name, const std::string &value,
+                           const Dimension &dimension, const Range &range, const std::string &text)
+  {
     if (is_region)
-      prm.declare_entry(name, "", Patterns::Anything(), "As Rock/" + name + ", in this region only.");
+      prm.declare_entry(name, "", Quantity(dimension, range, ""),
+                        "As Rock/" + name + ", in this region only; empty: as there.");
     else
-      prm.declare_entry(name, value, pattern, text);
+      prm.declare_entry(name, value, Quantity(dimension, range), text);
   };
-  const auto optional = [&](const std::string &name, const std::string &text) {
-    prm.declare_entry(name, "", Patterns::Anything(), text);
-  };
+  const auto optional = [&](const std::string &name, const Dimension &dimension, const Range &range,
+                            const std::string &text)
+  { prm.declare_entry(name, "", Quantity(dimension, range, ""), text); };
 
-  declare("Young modulus", "10 GPa", Quantity(dimension::stress, Range::positive()), "Drained.");
-  declare("Poisson ratio", "0.25", Quantity(dimension::number, Range::open(-1., 0.5)), "Drained.");
-  optional("Biot coefficient",
-           "Empty: 1 - K/K_s if the solid's bulk modulus is given, else 1. Between 0 and 1.");
-  optional("Biot modulus",
-           "M [Pa], 'inf' for incompressible constituents. Empty: from 1/M = (alpha-n)/K_s + n/K_f.");
-  optional("Solid bulk modulus", "K_s of the grains [Pa]; empty: incompressible grains.");
-  declare("Porosity", "0.1", Quantity(dimension::number, Range::closed(0., 1.)), "n");
-  declare("Permeability",
-          "1 md",
-          Quantity(dimension::permeability, Range::positive()),
+  declare("Young modulus", "10 GPa", dimension::stress, Range::positive(), "Drained.");
+  declare("Poisson ratio", "0.25", dimension::number, Range::open(-1., 0.5), "Drained.");
+  optional("Biot coefficient", dimension::number, Range::closed(0., 1.),
+           "Empty: 1 - K/K_s if the solid's bulk modulus is given, else 1.");
+  optional("Biot modulus", dimension::stress, Range{0., INFINITY, true, false},
+           "M, 'inf' for incompressible constituents. Empty: from 1/M = (alpha-n)/K_s + n/K_f.");
+  optional("Solid bulk modulus", dimension::stress, Range::positive(),
+           "K_s of the grains; empty: incompressible grains.");
+  declare("Porosity", "0.1", dimension::number, Range::closed(0., 1.), "n");
+  declare("Permeability", "1 md", dimension::permeability, Range::positive(),
           "Intrinsic, isotropic. Impermeable rock is Bulk model = elastic.");
-  declare("Density",
-          "2500 kg/m^3",
-          Quantity(dimension::density, Range::positive()),
+  declare("Density", "2500 kg/m^3", dimension::density, Range::positive(),
           "Of the saturated rock; used with inertia only.");
-  optional("Fracture toughness", "K_Ic [Pa m^0.5]. This or the critical energy release rate.");
-  optional("Critical energy release rate", "G_c = K_Ic^2/E' [J/m^2].");
-  optional("Shear energy release rate", "G_IIc [J/m^2]; empty: as in mode I.");
-  optional("Tensile strength", "[Pa]; empty: chosen by the fracture model, which says so.");
+  optional("Fracture toughness", dimension::toughness, Range::positive(),
+           "K_Ic. This or the critical energy release rate.");
+  optional("Critical energy release rate", dimension::energy_release_rate, Range::positive(),
+           "G_c = K_Ic^2/E'.");
+  optional("Shear energy release rate", dimension::energy_release_rate, Range::positive(),
+           "G_IIc; empty: as in mode I.");
+  optional("Tensile strength", dimension::stress, Range::positive(),
+           "Empty: chosen by the fracture model, which says so.");
 }
 
 
-double
-get_optional(const ParameterHandler &prm,
-             const std::string      &path,
-             const std::string      &entry,
-             const Dimension        &dimension,
-             const Range            &range,
-             const double            otherwise)
-{
-  const std::string text = prm.get(entry);
-  if (text.empty())
-    return otherwise;
-  const double value = parse_quantity(text, dimension);
-  if (!range.contains(value))
-    throw EntryError(path + "/" + entry, text, range.text(dimension));
-  return value;
-}
-
-
-RockProperties
-parse_properties(const ParameterHandler &prm,
-                 const std::string      &path,
-                 const RockProperties   *inherited,
-                 const double            fluid_bulk_modulus)
+RockProperties parse_properties(const ParameterHandler &prm,
+                                const std::string &path,
+                                const RockProperties *inherited,
+                                const double fluid_bulk_modulus)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   RockProperties rock = inherited ? *inherited : RockProperties();
-  const auto get = [&](const std::string &entry, const Dimension &d, const Range &r, const double other) {
-    return get_optional(prm, path, entry, d, r, other);
-  };
+  // The patterns have checked the ranges.
+  const auto get = [&](const std::string &entry, const Dimension &dimension, const double otherwise)
+  { return get_optional_quantity(prm, entry, dimension).value_or(otherwise); };
   rock.young_modulus =
-    get("Young modulus", dimension::stress, Range::positive(), inherited ? rock.young_modulus : nan);
-  rock.poisson_ratio = get("Poisson ratio",
-                           dimension::number,
-                           Range::open(-1., 0.5),
-                           inherited ? rock.poisson_ratio : nan);
-  rock.porosity =
-    get("Porosity", dimension::number, Range::closed(0., 1.), inherited ? rock.porosity : nan);
-  rock.permeability = get("Permeability",
-                          dimension::permeability,
-                          Range::positive(),
-                          inherited ? rock.permeability : nan);
-  rock.density = get("Density", dimension::density, Range::positive(), inherited ? rock.density : nan);
-  rock.tensile_strength =
-    get("Tensile strength", dimension::stress, Range::positive(), rock.tensile_strength);
+    get("Young modulus", dimension::stress, inherited ? rock.young_modulus : nan);
+  rock.poisson_ratio =
+    get("Poisson ratio", dimension::number, inherited ? rock.poisson_ratio : nan);
+  rock.porosity = get("Porosity", dimension::number, inherited ? rock.porosity : nan);
+  rock.permeability =
+    get("Permeability", dimension::permeability, inherited ? rock.permeability : nan);
+  rock.density = get("Density", dimension::density, inherited ? rock.density : nan);
+  rock.tensile_strength = get("Tensile strength", dimension::stress, rock.tensile_strength);
 
   // Biot's constants, from either pair. K is the three-dimensional drained bulk modulus.
-  const double bulk_modulus  = rock.young_modulus / (3. * (1. - 2. * rock.poisson_ratio));
-  const double solid_modulus = get("Solid bulk modulus", dimension::stress, Range::positive(), inf);
-  const bool   alpha_given   = !prm.get("Biot coefficient").empty();
-  const bool   solid_given   = !prm.get("Solid bulk modulus").empty();
-  const bool   modulus_given = !prm.get("Biot modulus").empty();
+  const double bulk_modulus = rock.young_modulus / (3. * (1. - 2. * rock.poisson_ratio));
+  const double solid_modulus = get("Solid bulk modulus", dimension::stress, inf);
+  const bool alpha_given = !prm.get("Biot coefficient").empty();
+  const bool solid_given = !prm.get("Solid bulk modulus").empty();
+  const bool modulus_given = !prm.get("Biot modulus").empty();
   if (!inherited || alpha_given || solid_given)
-    rock.biot_coefficient = get("Biot coefficient",
-                                dimension::number,
-                                Range::closed(0., 1.),
-                                1. - bulk_modulus / solid_modulus);
+    rock.biot_coefficient =
+      get("Biot coefficient", dimension::number, 1. - bulk_modulus / solid_modulus);
   if (rock.biot_coefficient < 0.)
-    throw EntryError(path + "/Solid bulk modulus",
-                     prm.get("Solid bulk modulus"),
+    throw EntryError(path + "/Solid bulk modulus", prm.get("Solid bulk modulus"),
                      "a modulus above the drained bulk modulus of the rock, " +
                        to_string(bulk_modulus, dimension::stress));
   if (alpha_given && solid_given && !modulus_given)
-    {
-      const double consistent = 1. - bulk_modulus / solid_modulus;
-      if (std::abs(rock.biot_coefficient - consistent) > 0.01)
-        throw EntryError(path + "/Biot coefficient",
-                         prm.get("Biot coefficient"),
-                         "about " + std::to_string(consistent) +
-                           ", which is 1 - K/K_s of the moduli given. Leave one of the two out, or "
-                           "give the Biot modulus as well to fix all constants by hand");
-    }
+  {
+    const double consistent = 1. - bulk_modulus / solid_modulus;
+    if (std::abs(rock.biot_coefficient - consistent) > 0.01)
+      throw EntryError(path + "/Biot coefficient", prm.get("Biot coefficient"),
+                       "about " + std::to_string(consistent) +
+                         ", which is 1 - K/K_s of the moduli given. Leave one of the two out, or "
+                         "give the Biot modulus as well to fix all constants by hand");
+  }
   if (rock.biot_coefficient < rock.porosity)
-    throw EntryError(path + "/Biot coefficient",
-                     std::to_string(rock.biot_coefficient),
+    throw EntryError(path + "/Biot coefficient", std::to_string(rock.biot_coefficient),
                      "not below the porosity, " + std::to_string(rock.porosity));
   if (modulus_given)
-    rock.inverse_biot_modulus =
-      1. / get("Biot modulus", dimension::stress, Range{0., inf, true, false}, inf);
+    rock.inverse_biot_modulus = 1. / get("Biot modulus", dimension::stress, inf);
   else if (!inherited || alpha_given || solid_given || !prm.get("Porosity").empty())
-    rock.inverse_biot_modulus = (rock.biot_coefficient - rock.porosity) / solid_modulus +
-                                rock.porosity / fluid_bulk_modulus;
+    rock.inverse_biot_modulus =
+      (rock.biot_coefficient - rock.porosity) / solid_modulus + rock.porosity / fluid_bulk_modulus;
 
   // Toughness by either name; given twice they must agree.
-  const double toughness =
-    get("Fracture toughness", dimension::toughness, Range::positive(), nan);
-  const double energy =
-    get("Critical energy release rate", dimension::energy_release_rate, Range::positive(), nan);
+  const double toughness = get("Fracture toughness", dimension::toughness, nan);
+  const double energy = get("Critical energy release rate", dimension::energy_release_rate, nan);
   const double from_toughness = toughness * toughness / rock.plane_modulus();
   if (!std::isnan(toughness) && !std::isnan(energy) &&
       std::abs(energy - from_toughness) > 1e-3 * from_toughness)
@@ -160,54 +126,44 @@ parse_properties(const ParameterHandler &prm,
     rock.energy_release_rate = energy;
   else if (!std::isnan(toughness))
     rock.energy_release_rate = from_toughness;
-  rock.shear_energy_release_rate = get("Shear energy release rate",
-                                       dimension::energy_release_rate,
-                                       Range::positive(),
-                                       std::isnan(rock.shear_energy_release_rate) ?
-                                         rock.energy_release_rate :
-                                         rock.shear_energy_release_rate);
+  rock.shear_energy_release_rate =
+    get("Shear energy release rate", dimension::energy_release_rate,
+        std::isnan(rock.shear_energy_release_rate) ? rock.energy_release_rate
+                                                   : rock.shear_energy_release_rate);
   return rock;
 }
 } // namespace
 
 
-double
-RockProperties::toughness() const
+double RockProperties::toughness() const
 {
   return std::sqrt(plane_modulus() * energy_release_rate);
 }
 
 
-void
-Rock::declare_parameters(ParameterHandler &prm)
+void Rock::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Rock");
-  prm.declare_entry("Bulk model",
-                    "auto",
-                    Patterns::Selection("auto|elastic|poroelastic"),
-                    "elastic: impermeable, dry rock without pore pressure unknowns. poroelastic: "
-                    "Biot. auto: poroelastic if a pore pressure condition, flux or resolved leak-off "
-                    "gives the pore fluid something to do.");
-  prm.declare_entry("Plane state",
-                    "plane strain",
-                    Patterns::Selection("plane strain|plane stress"),
+  prm.declare_entry(
+    "Bulk model", "auto", Patterns::Selection("auto|elastic|poroelastic"),
+    "elastic: impermeable, dry rock without pore pressure unknowns. poroelastic: "
+    "Biot. auto: poroelastic if a pore pressure condition, flux or resolved leak-off "
+    "gives the pore fluid something to do.");
+  prm.declare_entry("Plane state", "plane strain", Patterns::Selection("plane strain|plane stress"),
                     "Two-dimensional runs only.");
   declare_properties(prm, false);
   for (unsigned int region = 1; region <= max_regions; ++region)
-    {
-      prm.enter_subsection(region_section(region));
-      declare_properties(prm, true);
-      prm.leave_subsection();
-    }
+  {
+    prm.enter_subsection(region_section(region));
+    declare_properties(prm, true);
+    prm.leave_subsection();
+  }
   prm.leave_subsection();
 
   prm.enter_subsection("Fluid");
-  prm.declare_entry("Viscosity",
-                    "1 cP",
-                    Quantity(dimension::viscosity, Range::positive()),
+  prm.declare_entry("Viscosity", "1 cP", Quantity(dimension::viscosity, Range::positive()),
                     "Of the fluid in pores and fractures.");
-  prm.declare_entry("Bulk modulus",
-                    "inf",
+  prm.declare_entry("Bulk modulus", "inf",
                     Quantity(dimension::stress, Range{0., INFINITY, true, false}),
                     "K_f; 'inf' for an incompressible fluid.");
   prm.declare_entry("Density", "1000 kg/m^3", Quantity(dimension::density, Range::positive()), "");
@@ -215,13 +171,11 @@ Rock::declare_parameters(ParameterHandler &prm)
 }
 
 
-void
-Rock::parse_parameters(ParameterHandler &prm)
+void Rock::parse_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Fluid");
   const double fluid_modulus = get_quantity(prm, "Bulk modulus", dimension::stress);
-  pore_fluid = {get_quantity(prm, "Viscosity", dimension::viscosity),
-                1. / fluid_modulus,
+  pore_fluid = {get_quantity(prm, "Viscosity", dimension::viscosity), 1. / fluid_modulus,
                 get_quantity(prm, "Density", dimension::density)};
   prm.leave_subsection();
 
@@ -229,30 +183,29 @@ Rock::parse_parameters(ParameterHandler &prm)
   model = prm.get("Bulk model");
   default_region.plane_stress = prm.get("Plane state") == "plane stress";
   RockProperties blank = parse_properties(prm, "Rock", nullptr, fluid_modulus);
-  const bool     plane_stress = default_region.plane_stress;
+  const bool plane_stress = default_region.plane_stress;
   if (plane_stress)
-    {
-      // E' differs, so the toughness must be read again with it.
-      blank.plane_stress = true;
-      const std::string toughness = prm.get("Fracture toughness");
-      if (!toughness.empty())
-        blank.energy_release_rate =
-          std::pow(parse_quantity(toughness, dimension::toughness), 2) / blank.plane_modulus();
-    }
+  {
+    // E' differs, so the toughness must be read again with it.
+    blank.plane_stress = true;
+    const std::string toughness = prm.get("Fracture toughness");
+    if (!toughness.empty())
+      blank.energy_release_rate =
+        std::pow(parse_quantity(toughness, dimension::toughness), 2) / blank.plane_modulus();
+  }
   default_region = blank;
   for (unsigned int region = 1; region <= max_regions; ++region)
-    {
-      prm.enter_subsection(region_section(region));
-      regions[region] = parse_properties(
-        prm, "Rock/" + region_section(region), &default_region, fluid_modulus);
-      prm.leave_subsection();
-    }
+  {
+    prm.enter_subsection(region_section(region));
+    regions[region] =
+      parse_properties(prm, "Rock/" + region_section(region), &default_region, fluid_modulus);
+    prm.leave_subsection();
+  }
   prm.leave_subsection();
 }
 
 
-const RockProperties &
-Rock::operator()(const types::material_id region) const
+const RockProperties &Rock::operator()(const types::material_id region) const
 {
   if (region == 0)
     return default_region;
@@ -265,22 +218,19 @@ Rock::operator()(const types::material_id region) const
 }
 
 
-const RockProperties &
-Rock::main() const
+const RockProperties &Rock::main() const
 {
   return default_region;
 }
 
 
-const std::string &
-Rock::bulk_model() const
+const std::string &Rock::bulk_model() const
 {
   return model;
 }
 
 
-const Fluid &
-Rock::fluid() const
+const Fluid &Rock::fluid() const
 {
   return pore_fluid;
 }

@@ -176,12 +176,14 @@ TEST_CASE("unknown entries and sections come with the nearest names")
         "a.prm:1: there is no entry 'Young modulus'; did you mean 'Rock/Young modulus'?");
   const std::string section = error_of_deck("subsection Rok\n set Young modulus = 1\nend");
   CHECK(section == "a.prm:1: there is no section 'Rok'; did you mean 'Rock'?");
+  CHECK(error_of_deck("subsection Wellbore\nend") ==
+        "a.prm:1: there is no section 'Wellbore'; there are 'Rock' and 'Mesh'");
 }
 
 TEST_CASE("values that are not allowed")
 {
   CHECK(error_of_deck("subsection Rock\n set Young modulus = 3 m\nend") ==
-        "a.prm:2: 'Rock/Young modulus' is '3 m'; \"3 m\" is a length; a stress is expected, e.g. "
+        "a.prm:2: 'Rock/Young modulus': \"3 m\" is a length; a stress is expected, e.g. "
         "\"3 MPa\"");
   CHECK(has(error_of_deck("set Model = xfem_cohesive"), "one of 'none' or 'cohesive_xfem'"));
   CHECK(has(error_of_deck("set Model = cohesive_xfm"), "did you mean 'cohesive_xfem'?"));

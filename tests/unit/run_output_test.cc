@@ -150,7 +150,10 @@ TEST_CASE("phases inside phases are counted once")
 
   std::ostringstream table;
   timers.print(table, MPI_COMM_WORLD);
-  CHECK(table.str().find("preconditioner") < table.str().find("everything else"));
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    CHECK(table.str().find("preconditioner") < table.str().find("everything else"));
+  else
+    CHECK(table.str().empty());
 }
 
 TEST_CASE("a warning is said once and kept")
@@ -159,7 +162,7 @@ TEST_CASE("a warning is said once and kept")
   RunContext context(MPI_COMM_WORLD, out);
   context.warn("the mesh is coarse");
   context.warn("the mesh is coarse");
-  CHECK(out.str() == "Warning: the mesh is coarse\n");
+  CHECK(out.str() == (context.rank == 0 ? "Warning: the mesh is coarse\n" : ""));
   CHECK(context.warnings.size() == 1);
 }
 
@@ -198,12 +201,20 @@ TEST_CASE("the parameter manual names unit, range and meaning")
   prm.declare_entry("Corners", "1, 2", Quantities(dimension::length, Range::any(), 2, 3), "");
   prm.declare_entry("Weights", "1", dealii::Patterns::List(dealii::Patterns::Double(0)), "");
   prm.leave_subsection();
+  for (const char *well : {"Well 1", "Well 2", "Well 3"})
+  {
+    prm.enter_subsection(well);
+    prm.declare_entry("Rate", "0", Quantity(dimension::rate), "");
+    prm.leave_subsection();
+  }
 
   std::ostringstream markdown, text, json;
   print_parameters(prm, "markdown", markdown);
   const auto has = [&](const std::string &part)
   { return markdown.str().find(part) != std::string::npos; };
   CHECK(has("## Rock"));
+  CHECK(has("## Well 1 to 3\n"));
+  CHECK_FALSE(has("## Well 2"));
   CHECK(
     has("| Young modulus | `20 GPa` | a stress > 0 Pa | Stiffness of the drained rock \\| frame "
         "|"));
