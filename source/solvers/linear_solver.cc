@@ -1,5 +1,7 @@
 #include "solvers/linear_solver.h"
 
+#include "solvers/block_amg.h"
+#include "solvers/bordered_solver.h"
 #include "solvers/direct_solver.h"
 #include "stockwork/base/error.h"
 
@@ -20,7 +22,7 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
                     "Krylov method with algebraic multigrid; for large three-dimensional problems "
                     "without fracture unknowns. auto: bordered in elastic rock with a fracture, "
                     "iterative above a size in 3-D, else direct.");
-  prm.declare_entry("Direct below", "60000", Integer(0),
+  prm.declare_entry("Direct below", "30000", Integer(0),
                     "Number of bulk unknowns in 3-D up to which auto chooses the direct solver.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
   prm.declare_entry("Restart", "50", Integer(2), "Basis vectors FGMRES keeps before a restart.");
@@ -41,9 +43,73 @@ void LinearSolverParameters::parse_parameters(dealii::ParameterHandler &prm)
   prm.leave_subsection();
 }
 
-std::unique_ptr<LinearSolver>
-make_linear_solver(const LinearSolverParameters &, const BulkStructure &, const MPI_Comm comm)
+namespace
 {
-  return std::make_unique<DirectSolver>(comm);
+/// Chooses anew for each system, which may gain or lose fracture unknowns.
+class AutomaticSolver : public LinearSolver
+{
+public:
+  AutomaticSolver(const LinearSolverParameters &parameters,
+                  const unsigned int dim,
+                  const MPI_Comm communicator)
+    : parameters(parameters)
+    , dim(dim)
+    , communicator(communicator)
+  {
+  }
+
+  bool wants_hierarchy(const dealii::types::global_dof_index n_dofs) const override
+  {
+    return dim == 3 && n_dofs > parameters.direct_below;
+  }
+
+  LinearReport solve(const LinearSystem &system,
+                     const SystemStamps &stamps,
+                     const double tolerance,
+                     dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                     std::vector<double> &dx_extra) override
+  {
+    const bool large = wants_hierarchy(system.residual_bulk.size());
+    auto &solver =
+      large && system.symmetric && system.residual_extra.empty()
+        ? get<BlockAmgSolver>(iterative, parameters, communicator)
+        :
+        // Without a fracture as well: one may come, and the factor of the rock will serve.
+        system.definite ? get<BorderedSolver>(bordered, communicator)
+                        : get<DirectSolver>(direct, communicator);
+    return solver.solve(system, stamps, tolerance, dx_bulk, dx_extra);
+  }
+
+private:
+  template <class Solver, class... Arguments>
+  static LinearSolver &get(std::unique_ptr<LinearSolver> &solver, const Arguments &...arguments)
+  {
+    if (!solver)
+      solver = std::make_unique<Solver>(arguments...);
+    return *solver;
+  }
+
+  LinearSolverParameters parameters;
+  unsigned int dim;
+  MPI_Comm communicator;
+  std::unique_ptr<LinearSolver> direct, bordered, iterative;
+};
+} // namespace
+
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters,
+                                                 const BulkStructure &structure,
+                                                 const MPI_Comm communicator)
+{
+  switch (parameters.type)
+  {
+  case LinearSolverParameters::Type::direct:
+    return std::make_unique<DirectSolver>(communicator);
+  case LinearSolverParameters::Type::bordered:
+    return std::make_unique<BorderedSolver>(communicator);
+  case LinearSolverParameters::Type::iterative:
+    return std::make_unique<BlockAmgSolver>(parameters, communicator);
+  default:
+    return std::make_unique<AutomaticSolver>(parameters, structure.dim, communicator);
+  }
 }
 } // namespace stockwork

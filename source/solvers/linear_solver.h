@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deal.II/base/index_set.h>
 #include <deal.II/base/parameter_handler.h>
 
 #include "solvers/linear_system.h"
@@ -21,12 +20,9 @@ struct LinearReport
   bool factorised = false; ///< a factor or preconditioner was built anew
 };
 
-/// What a preconditioner may know of the bulk unknowns.
+/// What decides between solvers.
 struct BulkStructure
 {
-  /// Rigid body modes at the locally owned displacement dofs, in their order: one vector per mode,
-  /// see rigid_body_modes(). May be empty for direct solvers.
-  std::vector<std::vector<double>> rigid_body_modes;
   unsigned int dim = 2;
   bool has_pore_pressure = false;
   dealii::types::global_dof_index n_dofs = 0; ///< bulk unknowns of all ranks
@@ -44,7 +40,7 @@ struct LinearSolverParameters
     iterative
   };
   Type type = Type::automatic;
-  unsigned int direct_below = 60000; ///< unknowns in 3-D up to which "auto" is direct
+  unsigned int direct_below = 30000; ///< unknowns in 3-D up to which "auto" is direct
   unsigned int max_iterations = 200;
   unsigned int restart = 50;
 
@@ -57,6 +53,13 @@ class LinearSolver
 {
 public:
   virtual ~LinearSolver() = default;
+
+  /// Whether solve() will look at the displacement hierarchy and the fixed-stress mass of a system
+  /// with that many bulk unknowns (all ranks).
+  virtual bool wants_hierarchy(dealii::types::global_dof_index /*n_dofs*/) const
+  {
+    return false;
+  }
 
   /// dx with |R + J dx| <= tolerance |R| in the norm of LinearReport. What the stamps call
   /// unchanged may be reused; the residual is checked with the present matrix all the same.

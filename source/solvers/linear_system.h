@@ -4,6 +4,8 @@
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include "solvers/displacement_hierarchy.h"
+
 #include <vector>
 
 namespace stockwork
@@ -55,6 +57,9 @@ struct LinearSystem
   /// pattern of bulk(1,1), constrained rows zero. Wanted by the iterative solver only; may be
   /// empty.
   dealii::TrilinosWrappers::SparseMatrix fixed_stress_mass;
+
+  /// See make_displacement_hierarchy(). Wanted by the iterative solver only; may be empty.
+  DisplacementHierarchy displacement_hierarchy;
 
   bool symmetric = true; ///< as assembled
   bool definite = false; ///< the bulk alone is symmetric positive definite

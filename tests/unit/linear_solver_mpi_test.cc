@@ -62,7 +62,8 @@ DenseSystem make_dense(const unsigned int n_u,
                        const unsigned int n_p,
                        const unsigned int n_extra,
                        const double decades = 0.,
-                       const double asymmetry = 0.)
+                       const double asymmetry = 0.,
+                       const double border_asymmetry = 0.)
 {
   DenseSystem d;
   d.n_u = n_u;
@@ -101,7 +102,7 @@ DenseSystem make_dense(const unsigned int n_u,
       {
         const unsigned int j = (7 * e + 3 * k) % (n_u + n_p);
         d.J(row, j) = noise(row, j);
-        d.J(j, row) = noise(row, j) + asymmetry * noise(j, row);
+        d.J(j, row) = noise(row, j) + (asymmetry + border_asymmetry) * noise(j, row);
       }
     }
     else
@@ -165,6 +166,13 @@ std::unique_ptr<LinearSystem> distribute(const DenseSystem &d)
       system.residual_bulk(start[b] + i) = d.R(start[b] + i);
     }
   system.bulk.compress(VectorOperation::insert);
+  if (d.n_p > 0)
+  {
+    system.fixed_stress_mass.reinit(system.bulk.block(1, 1));
+    for (const auto i : sets[1])
+      system.fixed_stress_mass.set(i, i, std::abs(0.5 * d.J(d.n_u + i, d.n_u + i)));
+    system.fixed_stress_mass.compress(VectorOperation::insert);
+  }
   system.residual_bulk.compress(VectorOperation::insert);
 
   // Every rank contributes some of every extra entry, owner or not.
@@ -191,7 +199,10 @@ std::unique_ptr<LinearSystem> distribute(const DenseSystem &d)
   for (unsigned int i = 0; i < d.J.m(); ++i)
     for (unsigned int j = 0; j < i; ++j)
       system.symmetric &= (d.J(i, j) == d.J(j, i));
-  system.definite = d.n_p == 0 && system.symmetric;
+  system.definite = d.n_p == 0;
+  for (unsigned int i = 0; i < d.n_u; ++i)
+    for (unsigned int j = 0; j < i; ++j)
+      system.definite &= (d.J(i, j) == d.J(j, i));
   return result;
 }
 
@@ -320,6 +331,101 @@ TEST_CASE("a factor is reused when nothing has changed, and never when something
     ++stamps.bulk_values;
     CHECK(solve(*solver, make_dense(40, 11, 6), stamps).error < 1e-10);
   }
+}
+
+TEST_CASE("the bordered solver agrees with a dense solve")
+{
+  for (const unsigned int n_extra : {0u, 6u})
+    for (const double asymmetry : {0., 0.4})
+    {
+      CAPTURE(n_extra);
+      CAPTURE(asymmetry);
+      auto solver = make(Type::bordered);
+      const auto run = solve(*solver, make_dense(31, 0, n_extra, 0., 0., asymmetry), {});
+      CHECK(run.report.converged);
+      CHECK(run.report.factorised);
+      CHECK(run.error < 1e-10);
+    }
+}
+
+TEST_CASE("the bordered solver keeps the rock's factor while the fracture changes")
+{
+  for (const double asymmetry : {0., 0.4})
+  {
+    CAPTURE(asymmetry);
+    auto solver = make(Type::bordered);
+    auto d = make_dense(31, 0, 6, 0., 0., asymmetry);
+    SystemStamps stamps;
+    CHECK(solve(*solver, d, stamps).report.factorised);
+
+    // Cohesive stiffness and flow change in every iteration.
+    d.J(31, 31) += 2.;
+    d.J(33, 32) = d.J(32, 33) = 0.3;
+    d.R *= -0.5;
+    auto run = solve(*solver, d, stamps);
+    CHECK_FALSE(run.report.factorised);
+    CHECK(run.error < 1e-10);
+
+    // The load of the rock is in balance after the first iteration.
+    for (unsigned int i = 0; i < 31; ++i)
+      d.R(i) = 0.;
+    CHECK(solve(*solver, d, stamps).error < 1e-10);
+
+    // The fracture grows, its unknowns renumbered.
+    ++stamps.extra;
+    auto grown = make_dense(31, 0, 10, 0., 0., asymmetry);
+    std::swap(grown.R(31), grown.R(37));
+    for (unsigned int i = 0; i < 41; ++i)
+      std::swap(grown.J(i, 31), grown.J(i, 37));
+    for (unsigned int i = 0; i < 41; ++i)
+      std::swap(grown.J(31, i), grown.J(37, i));
+    run = solve(*solver, grown, stamps);
+    CHECK_FALSE(run.report.factorised);
+    CHECK(run.error < 1e-10);
+
+    // And shrinks again, as after a rejected step.
+    CHECK(solve(*solver, d, stamps).error < 1e-10);
+
+    // A border entry changes without notice, and so does the rock.
+    for (unsigned int i = 0; i < 31; ++i)
+      if (d.J(31, i) != 0.)
+      {
+        d.J(31, i) *= 1.2;
+        d.J(i, 31) *= 1.2;
+      }
+    CHECK(solve(*solver, d, stamps).error < 1e-10);
+    d.J(3, 3) *= 1.5;
+    CHECK(solve(*solver, d, stamps).error < 1e-10);
+    ++stamps.mesh;
+    CHECK(solve(*solver, make_dense(40, 0, 6, 0., 0., asymmetry), stamps).error < 1e-10);
+  }
+}
+
+TEST_CASE("auto takes what is there")
+{
+  auto solver = make(Type::automatic);
+  SystemStamps stamps;
+  CHECK(solve(*solver, make_dense(31, 0, 0), stamps).error < 1e-10);
+  ++stamps.extra;
+  CHECK_FALSE(solve(*solver, make_dense(31, 0, 6), stamps).report.factorised);
+  ++stamps.mesh;
+  CHECK(solve(*solver, make_dense(31, 13, 6), stamps).error < 1e-10);
+}
+
+TEST_CASE("the iterative solver converges, also where units differ, and refuses fractures")
+{
+  for (const unsigned int n_p : {0u, 13u})
+    for (const double decades : {0., 10.})
+    {
+      CAPTURE(n_p);
+      CAPTURE(decades);
+      auto solver = make(Type::iterative);
+      const auto run = solve(*solver, make_dense(31, n_p, 0, decades), {});
+      CHECK(run.report.converged);
+      CHECK(run.error < 1e-10);
+    }
+  auto solver = make(Type::iterative);
+  CHECK_THROWS_AS(solve(*solver, make_dense(31, 0, 6), {}), InputError);
 }
 
 TEST_CASE("a singular matrix is an error that helps")
