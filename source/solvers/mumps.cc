@@ -25,6 +25,7 @@ struct Mumps::Instance
   MPI_Comm communicator;
   std::vector<int> rows, columns;
   bool alive = false;
+  bool is_root = false;
 
   /// The users' guide counts from one.
   int &icntl(const int i)
@@ -65,6 +66,9 @@ Mumps::Mumps(const MPI_Comm communicator, const Kind kind)
 {
   auto &data = instance->data;
   instance->communicator = communicator;
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  instance->is_root = rank == 0;
   data.comm_fortran = MPI_Comm_c2f(communicator);
   data.sym = static_cast<int>(kind);
   data.par = 1;
@@ -140,10 +144,11 @@ void Mumps::solve_sparse(std::vector<int> &column_starts,
   MPI_Bcast(&n_columns, 1, MPI_INT, 0, instance->communicator);
   data.nrhs = n_columns;
   data.lrhs = data.n;
-  data.nz_rhs = rows.size();
-  data.irhs_ptr = column_starts.data();
-  data.irhs_sparse = rows.data();
-  data.rhs_sparse = values.data();
+  if (instance->is_root)
+    data.nz_rhs = rows.size();
+  data.irhs_ptr = instance->is_root ? column_starts.data() : nullptr;
+  data.irhs_sparse = instance->is_root ? rows.data() : nullptr;
+  data.rhs_sparse = instance->is_root ? values.data() : nullptr;
   data.rhs = x.data();
   if (instance->run(solve_job) < no_error)
     instance->fail("solving");
