@@ -110,8 +110,9 @@ template <int dim>
 void
 CoupledSystem<dim>::setup_mesh(const double time)
 {
+  // Cells come along a space-filling curve, so the numbering is local as it is; and the components
+  // of a node stay together, which the multigrid smoother wants.
   dof_handler.distribute_dofs(fe);
-  DoFRenumbering::Cuthill_McKee(dof_handler);
   std::vector<unsigned int> block_of_component(fe.n_components(), 0);
   if (discretisation.has_pore_pressure)
     block_of_component[dim] = 1;
@@ -159,6 +160,9 @@ CoupledSystem<dim>::setup_mesh(const double time)
       structure.elastic_constant  = !discretisation.has_pore_pressure;
       solver = make_linear_solver(solver_parameters, structure, run.communicator);
     }
+  if (solver->wants_hierarchy(dof_handler.n_dofs()))
+    system.displacement_hierarchy =
+      make_displacement_hierarchy(mapping, dof_handler, increment_constraints);
   model.setup(discretization(), communication);
 }
 
