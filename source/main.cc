@@ -7,6 +7,7 @@
 #include "stockwork/base/version.h"
 #include "stockwork/fracture/registry.h"
 
+#include "case.h"
 #include "simulation.h"
 
 #include <deal.II/base/mpi.h>

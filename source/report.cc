@@ -48,6 +48,13 @@ Report<dim>::open(const bool restarted, const double time)
       else
         statistics.open(file);
     }
+}
+
+
+template <int dim>
+void
+Report<dim>::header() const
+{
   run.out << progress_header() << std::endl;
 }
 

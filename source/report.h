@@ -37,6 +37,10 @@ public:
   void
   open(bool restarted, double time);
 
+  /// Print the head of the columns.
+  void
+  header() const;
+
   /// After an accepted step. Collective.
   void
   add_step(unsigned int step, const StepReport &step_report);
@@ -52,7 +56,7 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations
       &summary.linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow
-        &summary.fluid_balance.relative_error &start_of_run;
+        &summary.fluid_balance.relative_error;
     if (errors)
       archive &*errors;
   }

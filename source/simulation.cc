@@ -1,23 +1,27 @@
 #include "simulation.h"
 
 #include "stockwork/base/error.h"
-#include "stockwork/base/quantity.h"
+#include "stockwork/base/parameters.h"
 #include "stockwork/base/version.h"
 
-#include "biot/boundary_conditions.h"
-#include "biot/in_situ.h"
-#include "coupling/coupled_system.h"
-#include "coupling/initial_cracks.h"
+#include "case.h"
 #include "coupling/mesh_adaptation.h"
-#include "coupling/stepper.h"
-#include "flow/network.h"
-#include "mesh/geometry.h"
+#include "output/checkpoint.h"
+#include "output/directory.h"
+#include "output/field_output.h"
+#include "output/signals.h"
 #include "report.h"
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/numerics/vector_tools.h>
 
-#include <filesystem>
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <sstream>
 
 namespace stockwork
 {
@@ -25,125 +29,6 @@ using namespace dealii;
 
 namespace
 {
-template <int dim>
-void
-declare_for_dimension(ParameterHandler &prm)
-{
-  Geometry<dim>::declare_parameters(prm);
-  InSitu<dim>::declare_parameters(prm);
-  BoundaryConditions<dim>::declare_parameters(prm);
-  Network<dim>::declare_parameters(prm);
-  CoupledSystem<dim>::declare_parameters(prm);
-}
-
-
-/// Displacement and pressure elements, and whether there is a pore pressure at all.
-template <int dim>
-Discretisation
-parse_discretisation(ParameterHandler              &prm,
-                     const Rock                    &rock,
-                     const BoundaryConditions<dim> &boundary_conditions,
-                     const Network<dim>            &network,
-                     const Requirements            &requirements)
-{
-  Discretisation discretisation;
-  const bool     asked = boundary_conditions.mentions_pore_pressure() ||
-                     network.needs_pore_pressure() || requirements.pore_pressure;
-  if (rock.bulk_model() == "elastic" && (network.needs_pore_pressure() || requirements.pore_pressure))
-    throw EntryError("Rock/Bulk model",
-                     "elastic",
-                     "poroelastic or auto, because the fracture model or its leak-off needs the pore "
-                     "pressure");
-  discretisation.has_pore_pressure =
-    rock.bulk_model() == "poroelastic" || (rock.bulk_model() == "auto" && asked);
-
-  prm.enter_subsection("Discretisation");
-  const std::string elements    = prm.get("Elements");
-  discretisation.displacement_degree = elements.substr(0, 2) == "Q2" ? 2 : 1;
-  if (elements == "Q1-Q1 stabilised")
-    discretisation.stabilisation = PressureStabilisation::projection;
-  prm.leave_subsection();
-  return discretisation;
-}
-} // namespace
-
-
-void
-declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &registry)
-{
-  Deck::declare_parameters(prm);
-  prm.declare_entry("Title", "", Patterns::Anything(), "For people; appears in the log.");
-  prm.declare_entry("Dimension", "2", Patterns::Selection("2|3"), "Of space.");
-  prm.declare_entry("Output directory",
-                    "output",
-                    Patterns::Anything(),
-                    "Where results go; --output overrides it.");
-  prm.declare_entry("Additional shared libraries",
-                    "",
-                    Patterns::Anything(),
-                    "Files, separated by commas, that bring fracture models of their own; relative "
-                    "to the deck.");
-  Rock::declare_parameters(prm);
-  declare_for_dimension<2>(prm);
-  TimeScheme::declare_parameters(prm);
-  StepControl::declare_parameters(prm);
-  declare_reference_parameters(prm);
-  declare_initial_cracks(prm);
-  declare_mesh_adaptation(prm);
-
-  prm.enter_subsection("Discretisation");
-  prm.declare_entry("Elements",
-                    "Q2-Q1",
-                    Patterns::Selection("Q2-Q1|Q1-Q1 stabilised|Q1-Q1"),
-                    "Displacement and pore pressure. Plain Q1-Q1 oscillates in the undrained limit "
-                    "and is here to show it. In elastic rock only the first counts.");
-  prm.leave_subsection();
-
-  prm.enter_subsection("Fracture");
-  std::string names;
-  for (const auto &[name, entry] : registry.all())
-    names += (names.empty() ? "" : "|") + name;
-  prm.declare_entry("Model", "none", Patterns::Selection(names), "The fracture model.");
-  for (const auto &[name, entry] : registry.all())
-    {
-      prm.enter_subsection(name);
-      entry.declare_parameters(prm);
-      prm.leave_subsection();
-    }
-  prm.leave_subsection();
-}
-
-
-namespace
-{
-template <int dim>
-const auto &
-create_function(const FractureModelEntry &entry)
-{
-  if constexpr (dim == 2)
-    return entry.create_2d;
-  else
-    return entry.create_3d;
-}
-
-
-template <int dim>
-std::unique_ptr<FractureModel<dim>>
-make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const Scene<dim> &scene)
-{
-  prm.enter_subsection("Fracture");
-  const std::string name   = prm.get("Model");
-  const auto       &create = create_function<dim>(registry.find(name));
-  if (!create)
-    throw EntryError("Fracture/Model", name, "a model that exists in " + std::to_string(dim) + "-D");
-  prm.enter_subsection(name);
-  auto model = create(prm, scene);
-  prm.leave_subsection();
-  prm.leave_subsection();
-  return model;
-}
-
-
 /// The next step towards a time that must be met: dt, or what is left, or half of it where dt would
 /// leave a crumb.
 double
@@ -152,6 +37,263 @@ step_towards(const double left, const double dt)
   if (left <= dt * (1. + 1e-9))
     return left;
   return left < 1.5 * dt ? 0.5 * left : dt;
+}
+
+
+/// Where a run stands between two steps.
+struct Clock
+{
+  double       time = 0.;
+  double       dt   = 0.; ///< proposed for the next step
+  unsigned int step = 0;  ///< the last one
+
+  template <class Archive>
+  void
+  serialize(Archive &archive, const unsigned int)
+  {
+    archive &time &dt &step;
+  }
+};
+
+
+/// The objects of a run on one case.
+template <int dim>
+class Simulation
+{
+public:
+  Simulation(RunContext              &run,
+             Case<dim>               &scene,
+             ParameterHandler        &prm,
+             const SimulationOptions &options);
+
+  void
+  start();
+
+  /// From the last checkpoint.
+  void
+  resume();
+
+  void
+  march();
+
+private:
+  void
+  save();
+
+  bool
+  finished() const
+  {
+    return clock.time >= the_case.control.end_time * (1. - 1e-12);
+  }
+
+  RunContext              &run;
+  Case<dim>               &the_case;
+  const SimulationOptions &options;
+
+  parallel::distributed::Triangulation<dim> triangulation;
+  std::unique_ptr<Mapping<dim>>             mapping;
+  CoupledSystem<dim>                        system;
+  MeshAdaptation<dim>                       adaptation;
+  Stepper<dim>                              stepper;
+  Report<dim>                               report;
+  FieldOutput<dim>                          fields;
+  Checkpoint                                checkpoint;
+  CheckpointSchedule                        schedule;
+  std::uint64_t                             deck_fingerprint;
+  Clock                                     clock;
+};
+
+
+template <int dim>
+Simulation<dim>::Simulation(RunContext              &run,
+                            Case<dim>               &the_case,
+                            ParameterHandler        &prm,
+                            const SimulationOptions &options)
+  : run(run)
+  , the_case(the_case)
+  , options(options)
+  , triangulation(run.communicator,
+                  Triangulation<dim>::limit_level_difference_at_vertices,
+                  parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
+  , mapping(the_case.geometry.mapping())
+  , system(run,
+           triangulation,
+           *mapping,
+           the_case.rock,
+           the_case.boundary_conditions,
+           *the_case.model,
+           the_case.network,
+           the_case.discretisation,
+           prm)
+  , adaptation(prm, the_case.geometry, triangulation, *the_case.model)
+  , stepper(run, system, *the_case.model, the_case.network, the_case.scheme, the_case.control)
+  , report(run,
+           system,
+           stepper,
+           *the_case.model,
+           the_case.network,
+           the_case.in_situ,
+           *mapping,
+           the_case.reference.get(),
+           the_case.control,
+           options.output_directory)
+  , checkpoint(options.output_directory + "/checkpoint", run.communicator)
+  , deck_fingerprint(fingerprint(prm, {"Time/End time", "Output directory", "Output", "Checkpoint"}))
+{
+  report.case_name  = the_case.name;
+  report.model_name = the_case.model_name;
+  fields.parse_parameters(prm);
+  schedule.parse_parameters(prm);
+  if (options.restart && !checkpoint.exists())
+    throw InputError("There is no checkpoint in '" + options.output_directory +
+                     "' to restart from. Run without --restart first, or name the directory of "
+                     "that run with --output.");
+  prepare_output_directory(options.output_directory, run.communicator);
+  fields.open(options.output_directory, run.communicator);
+  on_root(run.communicator, [&]() {
+    write_effective_deck(prm, options.output_directory + "/effective.prm");
+  });
+  catch_stop_signals();
+}
+
+
+template <int dim>
+void
+Simulation<dim>::start()
+{
+  clock = {the_case.control.start_time, the_case.control.initial_step, 0};
+  the_case.geometry.create(triangulation);
+  adaptation.prepare(system, clock.time);
+  stepper.committed.bulk = system.ghosted_vector();
+  system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
+  if (the_case.reference && the_case.starts_from_reference)
+    {
+      const auto field  = the_case.reference->field();
+      auto       values = system.owned_vector();
+      field->set_time(clock.time);
+      VectorTools::interpolate(*mapping, system.bulk_dofs(), *field, values);
+      stepper.committed.bulk = values;
+    }
+  the_case.scheme.initialise(stepper.committed);
+  report.open(false, clock.time);
+}
+
+
+template <int dim>
+void
+Simulation<dim>::save()
+{
+  const auto         scope = run.timers.scope("output");
+  std::ostringstream bytes;
+  {
+    boost::archive::binary_oarchive  archive(bytes);
+    const std::vector<std::uint64_t> keys = system.extra_numbering().keys();
+    archive << clock << the_case.scheme << keys;
+    for (const std::vector<double> *values : stepper.extra_vectors())
+      archive << *values;
+    the_case.model->save(archive);
+    the_case.network.save(archive);
+    archive << report << fields;
+  }
+  std::vector<const TrilinosWrappers::MPI::BlockVector *> vectors;
+  for (const auto *vector : stepper.bulk_vectors())
+    vectors.push_back(vector);
+  checkpoint.save(triangulation, system.bulk_dofs(), vectors, bytes.str(), deck_fingerprint);
+}
+
+
+template <int dim>
+void
+Simulation<dim>::resume()
+{
+  std::istringstream bytes(checkpoint.read(deck_fingerprint));
+  the_case.geometry.create_coarse(triangulation);
+  checkpoint.load_mesh(triangulation);
+
+  boost::archive::binary_iarchive archive(bytes);
+  std::vector<std::uint64_t>      keys;
+  archive >> clock >> the_case.scheme >> keys;
+  std::vector<ExtraUnknown> unknowns;
+  for (const std::uint64_t key : keys)
+    unknowns.push_back({key});
+  for (std::vector<double> *values : stepper.extra_vectors())
+    archive >> *values;
+  the_case.model->load(archive);
+  the_case.network.load(archive);
+  archive >> report >> fields;
+
+  system.setup_mesh(clock.time);
+  system.adopt_extra(ExtraNumbering(unknowns), stepper.extra_vectors());
+  const auto                                        targets = stepper.bulk_vectors();
+  std::vector<TrilinosWrappers::MPI::BlockVector>   values(targets.size(), system.owned_vector());
+  std::vector<TrilinosWrappers::MPI::BlockVector *> loaded;
+  for (auto &vector : values)
+    loaded.push_back(&vector);
+  checkpoint.load_vectors(system.bulk_dofs(), loaded);
+  for (unsigned int i = 0; i < targets.size(); ++i)
+    {
+      *targets[i] = system.ghosted_vector();
+      *targets[i] = values[i];
+    }
+  run.out << "Restarted at t = " << clock.time << " s, after step " << clock.step << "." << std::endl;
+  report.open(true, clock.time);
+}
+
+
+template <int dim>
+void
+Simulation<dim>::march()
+{
+  run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
+          << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
+  report.header();
+  while (!finished())
+    {
+      const double target = std::min({the_case.control.end_time,
+                                      the_case.network.next_jump(clock.time),
+                                      fields.next_time(clock.time)});
+      const double tried  = step_towards(target - clock.time, clock.dt);
+      StepReport   taken;
+      try
+        {
+          taken = stepper.advance(clock.time, tried, clock.step + 1);
+        }
+      catch (const SolveError &error)
+        {
+          save();
+          throw SolveError(error.what() + std::string("\nThe state at t = ") +
+                           std::to_string(clock.time) + " s is in the checkpoint in '" +
+                           options.output_directory + "'; --restart goes on from there.");
+        }
+      clock.time = stepper.last_context().time;
+      // A step shortened to meet a time says nothing about the next.
+      clock.dt = taken.dt < tried || tried == clock.dt ? taken.next_dt :
+                                                         std::max(clock.dt, taken.next_dt);
+      ++clock.step;
+      report.add_step(clock.step, taken);
+      for (const std::string &message : the_case.model->take_messages())
+        run.warn(message);
+      if (fields.due(clock.step, clock.time, finished()))
+        {
+          const auto scope = run.timers.scope("output");
+          fields.write(clock.time,
+                       system.discretization(),
+                       the_case.scene,
+                       *the_case.model,
+                       stepper.last_state());
+        }
+      if (!finished())
+        adaptation.adapt(system, stepper);
+      if (stop_requested(run.communicator))
+        {
+          save();
+          throw SolveError("Stopped by a signal at t = " + std::to_string(clock.time) +
+                           " s; --restart goes on from there.");
+        }
+      if (schedule.due(clock.step, run.communicator))
+        save();
+    }
+  report.finish(triangulation.n_global_active_cells());
 }
 } // namespace
 
@@ -164,115 +306,18 @@ simulate(RunContext                  &run,
          const FractureModelRegistry &registry,
          const SimulationOptions     &options)
 {
-  // From parameters to objects. Everything that can be wrong with a deck is found here.
-  Geometry<dim> geometry;
-  geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
-  Rock rock;
-  rock.parse_parameters(prm);
-  InSitu<dim> in_situ;
-  in_situ.parse_parameters(prm);
-  BoundaryConditions<dim> boundary_conditions;
-  boundary_conditions.parse_parameters(prm, [&](const std::string &name) {
-    return geometry.side(name);
-  });
-  Network<dim> network;
-  network.parse_parameters(prm);
-  network.set_fluid(rock.fluid().viscosity,
-                    rock.fluid().compressibility,
-                    rock.main().permeability / rock.fluid().viscosity);
-
-  Scene<dim> scene{rock,
-                   parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper()),
-                   false,
-                   [&](const Point<dim> &x) { return in_situ.stress(x); },
-                   [&](const Point<dim> &x) { return in_situ.pore_pressure(x); },
-                   geometry.diameter()};
-  const auto model = make_model<dim>(prm, registry, scene);
-
-  const Discretisation discretisation = parse_discretisation<dim>(
-    prm, rock, boundary_conditions, network, model->requirements());
-  scene.has_pore_pressure = discretisation.has_pore_pressure;
-
-  StepControl control;
-  control.parse_parameters(prm);
-  TimeScheme scheme;
-  prm.enter_subsection("Fracture");
-  const std::string model_name = prm.get("Model");
-  prm.leave_subsection();
-  scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
-
-  ReferenceInput<dim> reference_input{rock, geometry.lower(), geometry.upper()};
-  if (!scene.cracks.empty())
-    reference_input.crack = scene.cracks[0].points;
-  reference_input.injection_rate = network.rate_of_first_well(control.end_time);
-  const auto reference           = make_reference<dim>(prm, reference_input);
-  if (boundary_conditions.uses_reference() && reference)
-    boundary_conditions.set_reference(reference->field());
-
+  Case<dim> the_case(deck, prm, registry);
   if (options.check_only)
     {
       run.out << "The deck is in order." << std::endl;
       return;
     }
-
-  // Mesh and unknowns.
-  parallel::distributed::Triangulation<dim> triangulation(
-    run.communicator,
-    Triangulation<dim>::limit_level_difference_at_vertices,
-    parallel::distributed::Triangulation<dim>::no_automatic_repartitioning);
-  geometry.create(triangulation);
-  const auto         mapping = geometry.mapping();
-  CoupledSystem<dim> system(
-    run, triangulation, *mapping, rock, boundary_conditions, *model, network, discretisation, prm);
-  MeshAdaptation<dim> adaptation(prm, geometry, triangulation, *model);
-  adaptation.prepare(system, control.start_time);
-
-  Stepper<dim> stepper(run, system, *model, network, scheme, control);
-  stepper.committed.bulk = system.ghosted_vector();
-  system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
-  if (reference && starts_from_reference(prm))
-    {
-      auto values = system.owned_vector();
-      reference->field()->set_time(control.start_time);
-      VectorTools::interpolate(*mapping, system.bulk_dofs(), *reference->field(), values);
-      stepper.committed.bulk = values;
-    }
-  scheme.initialise(stepper.committed);
-
-  // Time.
-  if (run.rank == 0)
-    std::filesystem::create_directories(options.output_directory);
-  run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
-          << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
-  Report<dim> report(run,
-                     system,
-                     stepper,
-                     *model,
-                     network,
-                     in_situ,
-                     *mapping,
-                     reference.get(),
-                     control,
-                     options.output_directory);
-  report.case_name  = deck.name();
-  report.model_name = model_name;
-  report.open(false, control.start_time);
-
-  double time = control.start_time, dt = control.initial_step;
-  for (unsigned int step = 1; time < control.end_time * (1. - 1e-12); ++step)
-    {
-      const double target = std::min(control.end_time, network.next_jump(time));
-      const double tried  = step_towards(target - time, dt);
-      const auto   taken  = stepper.advance(time, tried, step);
-      time                = stepper.last_context().time;
-      dt = taken.dt < tried || tried == dt ? taken.next_dt : std::max(dt, taken.next_dt);
-      report.add_step(step, taken);
-      for (const std::string &message : model->take_messages())
-        run.warn(message);
-      if (time < control.end_time * (1. - 1e-12))
-        adaptation.adapt(system, stepper);
-    }
-  report.finish(triangulation.n_global_active_cells());
+  Simulation<dim> simulation(run, the_case, prm, options);
+  if (options.restart)
+    simulation.resume();
+  else
+    simulation.start();
+  simulation.march();
 }
 
 

@@ -17,10 +17,6 @@ struct SimulationOptions
   bool        restart    = false;
 };
 
-/// Declares every entry of a deck, those of all registered fracture models included.
-void
-declare_all_parameters(dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
-
 /// Runs the case that `prm` describes, from the mesh to summary.json.
 /// Throws InputError before anything is computed, SolveError when no step succeeds any more.
 template <int dim>

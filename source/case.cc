@@ -1,0 +1,183 @@
+#include "case.h"
+
+#include "stockwork/base/error.h"
+
+#include "coupling/initial_cracks.h"
+#include "coupling/mesh_adaptation.h"
+#include "output/checkpoint.h"
+#include "output/field_output.h"
+
+#include <filesystem>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+void
+declare_for_dimension(ParameterHandler &prm)
+{
+  Geometry<dim>::declare_parameters(prm);
+  InSitu<dim>::declare_parameters(prm);
+  BoundaryConditions<dim>::declare_parameters(prm);
+  Network<dim>::declare_parameters(prm);
+  CoupledSystem<dim>::declare_parameters(prm);
+}
+
+
+/// Displacement and pressure elements, and whether there is a pore pressure at all.
+template <int dim>
+Discretisation
+parse_discretisation(ParameterHandler              &prm,
+                     const Rock                    &rock,
+                     const BoundaryConditions<dim> &boundary_conditions,
+                     const Network<dim>            &network,
+                     const Requirements            &requirements)
+{
+  Discretisation discretisation;
+  const bool     asked = boundary_conditions.mentions_pore_pressure() ||
+                     network.needs_pore_pressure() || requirements.pore_pressure;
+  if (rock.bulk_model() == "elastic" && (network.needs_pore_pressure() || requirements.pore_pressure))
+    throw EntryError("Rock/Bulk model",
+                     "elastic",
+                     "poroelastic or auto, because the fracture model or its leak-off needs the pore "
+                     "pressure");
+  discretisation.has_pore_pressure =
+    rock.bulk_model() == "poroelastic" || (rock.bulk_model() == "auto" && asked);
+
+  prm.enter_subsection("Discretisation");
+  const std::string elements    = prm.get("Elements");
+  discretisation.displacement_degree = elements.substr(0, 2) == "Q2" ? 2 : 1;
+  if (elements == "Q1-Q1 stabilised")
+    discretisation.stabilisation = PressureStabilisation::projection;
+  prm.leave_subsection();
+  return discretisation;
+}
+
+
+template <int dim>
+const auto &
+create_function(const FractureModelEntry &entry)
+{
+  if constexpr (dim == 2)
+    return entry.create_2d;
+  else
+    return entry.create_3d;
+}
+
+
+template <int dim>
+std::unique_ptr<FractureModel<dim>>
+make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const Scene<dim> &scene)
+{
+  prm.enter_subsection("Fracture");
+  const std::string name   = prm.get("Model");
+  const auto       &create = create_function<dim>(registry.find(name));
+  if (!create)
+    throw EntryError("Fracture/Model", name, "a model that exists in " + std::to_string(dim) + "-D");
+  prm.enter_subsection(name);
+  auto model = create(prm, scene);
+  prm.leave_subsection();
+  prm.leave_subsection();
+  return model;
+}
+} // namespace
+
+
+void
+declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &registry)
+{
+  Deck::declare_parameters(prm);
+  prm.declare_entry("Title", "", Patterns::Anything(), "For people; appears in the log.");
+  prm.declare_entry("Dimension", "2", Patterns::Selection("2|3"), "Of space.");
+  prm.declare_entry("Output directory",
+                    "output",
+                    Patterns::Anything(),
+                    "Where results go; --output overrides it.");
+  prm.declare_entry("Additional shared libraries",
+                    "",
+                    Patterns::Anything(),
+                    "Files, separated by commas, that bring fracture models of their own; relative "
+                    "to the deck.");
+  Rock::declare_parameters(prm);
+  declare_for_dimension<2>(prm);
+  TimeScheme::declare_parameters(prm);
+  StepControl::declare_parameters(prm);
+  declare_reference_parameters(prm);
+  declare_initial_cracks(prm);
+  declare_mesh_adaptation(prm);
+  FieldOutput<2>::declare_parameters(prm);
+  CheckpointSchedule::declare_parameters(prm);
+
+  prm.enter_subsection("Discretisation");
+  prm.declare_entry("Elements",
+                    "Q2-Q1",
+                    Patterns::Selection("Q2-Q1|Q1-Q1 stabilised|Q1-Q1"),
+                    "Displacement and pore pressure. Plain Q1-Q1 oscillates in the undrained limit "
+                    "and is here to show it. In elastic rock only the first counts.");
+  prm.leave_subsection();
+
+  prm.enter_subsection("Fracture");
+  std::string names;
+  for (const auto &[name, entry] : registry.all())
+    names += (names.empty() ? "" : "|") + name;
+  prm.declare_entry("Model", "none", Patterns::Selection(names), "The fracture model.");
+  for (const auto &[name, entry] : registry.all())
+    {
+      prm.enter_subsection(name);
+      entry.declare_parameters(prm);
+      prm.leave_subsection();
+    }
+  prm.leave_subsection();
+}
+
+
+template <int dim>
+Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegistry &registry)
+  : name(deck.name())
+  , scene{rock,
+          {},
+          false,
+          [this](const Point<dim> &x) { return in_situ.stress(x); },
+          [this](const Point<dim> &x) { return in_situ.pore_pressure(x); },
+          0.}
+{
+  geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
+  rock.parse_parameters(prm);
+  in_situ.parse_parameters(prm);
+  boundary_conditions.parse_parameters(prm,
+                                       [this](const std::string &side) { return geometry.side(side); });
+  network.parse_parameters(prm);
+  network.set_fluid(rock.fluid().viscosity,
+                    rock.fluid().compressibility,
+                    rock.main().permeability / rock.fluid().viscosity);
+
+  scene.cracks      = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
+  scene.domain_size = geometry.diameter();
+  prm.enter_subsection("Fracture");
+  model_name = prm.get("Model");
+  prm.leave_subsection();
+  model = make_model<dim>(prm, registry, scene);
+  discretisation =
+    parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
+  scene.has_pore_pressure = discretisation.has_pore_pressure;
+
+  control.parse_parameters(prm);
+  scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
+
+  ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
+  if (!scene.cracks.empty())
+    input.crack = scene.cracks[0].points;
+  input.injection_rate  = network.rate_of_first_well(control.end_time);
+  reference             = make_reference<dim>(prm, input);
+  starts_from_reference = stockwork::starts_from_reference(prm);
+  if (boundary_conditions.uses_reference() && reference)
+    boundary_conditions.set_reference(reference->field());
+}
+
+
+template struct Case<2>;
+template struct Case<3>;
+} // namespace stockwork

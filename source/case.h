@@ -1,0 +1,48 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include "stockwork/base/deck.h"
+#include "stockwork/fracture/registry.h"
+
+#include "biot/boundary_conditions.h"
+#include "biot/in_situ.h"
+#include "coupling/coupled_system.h"
+#include "coupling/stepper.h"
+#include "coupling/time_scheme.h"
+#include "flow/network.h"
+#include "mesh/geometry.h"
+#include "verification/reference_solution.h"
+
+#include <memory>
+#include <string>
+
+namespace stockwork
+{
+/// Declares every entry of a deck, those of all registered fracture models included.
+void
+declare_all_parameters(dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
+
+/// A deck turned into objects. Whatever can be wrong with a deck is found when this is made, before
+/// anything is computed.
+template <int dim>
+struct Case
+{
+  /// Throws InputError.
+  Case(const Deck &deck, dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
+
+  std::string                             name, model_name;
+  Geometry<dim>                           geometry;
+  Rock                                    rock;
+  InSitu<dim>                             in_situ;
+  BoundaryConditions<dim>                 boundary_conditions;
+  Network<dim>                            network;
+  Scene<dim>                              scene;
+  std::unique_ptr<FractureModel<dim>>     model;
+  Discretisation                          discretisation;
+  StepControl                             control;
+  TimeScheme                              scheme;
+  std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
+  bool                                    starts_from_reference;
+};
+} // namespace stockwork
