@@ -11,6 +11,7 @@
 #include "output/field_output.h"
 #include "output/signals.h"
 #include "report.h"
+#include "scene_audit.h"
 
 #include <deal.II/numerics/vector_tools.h>
 
@@ -40,6 +41,19 @@ step_towards(const double left, const double dt)
 }
 
 
+/// Longest edge of the smallest cell [m].
+template <int dim>
+double
+smallest_cell_size(const parallel::distributed::Triangulation<dim> &triangulation)
+{
+  double size = std::numeric_limits<double>::infinity();
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      size = std::min(size, cell_size(cell));
+  return Utilities::MPI::min(size, triangulation.get_communicator());
+}
+
+
 /// Where a run stands between two steps.
 struct Clock
 {
@@ -62,7 +76,7 @@ class Simulation
 {
 public:
   Simulation(RunContext              &run,
-             Case<dim>               &scene,
+             Case<dim>               &the_case,
              ParameterHandler        &prm,
              const SimulationOptions &options);
 
@@ -244,6 +258,7 @@ template <int dim>
 void
 Simulation<dim>::march()
 {
+  print_scene_audit(run, the_case, smallest_cell_size(triangulation));
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   report.header();

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "stockwork/base/run_context.h"
+
+#include "case.h"
+
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// One number that says which physics a scene needs, and what follows from it.
+struct SceneNumber
+{
+  std::string name;
+  double      value;
+  std::string consequence;
+};
+
+/// The numbers of a case, computed before the first step. Lengths and speeds of a fracture that is
+/// still to come are those of the plane-strain reference solution (analytical/kgd.h).
+///
+/// @param smallest_cell size of the smallest cell of the initial mesh [m]
+template <int dim>
+std::vector<SceneNumber>
+scene_numbers(const Case<dim> &the_case, double smallest_cell);
+
+/// Print the numbers with what is left out and why that is safe. Where a number says that the
+/// answer cannot be trusted, that is a warning of the run.
+template <int dim>
+void
+print_scene_audit(RunContext &run, const Case<dim> &the_case, double smallest_cell);
+} // namespace stockwork
