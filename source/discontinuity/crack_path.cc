@@ -17,10 +17,6 @@ using dealii::Tensor;
 
 namespace
 {
-/// First and second vertex of each face of a quadrilateral, in the direction of its unit
-/// coordinate.
-constexpr unsigned int face_vertices[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
-
 double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
 {
   return a[0] * b[1] - a[1] * b[0];

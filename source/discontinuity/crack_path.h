@@ -16,6 +16,10 @@
 
 namespace stockwork
 {
+/// First and second vertex of each face of a quadrilateral, in the direction of its unit
+/// coordinate.
+constexpr unsigned int face_vertices[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+
 /// The straight part of a crack inside one cell. It enters and leaves through faces of the cell and
 /// carries all that is needed to know its place and its unknowns without access to the cell, so
 /// that every rank can hold every crack.

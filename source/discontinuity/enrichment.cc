@@ -5,11 +5,6 @@
 
 namespace stockwork
 {
-namespace
-{
-constexpr unsigned int face_vertices[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
-}
-
 template <int dim>
 void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
                               const double domain_size,
