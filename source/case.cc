@@ -156,6 +156,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   scene.cracks      = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
   scene.domain_size = geometry.diameter();
+  scene.crack_pressure = given_crack_pressure(prm);
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
   prm.leave_subsection();

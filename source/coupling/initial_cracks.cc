@@ -5,6 +5,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <limits>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -22,7 +24,23 @@ declare_initial_cracks(ParameterHandler &prm)
                       std::string("Cracks ") + meaning +
                         ". Corners of polylines, 'x, y', separated by '->'; cracks separated by "
                         "';': '0, 0 -> 2 m, 0; 5, 1 -> 6, 2' [m].");
+  prm.declare_entry("Fluid pressure",
+                    "",
+                    Patterns::Anything(),
+                    "In all cracks, where it is given [Pa]; '0' in a dry case. Empty: computed from "
+                    "the flow in the fractures.");
   prm.leave_subsection();
+}
+
+
+double
+given_crack_pressure(ParameterHandler &prm)
+{
+  prm.enter_subsection("Cracks");
+  const std::string text = prm.get("Fluid pressure");
+  prm.leave_subsection();
+  return text.empty() ? std::numeric_limits<double>::quiet_NaN() :
+                        parse_quantity(text, dimension::pressure);
 }
 
 

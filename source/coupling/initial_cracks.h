@@ -10,6 +10,10 @@ namespace stockwork
 void
 declare_initial_cracks(dealii::ParameterHandler &prm);
 
+/// The fluid pressure in all cracks if the deck gives it, else NaN [Pa].
+double
+given_crack_pressure(dealii::ParameterHandler &prm);
+
 /// Throws InputError for a crack that is malformed or leaves the box from lower to upper.
 template <int dim>
 std::vector<InitialCrack<dim>>

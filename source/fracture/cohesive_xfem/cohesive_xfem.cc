@@ -288,7 +288,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
       state.segment_pressure ? state.segment_pressure(last.key(scene.domain_size)) : 0.;
     const auto principal = dealii::eigenvectors(stresses[i]);
     const double drive = principal[0].first + pressure;
-    if (drive < law.strength * (1. - 1e-6))
+    if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
       continue;
     if (advances[tips[i].crack][static_cast<int>(tips[i].end)] >= parameters.most_advances)
     {
@@ -448,12 +448,16 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &, const Collectives &) c
   FractureSummary result;
   for (const auto &path : discontinuity.paths())
   {
-    result.length += path.length();
     result.n_tips += path.is_tip[0] + path.is_tip[1];
     for (const auto &piece : path.pieces)
       for (const double d : damage(piece))
+      {
+        // What is cut but undamaged is intact rock.
+        if (d > 0.)
+          result.length += piece.length() / n_points;
         if (d >= 1.)
           result.broken_length += piece.length() / n_points;
+      }
   }
   result.dissipated_energy = dissipated;
   return result;

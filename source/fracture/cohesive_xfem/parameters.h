@@ -10,6 +10,7 @@ struct Parameters
   double shear_strength_ratio; ///< S/T
   double mode_exponent;        ///< of Benzeggagh and Kenane
   double elastic_share;        ///< opening at the peak over critical opening
+  double growth_threshold;     ///< stress at which a cell is cut, in strengths
   double averaging_radius;     ///< of the tip stress, in cells
   unsigned int most_advances;  ///< cells per tip and step
   double cell_size;            ///< wanted along the crack [m]; zero: as the mesh is
