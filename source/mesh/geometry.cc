@@ -95,10 +95,13 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
                     "'0.1 m: " +
                       std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") +
                       "', several separated by ';'.");
-  prm.declare_entry("Region boxes", "", Patterns::Anything(),
-                    "Cells whose centre is in a box belong to the region of this name: 'coal: " +
-                      std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") +
-                      "', several separated by ';', later ones on top.");
+  prm.declare_entry(
+    "Region boxes", "", Patterns::Anything(),
+    "Cells whose centre is in a box belong to the region of this number in subsection Rock: "
+    "'1: " +
+      std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") +
+      "', several separated by ';', later ones on top. A name instead of a number stands for "
+      "the next free number.");
 
   prm.enter_subsection("Box");
   prm.declare_entry("Lower corner", repeated<dim>("0"),
@@ -299,7 +302,7 @@ void Geometry<dim>::parse_regions(ParameterHandler &prm)
   for (const auto &region : regions)
     next = std::max(next, region.second + 1);
   interpret_entry(prm, "Mesh", "Region boxes",
-                  "a list of named boxes, 'coal: " +
+                  "a list of numbered boxes, '1: " +
                     std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") + "'",
                   [&](const std::string &text)
                   {
@@ -307,8 +310,11 @@ void Geometry<dim>::parse_regions(ParameterHandler &prm)
                     {
                       if (item.label.empty())
                         throw InputError("a box has no name");
-                      const auto known = regions.emplace(item.label, next);
-                      next += known.second;
+                      const bool is_number =
+                        item.label.find_first_not_of("0123456789") == std::string::npos;
+                      const auto known =
+                        regions.emplace(item.label, is_number ? std::stoul(item.label) : next);
+                      next = std::max(next, known.first->second + 1);
                       region_boxes.push_back({item.box, known.first->second});
                     }
                   });

@@ -210,6 +210,7 @@ TEST_CASE("refinement boxes")
   CHECK(region_volume(c, "coal") == doctest::Approx(0.5 - 1. / 16));
   CHECK(region_volume(c, "ash") == doctest::Approx(1. / 16));
   CHECK(c.geometry.region_names() == std::vector<std::string>{"ash", "coal"});
+  CHECK(c.geometry.region("coal") == 1);
   c.triangulation.refine_global();
   CHECK(region_volume(c, "coal") == doctest::Approx(0.5 - 1. / 16));
 }
@@ -221,6 +222,13 @@ TEST_CASE("regions follow the cells' centres through refinement")
   CHECK(region_volume(c, "coal") == doctest::Approx(1.));
   c.triangulation.refine_global(2);
   CHECK(region_volume(c, "coal") == doctest::Approx(0.5));
+}
+
+TEST_CASE("regions by number")
+{
+  const Case<2> c("set Region boxes = 3: (0, 0) to (0.5, 1)");
+  CHECK(c.geometry.region("3") == 3);
+  CHECK(region_volume(c, "3") == doctest::Approx(0.5));
 }
 
 TEST_CASE("wanted sizes: refine, hold, coarsen back to the initial mesh")
