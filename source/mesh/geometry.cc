@@ -33,12 +33,6 @@ std::array<std::string, 2> box_sides(const unsigned int axis)
   return {{"front", "back"}};
 }
 
-template <int dim>
-std::string repeated(const std::string &number)
-{
-  return dim == 2 ? number + ", " + number : number + ", " + number + ", " + number;
-}
-
 /// Call @p interpret on an entry and turn what it throws into an error that names the entry.
 template <class Interpret>
 auto interpret_entry(const ParameterHandler &prm,
@@ -81,37 +75,31 @@ template <int dim>
 void Geometry<dim>::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Mesh");
-  prm.declare_entry(
-    "Shape", "box",
-    Patterns::Selection(dim == 2 ? "box|quarter disc|gmsh file" : "box|octant of ball|gmsh file"),
-    "Shape of the domain. Sides of a box are called left, right (across x), " +
-      std::string(dim == 2 ? "bottom, top (y)" : "front, back (y), bottom, top (z)") +
-      "; those of a quarter disc or octant of a ball by the same names where it is "
-      "cut, and surface; those of a gmsh file by its physical groups.");
+  // The same in two and three dimensions: there is one manual, and a deck is read before its
+  // dimension is known.
+  prm.declare_entry("Shape", "box",
+                    Patterns::Selection("box|quarter disc|octant of ball|gmsh file"),
+                    "Shape of the domain. Sides of a box are called left, right (across x), "
+                    "bottom, top (the last coordinate) and in 3-D front, back (y); those of a "
+                    "quarter disc (2-D) or octant of a ball (3-D) by the same names where it is "
+                    "cut, and surface; those of a gmsh file by its physical groups.");
   prm.declare_entry("Uniform refinements", "0", Patterns::Integer(0, 20),
                     "How many times every cell is halved in each direction.");
   prm.declare_entry("Refinement boxes", "", Patterns::Anything(),
                     "Cells that touch a box are halved until they are no larger than asked for: "
-                    "'0.1 m: " +
-                      std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") +
-                      "', several separated by ';'.");
-  prm.declare_entry(
-    "Region boxes", "", Patterns::Anything(),
-    "Cells whose centre is in a box belong to the region of this number in subsection Rock: "
-    "'1: " +
-      std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") +
-      "', several separated by ';', later ones on top. A name instead of a number stands for "
-      "the next free number.");
+                    "'0.1 m: (0, -1) to (5, 1)', several separated by ';'.");
+  prm.declare_entry("Region boxes", "", Patterns::Anything(),
+                    "Cells whose centre is in a box belong to the region of this number in "
+                    "subsection Rock: '1: (0, -1) to (5, 1)', several separated by ';', later ones "
+                    "on top. A name instead of a number stands for the next free number.");
 
   prm.enter_subsection("Box");
-  prm.declare_entry("Lower corner", repeated<dim>("0"),
-                    Quantities(dimension::length, Range::finite(), dim, dim),
-                    "Corner with the least coordinates [m].");
-  prm.declare_entry("Upper corner", repeated<dim>("1"),
-                    Quantities(dimension::length, Range::finite(), dim, dim),
-                    "Corner with the greatest coordinates [m].");
-  for (unsigned int d = 0; d < dim; ++d)
-    prm.declare_entry(spacing_entry[d], "8 cells", Patterns::Anything(),
+  prm.declare_entry("Lower corner", "", Quantities(dimension::length, Range::finite(), 0, 3),
+                    "Corner with the least coordinates [m]; empty: the origin.");
+  prm.declare_entry("Upper corner", "", Quantities(dimension::length, Range::finite(), 0, 3),
+                    "Corner with the greatest coordinates [m]; empty: 1 m in every direction.");
+  for (const char *entry : spacing_entry)
+    prm.declare_entry(entry, "8 cells", Patterns::Anything(),
                       "Cells along the axis, before they are halved: '16 cells'; '0.5 m'; "
                       "'lines 0, 1, 2.5'; or graded, '1 cm at 0 m, growth 1.2, largest 20 m' with "
                       "a mesh line at 0 and cells of 1 cm beside it, 'around' instead of 'at' for "
@@ -148,8 +136,12 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
     make_box(prm);
   else if (shape == "gmsh file")
     read_gmsh(prm, deck_directory);
-  else
+  else if (shape == (dim == 2 ? "quarter disc" : "octant of ball"))
     make_ball(prm);
+  else
+    throw EntryError("Mesh/Shape", shape,
+                     dim == 2 ? "box, quarter disc or gmsh file in two dimensions"
+                              : "box, octant of ball or gmsh file in three dimensions");
   bounds = GridTools::compute_bounding_box(*coarse);
   uniform_refinements += prm.get_integer("Uniform refinements");
   parse_refinement(prm);
@@ -161,8 +153,17 @@ template <int dim>
 void Geometry<dim>::make_box(ParameterHandler &prm)
 {
   prm.enter_subsection("Box");
-  const auto lower = get_quantities(prm, "Lower corner", dimension::length);
-  const auto upper = get_quantities(prm, "Upper corner", dimension::length);
+  const auto corner = [&prm](const std::string &entry, const double otherwise)
+  {
+    auto coordinates = get_quantities(prm, entry, dimension::length);
+    if (coordinates.empty())
+      coordinates.assign(dim, otherwise);
+    if (coordinates.size() != dim)
+      throw EntryError("Mesh/Box/" + entry, prm.get(entry),
+                       std::to_string(dim) + " coordinates, as many as the case has dimensions");
+    return coordinates;
+  };
+  const auto lower = corner("Lower corner", 0.), upper = corner("Upper corner", 1.);
   for (unsigned int d = 0; d < dim; ++d)
     if (!(lower[d] < upper[d]))
       throw EntryError("Mesh/Box/Upper corner", prm.get("Upper corner"),

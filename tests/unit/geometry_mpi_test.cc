@@ -305,6 +305,8 @@ TEST_CASE("gmsh file: names of sides and regions")
 TEST_CASE("errors name the entry and what is allowed")
 {
   CHECK(contains(error_of<2>(box("set Upper corner = 0, 1")), "Mesh/Box/Upper corner"));
+  CHECK(contains(error_of<2>(box("set Upper corner = 1, 1, 1")), "2 coordinates"));
+  CHECK(contains(error_of<2>("set Shape = octant of ball"), "Mesh/Shape"));
   CHECK(contains(error_of<2>(box("set X spacing = fine")), "Mesh/Box/X spacing"));
   CHECK(contains(error_of<2>(box("set X spacing = fine")), "16 cells"));
   CHECK(contains(error_of<2>("set Refinement boxes = (0,0) to (1,1)"), "Mesh/Refinement boxes"));
