@@ -127,6 +127,10 @@ main(int argc, char **argv)
     {
       return fail(2, error.what());
     }
+  catch (const OutputError &error)
+    {
+      return fail(2, error.what());
+    }
   catch (const std::exception &error)
     {
       std::cerr << "stockwork stopped on rank " << run.rank << ": " << error.what() << std::endl;

@@ -239,7 +239,7 @@ TEST_CASE("wanted sizes: refine, hold, coarsen back to the initial mesh")
   const Point<2> tip(0.2, 0.2);
   const auto adapt = [&](const double near)
   {
-    const auto flag = [&]()
+    const auto flag = [&](const bool coarsen)
     {
       std::vector<float> wanted(c.triangulation.n_active_cells(), 1e30f);
       for (const auto &cell : c.triangulation.active_cell_iterators())
