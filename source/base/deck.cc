@@ -375,18 +375,11 @@ std::uint64_t fingerprint(const dealii::ParameterHandler &prm,
       continue;
     std::ostringstream value;
     value.precision(17);
-    try
-    {
-      const auto quantity = Quantity::create(entry.pattern);
-      if (quantity)
-        value << quantity->parse(entry.value);
-      else
-        value << entry.value;
-    }
-    catch (const InputError &)
-    {
-      value << entry.value; // a word in the place of a value, such as 'auto', or nothing
-    }
+    const auto quantity = Quantity::create(entry.pattern);
+    if (quantity && !quantity->is_word(entry.value))
+      value << quantity->parse(entry.value);
+    else
+      value << entry.value;
     lines.push_back(path + "=" + value.str());
   }
   std::sort(lines.begin(), lines.end());

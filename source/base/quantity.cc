@@ -158,7 +158,7 @@ std::unique_ptr<dealii::Patterns::PatternBase> Quantity::clone() const
 std::unique_ptr<Quantity> Quantity::create(const std::string &description)
 {
   static const std::regex form(
-    "\\[Quantity (.*) in ([(\\[])([^,]*), ([^)\\]]*)([)\\]]) ?(.*?)(?: or \"(.*)\")?\\]");
+    "\\[Quantity (.*) in ([(\\[])([^,]*), ([^)\\]]*)([)\\]])(?: (?!or \")(.+?))?(?: or \"(.*)\")?\\]");
   std::smatch part;
   if (!std::regex_match(description, part, form))
     return nullptr;

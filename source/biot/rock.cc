@@ -44,7 +44,8 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
            "M, 'inf' for incompressible constituents. Empty: from 1/M = (alpha-n)/K_s + n/K_f.");
   optional("Solid bulk modulus", dimension::stress, Range::positive(),
            "K_s of the grains; empty: incompressible grains.");
-  declare("Porosity", "0.1", dimension::number, Range::closed(0., 1.), "n");
+  declare("Porosity", "0.1", dimension::number, Range::closed(0., 1.),
+          "Pore volume over bulk volume, n.");
   declare("Permeability", "1 md", dimension::permeability, Range::positive(),
           "Intrinsic, isotropic. Impermeable rock is Bulk model = elastic.");
   declare("Density", "2500 kg/m^3", dimension::density, Range::positive(),

@@ -171,6 +171,13 @@ TEST_CASE("a word instead of a value")
   CHECK(copy->description() == modulus.description());
   CHECK(Quantity(dim::stress, Range::any(), "").match(""));
 
+  // A number has no unit between the range and the word.
+  const Quantity ratio(dim::number, Range::closed(0, 1), "");
+  const auto copied_ratio = Quantity::create(ratio.description());
+  REQUIRE(copied_ratio);
+  CHECK(copied_ratio->match(""));
+  CHECK(copied_ratio->description(Quantity::Text) == "a number from 0 to 1, or empty");
+
   dealii::ParameterHandler prm;
   prm.declare_entry("Strength", "", Quantity(dim::stress, Range::positive(), ""), "");
   CHECK_FALSE(get_optional_quantity(prm, "Strength", dim::stress).has_value());
