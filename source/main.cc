@@ -20,121 +20,127 @@
 namespace stockwork
 {
 /// Written by the build from the folders of source/fracture.
-void
-register_all_fracture_models(FractureModelRegistry &registry);
+void register_all_fracture_models(FractureModelRegistry &registry);
 
 namespace
 {
 /// Load plug-ins; they stay loaded until the program ends.
-void
-load_libraries(const Deck &deck, FractureModelRegistry &registry)
+void load_libraries(const Deck &deck, FractureModelRegistry &registry)
 {
   const auto list = deck.peek("Additional shared libraries");
   if (!list)
     return;
   for (const std::string &name : split_list(*list))
-    {
-      const auto file = std::filesystem::path(deck.file()).parent_path() / name;
-      void      *handle = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
-      if (handle == nullptr)
-        throw EntryError("Additional shared libraries", name, std::string("a plug-in: ") + dlerror());
-      using Register = void (*)(FractureModelRegistry &);
-      const auto register_models = reinterpret_cast<Register>(dlsym(handle, "stockwork_register"));
-      if (register_models == nullptr)
-        throw EntryError("Additional shared libraries",
-                         name,
-                         "a library with the C function 'stockwork_register'");
-      register_models(registry);
-    }
+  {
+    const auto file = std::filesystem::path(deck.file()).parent_path() / name;
+    void *handle = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    if (handle == nullptr)
+      throw EntryError("Additional shared libraries", name, std::string("a plug-in: ") + dlerror());
+    using Register = void (*)(FractureModelRegistry &);
+    const auto register_models = reinterpret_cast<Register>(dlsym(handle, "stockwork_register"));
+    if (register_models == nullptr)
+      throw EntryError("Additional shared libraries", name,
+                       "a library with the C function 'stockwork_register'");
+    register_models(registry);
+  }
 }
 
 
-int
-run_program(const CommandLine &command_line, RunContext &run)
+int run_program(const CommandLine &command_line, RunContext &run)
 {
   FractureModelRegistry registry;
   register_all_fracture_models(registry);
   dealii::ParameterHandler prm;
 
   switch (command_line.action)
+  {
+  case CommandLine::Action::help:
+    run.out << help_text();
+    return 0;
+  case CommandLine::Action::version:
+    run.out << version_report();
+    return 0;
+  case CommandLine::Action::print_parameters:
+    if (command_line.deck.empty())
     {
-      case CommandLine::Action::help:
-        run.out << help_text();
-        return 0;
-      case CommandLine::Action::version:
-        run.out << version_report();
-        return 0;
-      case CommandLine::Action::print_parameters:
-        declare_all_parameters(prm, registry);
-        if (run.rank == 0)
-          print_parameters(prm, command_line.parameter_format, std::cout);
-        return 0;
-      default:
-        break;
+      declare_all_parameters(prm, registry);
+      if (run.rank == 0)
+        print_parameters(prm, command_line.parameter_format, std::cout);
+      return 0;
     }
+    break;
+  default:
+    break;
+  }
 
   const Deck deck = Deck::read(command_line.deck, command_line.overrides);
-  load_libraries(deck, registry);
-  declare_all_parameters(prm, registry);
-  for (const std::string &warning : deck.parse_into(prm))
-    run.warn(warning);
-
-  SimulationOptions options;
-  options.output_directory =
-    command_line.output.value_or(prm.get("Output directory"));
-  options.check_only = command_line.action == CommandLine::Action::check;
-  options.restart    = command_line.restart;
   try
+  {
+    load_libraries(deck, registry);
+    declare_all_parameters(prm, registry);
+    const std::vector<std::string> warnings = deck.parse_into(prm);
+    if (command_line.action == CommandLine::Action::print_parameters)
     {
-      if (prm.get("Dimension") == "2")
-        simulate<2>(run, deck, prm, registry, options);
-      else
-        simulate<3>(run, deck, prm, registry, options);
+      if (run.rank == 0)
+        print_parameters(prm, command_line.parameter_format, std::cout);
+      return 0;
     }
+    for (const std::string &warning : warnings)
+      run.warn(warning);
+
+    SimulationOptions options;
+    options.output_directory = command_line.output.value_or(prm.get("Output directory"));
+    options.check_only = command_line.action == CommandLine::Action::check;
+    options.restart = command_line.restart;
+    if (prm.get("Dimension") == "2")
+      simulate<2>(run, deck, prm, registry, options);
+    else
+      simulate<3>(run, deck, prm, registry, options);
+  }
   catch (const EntryError &error)
-    {
-      throw InputError(deck.origin(error.path()).text() + ": " + error.what());
-    }
+  {
+    throw InputError(deck.located(error));
+  }
   return 0;
 }
 } // namespace
 } // namespace stockwork
 
 
-int
-main(int argc, char **argv)
+int main(int argc, char **argv)
 {
   using namespace stockwork;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  RunContext                               run(MPI_COMM_WORLD);
+  RunContext run(MPI_COMM_WORLD);
 
   // A failure is the same on all ranks, or the others would wait for ever: rank 0 speaks, and the
   // whole job ends.
-  const auto fail = [&](const int status, const std::string &message) {
+  const auto fail = [&](const int status, const std::string &message)
+  {
     if (run.rank == 0)
       std::cerr << message << std::endl;
     return status;
   };
   try
-    {
-      return run_program(parse_command_line(argc, argv), run);
-    }
+  {
+    return run_program(parse_command_line(argc, argv), run);
+  }
   catch (const InputError &error)
-    {
-      return fail(1, error.what());
-    }
+  {
+    return fail(1, error.what());
+  }
   catch (const SolveError &error)
-    {
-      return fail(2, error.what());
-    }
+  {
+    return fail(2, error.what());
+  }
   catch (const OutputError &error)
-    {
-      return fail(2, error.what());
-    }
+  {
+    return fail(2, error.what());
+  }
   catch (const std::exception &error)
-    {
-      std::cerr << "stockwork stopped on rank " << run.rank << ": " << error.what() << std::endl;
-      MPI_Abort(MPI_COMM_WORLD, 2);
-      return 2;
-    }
+  {
+    std::cerr << "stockwork stopped on rank " << run.rank << ": " << error.what() << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, 2);
+    return 2;
+  }
 }
