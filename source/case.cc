@@ -1,6 +1,7 @@
 #include "case.h"
 
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
 
 #include "coupling/initial_cracks.h"
 #include "coupling/mesh_adaptation.h"
@@ -134,6 +135,29 @@ declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &regis
 }
 
 
+namespace
+{
+/// What loads the first crack: the fluid's pressure less the in-situ stress across it, and the
+/// in-situ shear stress along it.
+template <int dim>
+void
+set_crack_load(const Scene<dim> &scene, ReferenceInput<dim> &input)
+{
+  input.crack_pressure = scene.crack_pressure;
+  if constexpr (dim == 2)
+    {
+      const auto        &crack  = scene.cracks[0].points;
+      const Tensor<1, 2> along  = (crack.back() - crack.front()) / crack.back().distance(crack.front());
+      const Tensor<1, 2> normal = Point<2>(-along[1], along[0]);
+      const auto         traction =
+        scene.in_situ_stress(crack.front() + 0.5 * (crack.back() - crack.front())) * normal;
+      input.crack_pressure += traction * normal;
+      input.crack_shear = traction * along;
+    }
+}
+} // namespace
+
+
 template <int dim>
 Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegistry &registry)
   : name(deck.name())
@@ -168,10 +192,25 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   control.parse_parameters(prm);
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
 
+  CouplingParameters coupling;
+  coupling.parse_parameters(prm);
+  coupling.check(rock.main(), discretisation.has_pore_pressure, model_name != "none");
+
   ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
-  if (!scene.cracks.empty())
-    input.crack = scene.cracks[0].points;
+  input.has_pore_pressure = discretisation.has_pore_pressure;
+  input.end_time          = control.end_time;
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    input.cracks.push_back(crack.points);
   input.injection_rate  = network.rate_of_first_well(control.end_time);
+  prm.enter_subsection("Fracture flow");
+  if (prm.get("Leak-off") == "carter")
+    input.carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
+  prm.leave_subsection();
+  if (!scene.cracks.empty())
+    set_crack_load(scene, input);
+  input.normal_traction = [this](const std::string &side, const double time) {
+    return boundary_conditions.loads().uniform_normal_traction(geometry.side(side), time);
+  };
   reference             = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
   if (boundary_conditions.uses_reference() && reference)

@@ -118,6 +118,7 @@ Report<dim>::add_step(const unsigned int step, const StepReport &step_report)
   statistics.set("fluid_balance_error", balance_error);
   if (errors)
     {
+      const auto scope = run.timers.scope("verification");
       errors->add_fields(
         time, step_report.dt, mapping, system.bulk_dofs(), stepper.committed.bulk);
       errors->add_values(time, step_report.dt, observed);

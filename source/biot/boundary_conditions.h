@@ -7,6 +7,8 @@
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include "stockwork/base/error.h"
+
 #include <functional>
 #include <map>
 #include <memory>
@@ -33,6 +35,17 @@ struct Loads
   std::map<dealii::types::boundary_id, PrescribedValue<dim>> normal_traction;
   /// Fluid flux into the rock [m/s].
   std::map<dealii::types::boundary_id, PrescribedValue<dim>> flux;
+
+  /// On a side where it is the same everywhere, for reference solutions; throws InputError if the
+  /// deck gives none.
+  double
+  uniform_normal_traction(const dealii::types::boundary_id side, const double time) const
+  {
+    const auto position = normal_traction.find(side);
+    if (position == normal_traction.end())
+      throw InputError("The reference solution needs a load: 'Boundary conditions/Normal traction'.");
+    return position->second.value(dealii::Point<dim>(), time);
+  }
 
   bool
   empty() const

@@ -235,6 +235,38 @@ BulkAssembly<dim>::matrix(const StepContext                   &context,
 
 
 template <int dim>
+void
+BulkAssembly<dim>::undrained_term(TrilinosWrappers::SparseMatrix &matrix) const
+{
+  const auto                          &fe = discretization.dof_handler.get_fe();
+  CellIntegrals<dim>                   integrals(discretization.mapping, fe, false);
+  const auto                          &layout = integrals.layout;
+  const unsigned int                   n_u = layout.n_u, n = n_u * dim;
+  FullMatrix<double>                   local(n);
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), displacement_dofs(n);
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        const RockProperties &properties = rock(cell->material_id());
+        const double stiffening = properties.biot_coefficient * properties.biot_coefficient /
+                                  properties.inverse_biot_modulus;
+        integrals.reinit(cell);
+        cell->get_dof_indices(dofs);
+        for (unsigned int k = 0; k < n; ++k)
+          displacement_dofs[k] = dofs[layout.u[k]];
+        for (unsigned int a = 0; a < n_u; ++a)
+          for (unsigned int b = 0; b < n_u; ++b)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                local(a * dim + i, b * dim + j) =
+                  stiffening * integrals.gradients[((i * dim + j) * n_u + a) * n_u + b];
+        discretization.constraints.distribute_local_to_global(local, displacement_dofs, matrix);
+      }
+  matrix.compress(VectorOperation::add);
+}
+
+
+template <int dim>
 template <class Function>
 void
 BulkAssembly<dim>::for_each_residual(const StepContext &context,

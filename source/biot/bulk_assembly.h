@@ -49,6 +49,11 @@ public:
          dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
          dealii::TrilinosWrappers::SparseMatrix      *fixed_stress_mass) const;
 
+  /// Add int alpha^2 M div u div v, which turns the drained stiffness into the undrained one, to a
+  /// matrix of the displacement block.
+  void
+  undrained_term(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
   /// Add the residual of the bulk.
   void
   residual(const StepContext                          &context,

@@ -46,6 +46,7 @@ void
 CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
 {
   LinearSolverParameters::declare_parameters(prm);
+  CouplingParameters::declare_parameters(prm);
   prm.enter_subsection("Nonlinear solver");
   prm.declare_entry("Tolerance",
                     "1e-8",
@@ -86,6 +87,7 @@ CoupledSystem<dim>::CoupledSystem(RunContext                                 &ru
   , dof_handler(triangulation)
 {
   solver_parameters.parse_parameters(prm);
+  coupling_parameters.parse_parameters(prm);
   prm.enter_subsection("Nonlinear solver");
   tolerance      = get_quantity(prm, "Tolerance", dimension::number);
   max_iterations = prm.get_integer("Maximum iterations");
@@ -158,7 +160,15 @@ CoupledSystem<dim>::setup_mesh(const double time)
       structure.has_pore_pressure = discretisation.has_pore_pressure;
       structure.n_dofs            = dof_handler.n_dofs();
       structure.elastic_constant  = !discretisation.has_pore_pressure;
-      solver = make_linear_solver(solver_parameters, structure, run.communicator);
+      if (coupling_parameters.scheme == CouplingParameters::Scheme::monolithic)
+        solver = make_linear_solver(solver_parameters, structure, run.communicator);
+      else
+        solver = std::make_unique<SplitScheme>(
+          coupling_parameters,
+          solver_parameters,
+          structure,
+          run.communicator,
+          [this](TrilinosWrappers::SparseMatrix &matrix) { bulk->undrained_term(matrix); });
     }
   if (solver->wants_hierarchy(dof_handler.n_dofs()))
     system.displacement_hierarchy =

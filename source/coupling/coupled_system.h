@@ -8,6 +8,7 @@
 #include "biot/boundary_conditions.h"
 #include "biot/bulk_assembly.h"
 #include "coupling/extra_numbering.h"
+#include "coupling/split_scheme.h"
 #include "flow/network.h"
 #include "solvers/linear_solver.h"
 #include "solvers/linear_system.h"
@@ -179,6 +180,7 @@ private:
 
   std::unique_ptr<BulkAssembly<dim>> bulk;
   LinearSolverParameters             solver_parameters;
+  CouplingParameters                 coupling_parameters;
   std::unique_ptr<LinearSolver>      solver;
 
   LinearSystem system;

@@ -177,10 +177,15 @@ Stepper<dim>::advance(const double time, double dt, const unsigned int step)
           double growth = control.growth;
           if (growth < 0.)
             growth = std::isfinite(dt_limit) ? 1.3 : 1.;
-          if (error > 0.)
-            growth = std::clamp(0.9 * std::pow(control.error_tolerance / error, 1. / 2.),
-                                0.3,
-                                growth);
+          if (error > 0. && std::isfinite(control.error_tolerance))
+            {
+              // A new step costs a new factor of the matrix: it must be worth it.
+              const double wanted =
+                0.9 * std::pow(control.error_tolerance / error, 1. / (scheme.order() + 1.));
+              growth = wanted < 1. ? std::max(wanted, 0.3) : wanted < 1.5 ? 1. : std::min(wanted, growth);
+            }
+          else if (std::isfinite(control.error_tolerance))
+            growth = 1.; // not enough history for an estimate
           report.dt = dt;
           report.next_dt =
             std::min({dt * growth, dt_limit, control.maximum_step});

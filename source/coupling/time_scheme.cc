@@ -3,7 +3,11 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
+#include <Epetra_MultiVector.h>
+
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace stockwork
 {
@@ -11,20 +15,23 @@ using namespace dealii;
 
 namespace
 {
-/// result = a x + b y, in all unknowns.
+/// result = a x + b y, in all unknowns. Ghost values take part, so that none need be fetched again;
+/// deal.II's own operators do not write to vectors with ghost values.
 void
 combine(Unknowns &result, const double a, const Unknowns &x, const double b, const Unknowns &y)
 {
-  result.bulk = x.bulk;
+  if (&result != &x)
+    result = x;
   for (unsigned int k = 0; k < result.bulk.n_blocks(); ++k)
     {
-      result.bulk.block(k) *= a;
+      Epetra_MultiVector &block = result.bulk.block(k).trilinos_vector();
       if (b != 0.)
-        result.bulk.block(k).add(b, y.bulk.block(k));
+        block.Update(b, y.bulk.block(k).trilinos_vector(), a);
+      else if (a != 1.)
+        block.Scale(a);
     }
-  result.extra.resize(x.extra.size());
-  for (unsigned int i = 0; i < x.extra.size(); ++i)
-    result.extra[i] = a * x.extra[i] + (b != 0. ? b * y.extra[i] : 0.);
+  for (unsigned int i = 0; i < result.extra.size(); ++i)
+    result.extra[i] = a * result.extra[i] + (b != 0. ? b * y.extra[i] : 0.);
 }
 } // namespace
 
@@ -94,7 +101,11 @@ TimeScheme::initialise(const Unknowns &unknowns)
 {
   if (scheme == Kind::backward_euler)
     return;
-  combine(previous, 1., unknowns, 0., unknowns);
+  if (scheme == Kind::bdf2)
+    {
+      combine(previous, 1., unknowns, 0., unknowns);
+      combine(earlier, 1., unknowns, 0., unknowns);
+    }
   if (scheme == Kind::newmark)
     {
       combine(velocity, 0., unknowns, 0., unknowns);
@@ -195,8 +206,12 @@ TimeScheme::accept(const StepContext &context, const Unknowns &committed, const 
               -context.acceleration,
               acceleration_reference);
     }
-  if (scheme != Kind::backward_euler)
-    combine(previous, 1., committed, 0., committed);
+  if (scheme == Kind::bdf2)
+    {
+      std::swap(earlier, previous);
+      combine(previous, 1., committed, 0., committed);
+    }
+  earlier_dt  = previous_dt;
   previous_dt = context.dt;
   ++n_accepted;
 }
@@ -209,29 +224,36 @@ TimeScheme::error_estimate(const StepContext &context,
 {
   if (scheme != Kind::bdf2 || n_accepted < 2)
     return -1.;
-  // The distance from the linear extrapolation is dt (dt + dt') / 2 times the second derivative;
-  // the error of a first-order formula, hence an upper bound of BDF2's.
-  const double r = context.dt / previous_dt;
-  double       difference = 0., size = 0.;
+  // BDF2 differentiates the parabola through three points in time. What it misses of the rate is
+  // x[0,1,2,3] h0 (h0 + h1), with the third divided difference over the last four points and the
+  // steps h0, h1, h2 between them, latest first (Hairer, Norsett, Wanner, III.5); the local error
+  // is that over the leading coefficient.
+  const double h0 = context.dt, h1 = previous_dt, h2 = earlier_dt;
+  const double missed = h0 * (h0 + h1) / context.rate;
+  const std::array<double, 4> weights = {{missed / (h0 * (h0 + h1) * (h0 + h1 + h2)),
+                                          -missed / (h0 * h1 * (h1 + h2)),
+                                          missed / ((h0 + h1) * h1 * h2),
+                                          -missed / ((h0 + h1 + h2) * (h1 + h2) * h2)}};
+  double relative = 0.;
   for (unsigned int k = 0; k < current.bulk.n_blocks(); ++k)
     {
-      TrilinosWrappers::MPI::Vector extrapolated(
-        current.bulk.block(k).locally_owned_elements(), current.bulk.block(k).get_mpi_communicator());
-      TrilinosWrappers::MPI::Vector now(extrapolated), before(extrapolated), last(extrapolated);
-      now    = current.bulk.block(k);
-      last   = committed.bulk.block(k);
-      before = previous.bulk.block(k);
-      extrapolated = now;
-      extrapolated.add(-(1. + r), last);
-      extrapolated.add(r, before);
-      const double block_size = now.l2_norm();
-      if (block_size > 0.)
+      // Owned entries only, so that the norms count no ghost value twice.
+      TrilinosWrappers::MPI::Vector error(current.bulk.block(k).locally_owned_elements(),
+                                          current.bulk.block(k).get_mpi_communicator()),
+        point(error);
+      error                     = current.bulk.block(k);
+      const double        size  = error.l2_norm();
+      const Unknowns     *last[] = {&committed, &previous, &earlier};
+      error *= weights[0];
+      for (unsigned int i = 0; i < 3; ++i)
         {
-          difference = std::max(difference, extrapolated.l2_norm() / block_size);
-          size       = 1.;
+          point = last[i]->bulk.block(k);
+          error.add(weights[i + 1], point);
         }
+      if (size > 0.)
+        relative = std::max(relative, error.l2_norm() / size);
     }
-  return size > 0. ? difference / (1. + r) : 0.;
+  return relative;
 }
 
 
@@ -251,9 +273,9 @@ std::vector<TrilinosWrappers::MPI::BlockVector *>
 TimeScheme::bulk_history()
 {
   if (scheme == Kind::newmark)
-    return {&previous.bulk, &velocity.bulk, &acceleration.bulk};
+    return {&velocity.bulk, &acceleration.bulk};
   if (scheme == Kind::bdf2)
-    return {&previous.bulk};
+    return {&previous.bulk, &earlier.bulk};
   return {};
 }
 
@@ -262,9 +284,9 @@ std::vector<std::vector<double> *>
 TimeScheme::extra_history()
 {
   if (scheme == Kind::newmark)
-    return {&previous.extra, &velocity.extra, &acceleration.extra};
+    return {&velocity.extra, &acceleration.extra};
   if (scheme == Kind::bdf2)
-    return {&previous.extra};
+    return {&previous.extra, &earlier.extra};
   return {};
 }
 } // namespace stockwork

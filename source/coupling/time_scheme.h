@@ -47,8 +47,8 @@ public:
   void
   accept(const StepContext &context, const Unknowns &committed, const Unknowns &current);
 
-  /// An estimate of the local error of the step relative to the size of the solution, of order
-  /// order()+1 in dt; negative while there is not enough history.
+  /// The local error of the step relative to the size of the solution, the greater of displacement
+  /// and pressure, of order order()+1 in dt; negative while there is not enough history.
   double
   error_estimate(const StepContext &context, const Unknowns &committed, const Unknowns &current) const;
 
@@ -77,7 +77,7 @@ public:
   void
   serialize(Archive &archive, const unsigned int)
   {
-    archive &previous_dt &n_accepted;
+    archive &previous_dt &earlier_dt &n_accepted;
   }
 
 private:
@@ -86,10 +86,11 @@ private:
   double gamma     = 0.5;
   double theta     = 0.5;
 
-  double       previous_dt = 0.;
+  double       previous_dt = 0., earlier_dt = 0.;
   unsigned int n_accepted  = 0;
 
-  Unknowns previous;     ///< the state before the committed one (BDF2, error estimates)
+  Unknowns previous;     ///< the state before the committed one (BDF2)
+  Unknowns earlier;      ///< the one before that (BDF2, for the error estimate)
   Unknowns velocity;     ///< first derivative of the committed state (Newmark, theta)
   Unknowns acceleration; ///< second derivative (Newmark)
 };

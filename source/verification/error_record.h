@@ -13,6 +13,10 @@ namespace stockwork
 {
 /// Collects the errors of a run against a reference solution: relative, at the end, and averaged
 /// over time after the first 5 % of the run.
+///
+/// Quantities: displacement and pore_pressure (in the L2 norm), peak_pore_pressure (the greatest
+/// pressure so far at the reference's point of observation), and whatever scalars the reference and
+/// the statistics both know.
 template <int dim>
 class ErrorRecord
 {
@@ -47,7 +51,9 @@ public:
              const dealii::DoFHandler<dim>                    &dof_handler,
              const dealii::TrilinosWrappers::MPI::BlockVector &solution);
 
-  /// Relative errors of scalars that both sides know.
+  /// Relative errors of scalars that both sides know. The length of a fracture with a process zone
+  /// is the mean of its whole and its fully broken length: the zone counts for half, as in the
+  /// linear-elastic limit.
   void
   add_values(double time, double dt, const std::map<std::string, double> &values);
 
@@ -61,15 +67,19 @@ public:
   void
   serialize(Archive &archive, const unsigned int)
   {
-    archive &all;
+    archive &all &peak &peak_reference;
   }
 
 private:
+  bool
+  compares(double time) const;
+
   void
   add(const std::string &quantity, double time, double dt, double error);
 
   const ReferenceSolution<dim> &reference;
   double                        start_time, end_time;
   std::map<std::string, Error>  all;
+  double                        peak = 0., peak_reference = 0.;
 };
 } // namespace stockwork

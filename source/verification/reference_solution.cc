@@ -1,24 +1,90 @@
 #include "verification/reference_solution.h"
 
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+#include "verification/reference/problems.h"
 
 namespace stockwork
 {
 using namespace dealii;
 
+namespace
+{
+/// A reference solution: its name in the deck and who makes it, by dimension.
+struct Entry
+{
+  const char *name;
+  reference::Made<2> (*make_2d)(const ParameterHandler &, const ReferenceInput<2> &);
+  reference::Made<3> (*make_3d)(const ParameterHandler &, const ReferenceInput<3> &);
+};
+
+const Entry table[] = {
+  {"column", reference::make_column<2>, reference::make_column<3>},
+  {"mandel", reference::make_mandel, nullptr},
+  {"cryer", nullptr, reference::make_cryer<3>},
+  {"deleeuw", reference::make_cryer<2>, nullptr},
+  {"bar wave", reference::make_bar_wave<2>, reference::make_bar_wave<3>},
+  {"porous wave", reference::make_porous_wave<2>, reference::make_porous_wave<3>},
+  {"line crack", reference::make_line_crack, nullptr},
+  {"crack in box", reference::make_crack_in_box, nullptr},
+  {"parallel cracks", reference::make_parallel_cracks, nullptr},
+  {"kgd", reference::make_kgd, nullptr},
+  {"kgd vertex", reference::make_kgd_vertex, nullptr},
+  {"kgd carter", reference::make_kgd_carter, nullptr},
+};
+
+
+template <int dim>
+auto
+maker(const Entry &entry)
+{
+  if constexpr (dim == 2)
+    return entry.make_2d;
+  else
+    return entry.make_3d;
+}
+} // namespace
+
+
 void
 declare_reference_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Verification");
-  prm.declare_entry("Reference", "none", Patterns::Selection("none"), "Analytical solution of the case.");
+  std::string names = "none";
+  for (const Entry &entry : table)
+    names += std::string("|") + entry.name;
+  prm.declare_entry("Reference",
+                    "none",
+                    Patterns::Selection(names),
+                    "Analytical solution that the run is compared with. It takes its constants from "
+                    "the rest of the deck. column: along the last axis, loaded at the top. mandel: "
+                    "quarter x, y >= 0, moved at the top. cryer: octant of a ball, deleeuw: quarter of a "
+                    "disc, loaded and drained at the surface. bar wave, porous wave: along the last "
+                    "axis, loaded at the top. line crack: in an infinite body; crack in "
+                    "box: with rollers all round. kgd: at the deck's own toughness and viscosity; "
+                    "kgd vertex: without viscosity; kgd carter: with Carter leak-off.");
   prm.declare_entry("Reference factor",
                     "1",
                     Patterns::Double(),
-                    "Multiplies the reference. Other than 1 only in tests that a comparison can fail.");
+                    "Multiplies the reference where errors are formed. Other than 1 only in tests "
+                    "that a comparison can fail.");
   prm.declare_entry("Start from reference",
                     "false",
                     Patterns::Bool(),
                     "Take displacement and pore pressure at the start time from the reference.");
+  prm.declare_entry("Compare",
+                    "every step",
+                    Patterns::Selection("every step|at the end"),
+                    "When errors are formed. Their mean over time needs every step.");
+  prm.declare_entry("Load",
+                    "1 N/m",
+                    Quantity(dimension::force_per_length),
+                    "mandel: force on the half width of the plate.");
+  prm.declare_entry("Rise time",
+                    "1 s",
+                    Quantity(dimension::time, Range::positive()),
+                    "bar wave, porous wave: duration of the rise of the load.");
   prm.leave_subsection();
 }
 
@@ -35,9 +101,29 @@ starts_from_reference(ParameterHandler &prm)
 
 template <int dim>
 std::unique_ptr<ReferenceSolution<dim>>
-make_reference(ParameterHandler &, const ReferenceInput<dim> &)
+make_reference(ParameterHandler &prm, const ReferenceInput<dim> &input)
 {
-  return {};
+  std::unique_ptr<ReferenceSolution<dim>> solution;
+  prm.enter_subsection("Verification");
+  const std::string name = prm.get("Reference");
+  for (const Entry &entry : table)
+    if (name == entry.name)
+      {
+        if (maker<dim>(entry) == nullptr)
+          throw EntryError("Verification/Reference",
+                           name,
+                           "a solution in " + std::to_string(dim) + "-D");
+        solution                      = maker<dim>(entry)(prm, input);
+        solution->comparison_factor   = prm.get_double("Reference factor");
+        solution->compares_every_step = prm.get("Compare") == "every step";
+      }
+  const bool starts = prm.get_bool("Start from reference");
+  prm.leave_subsection();
+  if (starts && (!solution || !solution->field()))
+    throw EntryError("Verification/Start from reference",
+                     "true",
+                     "false, because reference '" + name + "' gives no fields");
+  return solution;
 }
 
 

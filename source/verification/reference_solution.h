@@ -6,8 +6,10 @@
 #include "stockwork/biot/rock.h"
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,20 +26,36 @@ public:
   virtual std::string
   name() const = 0;
 
-  /// Displacement and, in the last component of dim+1, pore pressure over in situ, as a function
-  /// of place and of its time; null where only scalars are known.
+  /// Displacement and, if the rock has one, pore pressure over in situ in the last component, as a
+  /// function of place and of its time; null where only scalars are known.
   virtual std::shared_ptr<dealii::Function<dim>>
   field() const
   {
     return {};
   }
 
-  /// Scalars at a time, by the names of the columns of the statistics.
+  /// Where the course of the pore pressure is of interest (the Mandel-Cryer effect).
+  virtual std::optional<dealii::Point<dim>>
+  observation_point() const
+  {
+    return {};
+  }
+
+  /// Scalars at a time, by the names of the columns of the statistics; `inlet_pressure` is net of
+  /// the in-situ stress and is compared with the column net_inlet_pressure.
   virtual std::map<std::string, double>
   values(double /*time*/) const
   {
     return {};
   }
+
+  /// Multiplies the solution where errors are formed, and only there: boundary values and initial
+  /// states that the deck takes from the solution stay right, so that a test with another factor
+  /// than 1 shows that the comparison can fail.
+  double comparison_factor = 1.;
+
+  /// Whether errors are formed after every step, and not at the end of the run only.
+  bool compares_every_step = true;
 };
 
 /// What a reference solution may take from the deck besides its own subsection.
@@ -46,12 +64,31 @@ struct ReferenceInput
 {
   const Rock        &rock;
   dealii::Point<dim> lower, upper; ///< corners of the domain [m]
+  bool               has_pore_pressure = false;
+  double             end_time = 0.; ///< [s]
 
-  /// Corners of the first crack; empty without a crack.
-  std::vector<dealii::Point<dim>> crack = {};
+  /// Corners of the cracks that are there at the start.
+  std::vector<std::vector<dealii::Point<dim>>> cracks = {};
 
   /// Rate of the first well, of the whole fracture (both wings) [m^2/s], [m^3/s] in 3-D.
   double injection_rate = 0.;
+
+  /// Fluid pressure in the cracks net of the in-situ stress across the first; NaN where it is not
+  /// given [Pa].
+  double crack_pressure = std::numeric_limits<double>::quiet_NaN();
+
+  /// In-situ shear stress along the first crack, t . sigma . n with n to the left of t [Pa].
+  double crack_shear = 0.;
+
+  /// C_L of one face [m/s^0.5]; zero without such leak-off.
+  double carter_coefficient = 0.;
+
+  /// Normal traction that the deck prescribes on a side, tension positive, at a time [Pa]; throws
+  /// InputError for a side without one. Empty: not known.
+  std::function<double(const std::string &side, double time)> normal_traction = {};
+
+  /// Whether the deck makes a side a roller or plane of symmetry. Empty: not known.
+  std::function<bool(const std::string &side)> is_roller = {};
 };
 
 /// Declares subsection Verification with the entries of all reference solutions.
@@ -62,8 +99,7 @@ declare_reference_parameters(dealii::ParameterHandler &prm);
 bool
 starts_from_reference(dealii::ParameterHandler &prm);
 
-/// The solution that the deck names, or null for `none`. The factor of the deck (1, except where a
-/// test wants a wrong reference) multiplies all of it.
+/// The solution that the deck names, or null for `none`.
 template <int dim>
 std::unique_ptr<ReferenceSolution<dim>>
 make_reference(dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);

@@ -1,0 +1,166 @@
+// A plane-strain hydraulic fracture along the x axis, driven at a constant rate; the model holds
+// both wings, or one beside a plane of symmetry.
+#include "verification/analytical/kgd.h"
+#include "verification/analytical/kgd_carter.h"
+
+#include "stockwork/base/error.h"
+
+#include "verification/reference/problems.h"
+
+namespace stockwork::reference
+{
+using namespace dealii;
+
+namespace
+{
+analytical::KgdParameters
+kgd_parameters(const ReferenceInput<2> &input)
+{
+  const RockProperties &rock = input.rock.main();
+  if (!(input.injection_rate > 0.))
+    throw InputError("The reference solution of the KGD fracture needs a well with a positive rate.");
+  if (!(rock.energy_release_rate > 0.))
+    throw InputError("The reference solution of the KGD fracture needs 'Rock/Fracture toughness' or "
+                     "'Rock/Critical energy release rate'.");
+  return {rock.young_modulus,
+          rock.poisson_ratio,
+          input.rock.fluid().viscosity,
+          rock.toughness(),
+          input.injection_rate};
+}
+
+
+/// The number of wings in the model: one if a crack begins on the boundary.
+unsigned int
+n_wings(const ReferenceInput<2> &input)
+{
+  if (input.cracks.empty())
+    throw InputError("The reference solution of the KGD fracture needs an initial crack.");
+  const auto  &crack = input.cracks[0];
+  const double small = 1e-8 * (input.upper[0] - input.lower[0]);
+  for (const Point<2> &end : {crack.front(), crack.back()})
+    if (std::abs(end[0] - input.lower[0]) < small || std::abs(end[0] - input.upper[0]) < small)
+      return 1;
+  return 2;
+}
+
+
+class KgdReference : public ReferenceSolution<2>
+{
+public:
+  KgdReference(const analytical::KgdParameters &parameters, const unsigned int wings)
+    : kgd(parameters)
+    , wings(wings)
+  {}
+
+  std::string
+  name() const override
+  {
+    return "KGD, self-similar for every toughness (Adachi & Detournay 2002)";
+  }
+
+  std::map<std::string, double>
+  values(const double time) const override
+  {
+    return {{"fracture_length", wings * kgd.half_length(time)},
+            {"inlet_aperture", kgd.inlet_opening(time)},
+            {"inlet_pressure", kgd.inlet_pressure(time)},
+            {"fracture_volume", 0.5 * wings * kgd.volume(time)}};
+  }
+
+private:
+  analytical::Kgd kgd;
+  unsigned int    wings;
+};
+
+
+class KgdVertexReference : public ReferenceSolution<2>
+{
+public:
+  KgdVertexReference(const analytical::KgdParameters &parameters, const unsigned int wings)
+    : kgd(parameters)
+    , rate(parameters.rate)
+    , wings(wings)
+  {}
+
+  std::string
+  name() const override
+  {
+    return "KGD, toughness vertex";
+  }
+
+  std::map<std::string, double>
+  values(const double time) const override
+  {
+    return {{"fracture_length", wings * kgd.half_length(time)},
+            {"inlet_aperture", kgd.inlet_opening(time)},
+            {"inlet_pressure", kgd.pressure(time)},
+            {"fracture_volume", 0.5 * wings * rate * time}};
+  }
+
+private:
+  analytical::KgdToughnessVertex kgd;
+  double                         rate;
+  unsigned int                   wings;
+};
+
+
+class KgdCarterReference : public ReferenceSolution<2>
+{
+public:
+  KgdCarterReference(const analytical::KgdCarterParameters &parameters,
+                     const double                           last_time,
+                     const unsigned int                     wings)
+    : kgd(parameters, last_time)
+    , wings(wings)
+  {}
+
+  std::string
+  name() const override
+  {
+    return "KGD with Carter leak-off (Adachi & Detournay 2008)";
+  }
+
+  std::map<std::string, double>
+  values(const double time) const override
+  {
+    return {{"fracture_length", wings * kgd.half_length(time)},
+            {"inlet_aperture", kgd.inlet_opening(time)},
+            {"inlet_pressure", kgd.inlet_pressure(time)},
+            {"fracture_volume", 0.5 * wings * kgd.fracture_volume(time)},
+            {"leaked_volume", 0.5 * wings * kgd.leaked_volume(time)}};
+  }
+
+private:
+  analytical::KgdCarter kgd;
+  unsigned int          wings;
+};
+} // namespace
+
+
+Made<2>
+make_kgd(const ParameterHandler &, const ReferenceInput<2> &input)
+{
+  return std::make_unique<KgdReference>(kgd_parameters(input), n_wings(input));
+}
+
+
+Made<2>
+make_kgd_vertex(const ParameterHandler &, const ReferenceInput<2> &input)
+{
+  return std::make_unique<KgdVertexReference>(kgd_parameters(input), n_wings(input));
+}
+
+
+Made<2>
+make_kgd_carter(const ParameterHandler &, const ReferenceInput<2> &input)
+{
+  if (!(input.carter_coefficient > 0.))
+    throw InputError("The reference solution 'kgd carter' needs 'Fracture flow/Leak-off = carter' "
+                     "with a positive coefficient.");
+  return std::make_unique<KgdCarterReference>(
+    analytical::KgdCarterParameters{kgd_parameters(input), input.carter_coefficient},
+    input.end_time,
+    n_wings(input));
+}
+} // namespace stockwork::reference
