@@ -109,7 +109,6 @@ SplitScheme::SplitScheme(const CouplingParameters     &parameters,
   // Multigrid for the rock knows displacements; the flow's block is small and gets a factor.
   LinearSolverParameters direct = solver_parameters;
   direct.type                   = LinearSolverParameters::Type::direct;
-  alone.rigid_body_modes.clear();
   flow.solver = make_linear_solver(direct, alone, communicator);
 }
 

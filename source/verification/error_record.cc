@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace stockwork
 {
@@ -74,7 +75,7 @@ ErrorRecord<dim>::add_fields(const double                              time,
   double                      observed = -std::numeric_limits<double>::infinity();
 
   // Squares of the differences and of the reference: of the displacement, of the pressure.
-  std::array<double, 4> squares{};
+  std::vector<double> squares(4, 0.);
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       {

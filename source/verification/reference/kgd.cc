@@ -1,7 +1,7 @@
 // A plane-strain hydraulic fracture along the x axis, driven at a constant rate; the model holds
 // both wings, or one beside a plane of symmetry.
 #include "verification/analytical/kgd.h"
-#include "verification/analytical/kgd_carter.h"
+#include "verification/analytical/hydraulic_fracture.h"
 
 #include "stockwork/base/error.h"
 
@@ -108,7 +108,7 @@ private:
 class KgdCarterReference : public ReferenceSolution<2>
 {
 public:
-  KgdCarterReference(const analytical::KgdCarterParameters &parameters,
+  KgdCarterReference(const analytical::HydraulicFractureParameters &parameters,
                      const double                           last_time,
                      const unsigned int                     wings)
     : kgd(parameters, last_time)
@@ -132,7 +132,7 @@ public:
   }
 
 private:
-  analytical::KgdCarter kgd;
+  analytical::HydraulicFracture kgd;
   unsigned int          wings;
 };
 } // namespace
@@ -159,7 +159,7 @@ make_kgd_carter(const ParameterHandler &, const ReferenceInput<2> &input)
     throw InputError("The reference solution 'kgd carter' needs 'Fracture flow/Leak-off = carter' "
                      "with a positive coefficient.");
   return std::make_unique<KgdCarterReference>(
-    analytical::KgdCarterParameters{kgd_parameters(input), input.carter_coefficient},
+    analytical::HydraulicFractureParameters{kgd_parameters(input), input.carter_coefficient},
     input.end_time,
     n_wings(input));
 }
