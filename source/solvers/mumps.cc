@@ -82,6 +82,7 @@ Mumps::Mumps(const MPI_Comm communicator, const Kind kind)
   instance->icntl(4) = 0;
   instance->icntl(18) = 3;  // entries spread over the ranks
   instance->icntl(14) = 30; // per cent of memory above the estimate
+  instance->icntl(8) = 0;   // no scaling: the callers do that
   instance->icntl(24) = 0;  // a null pivot is an error
 }
 
