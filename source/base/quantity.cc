@@ -157,8 +157,8 @@ std::unique_ptr<dealii::Patterns::PatternBase> Quantity::clone() const
 
 std::unique_ptr<Quantity> Quantity::create(const std::string &description)
 {
-  static const std::regex form(
-    "\\[Quantity (.*) in ([(\\[])([^,]*), ([^)\\]]*)([)\\]])(?: (?!or \")(.+?))?(?: or \"(.*)\")?\\]");
+  static const std::regex form("\\[Quantity (.*) in ([(\\[])([^,]*), ([^)\\]]*)([)\\]])(?: (?!or "
+                               "\")(.+?))?(?: or \"(.*)\")?\\]");
   std::smatch part;
   if (!std::regex_match(description, part, form))
     return nullptr;
