@@ -60,6 +60,11 @@ CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
                     "5 MPa",
                     Quantity(dimension::pressure, Range::positive()),
                     "An iteration that would change a fracture pressure by more is shortened.");
+  prm.declare_entry("Show iterations",
+                    "false",
+                    Patterns::Bool(),
+                    "Print the residuals of every iteration: forces of the bulk and of the "
+                    "fracture, mass in pores and in the fracture.");
   prm.leave_subsection();
 }
 
@@ -92,6 +97,7 @@ CoupledSystem<dim>::CoupledSystem(RunContext                                 &ru
   tolerance      = get_quantity(prm, "Tolerance", dimension::number);
   max_iterations = prm.get_integer("Maximum iterations");
   pressure_limit = get_quantity(prm, "Maximum pressure change", dimension::pressure);
+  show_iterations = prm.get_bool("Show iterations");
   prm.leave_subsection();
 }
 
@@ -438,13 +444,21 @@ CoupledSystem<dim>::solve(const StepContext &context,
                                       std::make_pair(norms.extra, &greatest.extra),
                                       std::make_pair(norms.fracture_fluid, &greatest.fracture_fluid)})
         *most = std::max(*most, now);
+      if (show_iterations)
+        run.out << "    iteration " << iteration << ": " << norms.momentum << ' ' << norms.extra << ' '
+                << norms.mass << ' ' << norms.fracture_fluid << std::endl;
       if (!std::isfinite(norms.momentum + norms.mass + norms.extra + norms.fracture_fluid))
         {
           report.reason = "the residual is not a number";
           return report;
         }
-      // Forces of the bulk and of the fracture balance one another, so they share a scale.
-      const double force = std::max(greatest.momentum, greatest.extra);
+      // Forces of the bulk and of the fracture balance one another, so they share a scale: what the
+      // rock exerts on the fracture, for a solve may start in equilibrium and with no residual.
+      double rock_on_fracture = 0.;
+      for (unsigned int i = 0; i < n_model_extra; ++i)
+        rock_on_fracture += linear_residual_extra[i] * linear_residual_extra[i];
+      const double force =
+        std::max({greatest.momentum, greatest.extra, std::sqrt(rock_on_fracture)});
       const bool   small = model_change <= tolerance &&
                          norms.momentum <= tolerance * force && norms.extra <= tolerance * force &&
                          norms.mass <= tolerance * greatest.mass &&

@@ -167,6 +167,7 @@ private:
 
   double       tolerance, pressure_limit;
   unsigned int max_iterations;
+  bool         show_iterations;
 
   dealii::FESystem<dim>             fe;
   dealii::DoFHandler<dim>           dof_handler;
