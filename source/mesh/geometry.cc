@@ -330,6 +330,7 @@ void Geometry<dim>::create_coarse(Triangulation &triangulation) const
   const auto set = [this, &triangulation]() { set_regions(triangulation); };
   set();
   triangulation.signals.post_distributed_refinement.connect(set);
+  triangulation.signals.post_distributed_repartition.connect(set);
   triangulation.signals.post_distributed_load.connect(set);
 }
 

@@ -224,6 +224,23 @@ TEST_CASE("regions follow the cells' centres through refinement")
   CHECK(region_volume(c, "coal") == doctest::Approx(0.5));
 }
 
+TEST_CASE("regions are known to the rank that gets the cells later")
+{
+  const Case<2> c("set Region boxes = coal: (0, 0) to (1, 0.5)");
+  parallel::distributed::Triangulation<2> triangulation(
+    MPI_COMM_WORLD, Triangulation<2>::none,
+    parallel::distributed::Triangulation<2>::no_automatic_repartitioning);
+  c.geometry.create(triangulation);
+  unsigned int n = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      CHECK(cell->material_id() == (cell->center()[1] < 0.5 ? 1 : 0));
+      ++n;
+    }
+  CHECK(n * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 64);
+}
+
 TEST_CASE("regions by number")
 {
   const Case<2> c("set Region boxes = 3: (0, 0) to (0.5, 1)");
