@@ -65,6 +65,6 @@ private:
   std::string directory;
   MPI_Comm communicator = MPI_COMM_NULL;
   Records bulk_records, fracture_records;
-  double last_time = -std::numeric_limits<double>::infinity(); ///< of the last fields written
+  double last_time = std::numeric_limits<double>::lowest(); ///< of the last fields written
 };
 } // namespace stockwork

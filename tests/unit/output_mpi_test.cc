@@ -118,7 +118,7 @@ struct Setting
 
   void write(const double time)
   {
-    const State state{unknowns, unknowns, unknowns, unknowns};
+    const State state{unknowns, unknowns, unknowns, unknowns, {}};
     output.write(time, discretization(), scene(), model, state);
   }
 
@@ -176,7 +176,7 @@ TEST_CASE("values of the fields")
 {
   const Setting setting;
   const Scene<2> scene = setting.scene();
-  const State state{setting.unknowns, setting.unknowns, setting.unknowns, setting.unknowns};
+  const State state{setting.unknowns, setting.unknowns, setting.unknowns, setting.unknowns, {}};
   const BulkFields<2> fields(setting.discretization(), scene, setting.model, state);
   Peek output;
   output.attach_dof_handler(setting.dof_handler);
