@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/conductivity.h"
+
 namespace stockwork
 {
 /// How fluid passes from a fracture into the rock; rates are per face, and a fracture has two.
@@ -10,7 +12,8 @@ enum class LeakOff
 {
   none,
   /// C_L / sqrt(t - t_0), with t_0 the time at which the face was exposed: one-dimensional loss
-  /// into rock beyond the model (Carter 1957). The fluid leaves the model.
+  /// into rock beyond the model (Carter 1957). The fluid leaves the model. Nothing leaks where the
+  /// fracture is closed.
   carter,
   /// c_l (p_f - p_m), p_m the rock's pore pressure at the face. The fluid enters the rock.
   filter_cake,
@@ -27,6 +30,15 @@ carter_volume(const double coefficient, const double exposed, const double begin
 {
   return 2. * coefficient *
          (std::sqrt(std::max(end - exposed, 0.)) - std::sqrt(std::max(begin - exposed, 0.)));
+}
+
+/// Share of Carter's leak-off that finds fluid to take: all of it where the fracture is open by
+/// more than the minimum aperture, nothing where it is closed. Without it, the law would draw from
+/// an empty notch more than is injected, and suck it shut.
+inline ValueAndSlope wetted_share(const double w, const double w_min)
+{
+  const double x = std::clamp(w / w_min, 0., 1.);
+  return {x * x * (3. - 2. * x), 6. * x * (1. - x) / w_min};
 }
 
 /// Coefficient of the filter cake that stands for p_f = p_m: a thousand times what a cell of size h

@@ -415,9 +415,14 @@ void Network<dim>::assemble_segment(const unsigned int index,
 
   // Leak-off.
   if (leak_off == LeakOff::carter && own != no_row)
-    local.residual(own) -= 2. * area * dt / context.dt *
-                           carter_volume(carter_coefficient, exposed_since(index, context),
-                                         context.time - context.dt, context.time);
+  {
+    const double volume = 2. * area * dt / context.dt *
+                          carter_volume(carter_coefficient, exposed_since(index, context),
+                                        context.time - context.dt, context.time);
+    const ValueAndSlope share = wetted_share(w, minimum_aperture);
+    local.residual(own) -= volume * share.value;
+    add_aperture_slope(own, -volume * share.slope);
+  }
 
   // c d enters the balances of fracture and rock, and c (d - p + p_m) = 0.
   const double c = 2. * area * dt * leak_off_coefficient(index), d = values.cake_drop[index];
@@ -454,7 +459,7 @@ std::vector<double> Network<dim>::leaked_in_step(const StepContext &context,
   std::vector<double> volumes(network.size(), 0.);
   for (unsigned int i = 0; i < network.size(); ++i)
     if (leak_off == LeakOff::carter)
-      volumes[i] = 2. * network[i].area *
+      volumes[i] = 2. * network[i].area * wetted_share(values.aperture[i], minimum_aperture).value *
                    carter_volume(carter_coefficient, exposed_since(i, context),
                                  context.time - context.dt, context.time);
     else

@@ -71,7 +71,7 @@ double TimeHistory::operator()(const double begin, const double end) const
     if (to > from)
       integral += values[k] * (to - from);
   }
-  return integral / (end - begin);
+  return end > begin ? integral / (end - begin) : 0.;
 }
 
 double TimeHistory::magnitude() const
@@ -91,7 +91,8 @@ double TimeHistory::magnitude() const
 
 double TimeHistory::next_jump(const double t) const
 {
-  const auto next = std::upper_bound(times.begin(), times.end(), t);
+  // Times of steps are sums with rounding errors.
+  const auto next = std::upper_bound(times.begin(), times.end(), t + 1e-10 * std::abs(t));
   return next == times.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 } // namespace stockwork

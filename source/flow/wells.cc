@@ -61,26 +61,27 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
     const std::string forms = " A value; pieces, each from its time on, as in '0 s: 1e-4; 50 s: "
                               "0'; or an expression in SI units, as in 'f(t) = 1e-4*min(t/10,1)'.";
     prm.declare_entry("Rate", "0", Patterns::Anything(),
-                      "Of the whole well, both wings [" + std::string(rate_dimension<dim>.unit) +
-                        "]; negative: production. With control 'rate'." + forms);
+                      "Of the whole well, both wings [m^3/s; m^2/s in 2-D]; negative: production. "
+                      "With control 'rate'." +
+                        forms);
     prm.declare_entry("Pressure", "0", Patterns::Anything(),
                       "In the borehole [Pa]. With control 'pressure'." + forms);
     prm.declare_entry("Perforations", "", Patterns::Anything(),
                       "Points where the well is open to a fracture: coordinates separated by "
                       "',', points by ';'. Each opens into the nearest segment of a fracture, "
                       "which must be no farther than the segment is long.");
-    prm.declare_entry("Perforation friction", "0",
-                      Quantity(friction_dimension<dim>, Range::non_negative()),
-                      "kappa in the pressure drop kappa q^2 of each perforation, q the rate "
+    prm.declare_entry("Perforation friction", "0", Patterns::Anything(),
+                      "kappa in the pressure drop kappa q^2 of each perforation [Pa s^2/m^6; "
+                      "Pa s^2/m^4 in 2-D], q the rate "
                       "through all of it (both wings). Without friction, several perforations "
                       "are at equal pressure, which lets the longest fracture take everything.");
     prm.declare_entry("Fraction in model", "1", Patterns::Double(0., 1.),
                       "Share of the well that lies in the model: 0.5 where a symmetry plane "
                       "passes through it. Rate, friction and borehole volume are given for the "
                       "whole well.");
-    prm.declare_entry("Borehole volume", "0",
-                      Quantity(volume_dimension<dim>, Range::non_negative()),
-                      "Of the fluid in the borehole, which is as compressible as in the fracture.");
+    prm.declare_entry("Borehole volume", "0", Patterns::Anything(),
+                      "Of the fluid in the borehole [m^3; m^2 in 2-D], which is as compressible as "
+                      "in the fracture.");
     prm.leave_subsection();
   }
   prm.leave_subsection();
@@ -117,9 +118,22 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
       if (!(well.fraction > 0.))
         throw EntryError(path + "Fraction in model", prm.get("Fraction in model"),
                          "a number > 0, up to 1");
-      well.friction = get_quantity(prm, "Perforation friction", friction_dimension<dim>) /
+      const auto non_negative = [&](const std::string &entry, const Dimension &dimension)
+      {
+        const std::string text = prm.get(entry);
+        try
+        {
+          return Quantity(dimension, Range::non_negative()).parse(text);
+        }
+        catch (const InputError &)
+        {
+          throw EntryError(path + entry, text,
+                           "a value >= 0, such as '" + std::string(dimension.example) + "'");
+        }
+      };
+      well.friction = non_negative("Perforation friction", friction_dimension<dim>) /
                       (well.fraction * well.fraction);
-      well.volume = get_quantity(prm, "Borehole volume", volume_dimension<dim>) * well.fraction;
+      well.volume = non_negative("Borehole volume", volume_dimension<dim>) * well.fraction;
 
       // What is typical where the rate is not given: 1e-4 m^2/s, 10 l/s.
       const double rate = well.pressure_control ? 0. : well.value.magnitude() * well.fraction;

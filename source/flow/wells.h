@@ -22,7 +22,7 @@ struct WellReport
   double borehole_pressure = 0.;         ///< [Pa]
   double inlet_pressure = 0.;            ///< in the fracture at the first perforation [Pa]
   double inlet_aperture = 0.;            ///< there [m]
-  unsigned int        inlet_segment     = 0;  ///< the first perforation opens into it
+  unsigned int inlet_segment = 0;        ///< the first perforation opens into it
   std::vector<double> perforation_rates; ///< into the fracture [m^3/s]
 };
 

@@ -72,6 +72,19 @@ TEST_CASE("Carter leak-off is integrated exactly")
         Approx(carter_volume(C, exposed, 0., 7.)));
 }
 
+TEST_CASE("nothing leaks from a closed fracture")
+{
+  const double w_min = 10e-6, h = 1e-9;
+  CHECK(wetted_share(-1e-5, w_min).value == 0.);
+  CHECK(wetted_share(5e-6, w_min).value == Approx(0.5));
+  CHECK(wetted_share(2e-5, w_min).value == 1.);
+  CHECK(wetted_share(2e-5, w_min).slope == 0.);
+  for (const double w : {1e-6, 4e-6, 9e-6})
+    CHECK(wetted_share(w, w_min).slope ==
+          Approx((wetted_share(w + h, w_min).value - wetted_share(w - h, w_min).value) / (2. * h))
+            .epsilon(1e-6));
+}
+
 TEST_CASE("histories in time")
 {
   const auto history = [](const std::string &text)

@@ -237,7 +237,7 @@ public:
   }
 
   /// Newton's method. Returns the iterations.
-  unsigned int solve(const double tolerance = 1e-13)
+  unsigned int solve(const double tolerance = 1e-11)
   {
     for (unsigned int iteration = 1; iteration < 100; ++iteration)
     {

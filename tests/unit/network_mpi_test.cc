@@ -238,7 +238,13 @@ TEST_CASE("Carter leak-off: volume and times of exposure")
   const double C = 1e-6;
   Chain chain(4);
   chain.set_up(one_well + Chain::Entries{{"Fracture flow/Leak-off", "carter"},
-                                         {"Fracture flow/Carter coefficient", "1e-6"}});
+                                         {"Fracture flow/Carter coefficient", "1e-6"},
+                                         {"Wells/Well 1/Rate", "1e-5"}});
+  // Open all along: nothing leaks where it is closed.
+  chain.bulk.assign(4, 1e-4);
+  chain.bulk_reference = chain.bulk;
+  chain.extra.assign(4, 1e-4 * chain.stiffness);
+  chain.extra_reference = chain.extra;
   chain.context.time = 2.;
   chain.step(1.);
   chain.step(3.);
@@ -253,9 +259,10 @@ TEST_CASE("Carter leak-off: volume and times of exposure")
   for (unsigned int pass = 0; pass < 2; ++pass)
   {
     ++chain.n;
-    chain.bulk.push_back(0.);
-    chain.bulk_reference.push_back(0.);
+    chain.bulk.push_back(1e-4);
+    chain.bulk_reference.push_back(1e-4);
     chain.update_segments();
+    chain.extra.back() = chain.extra_reference.back() = 1e-4 * chain.stiffness;
   }
   chain.solve();
   CHECK(chain.balance().relative_error < 1e-9);
@@ -442,6 +449,9 @@ TEST_CASE("decks that make no sense")
         "'Wells/Well 1/Perforations' is '0.25'; allowed is one or more points");
   check({{"Wells/Well 1/Perforations", ""}}, "'Wells/Well 1/Perforations' is empty");
   check({{"Wells/Well 1/Rate", "3 MPa"}}, "'Wells/Well 1/Rate' is '3 MPa'");
+  check({{"Wells/Well 1/Perforation friction", "3 MPa"}},
+        "'Wells/Well 1/Perforation friction' is '3 MPa'");
+  check({{"Wells/Well 1/Borehole volume", "-1"}}, "'Wells/Well 1/Borehole volume' is '-1'");
   check({{"Wells/Well 1/Control", "none"}}, "'rate' or 'pressure'");
   check({{"Fracture flow/Leak-off", "resolved"}}, "the rock has no pore pressure");
   check({{"Fracture flow/Leak-off", "carter"}}, "Carter coefficient");
