@@ -117,7 +117,7 @@ extern "C" void stockwork_register(stockwork::FractureModelRegistry &registry)
     inner.declare_parameters(prm);
     using namespace dealii::Patterns;
     prm.declare_entry("Reject", "true", Bool(), "Reject, or ask for a short step before.");
-    prm.declare_entry("Step", "6", Integer(2), "The step that is rejected.");
+    prm.declare_entry("Step", "7", Integer(2), "The step that is rejected.");
     prm.declare_entry("Step length", "0.1", Double(0.), "Of all other steps [s].");
   };
   entry.create_2d = [inner](dealii::ParameterHandler &prm, const stockwork::Scene<2> &scene)
