@@ -33,7 +33,7 @@ straight_crack(const ReferenceInput<2> &input)
     throw InputError("The reference solution of a pressurised crack needs an initial crack.");
   if (!std::isfinite(input.crack_pressure))
     throw InputError("The reference solution of a pressurised crack needs its pressure given, "
-                     "'Cracks/Pressure'.");
+                     "'Cracks/Fluid pressure'.");
   const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
   const double   small = 1e-8 * (input.upper - input.lower).norm();
   const Tensor<1, 2> along = last - first;
