@@ -195,17 +195,19 @@ BulkAssembly<dim>::matrix(const StepContext                   &context,
   // The fixed-stress mass lives on the pressure block alone, so its constraints are resolved here
   // by dropping constrained rows (they carry a unit diagonal in the block itself).
 
+  const RockProperties *properties_of_local = nullptr;
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       {
         const RockProperties &properties = rock(cell->material_id());
-        integrals.reinit(cell);
-        cell_matrix(integrals,
-                    properties,
-                    properties.permeability / rock.fluid().viscosity,
-                    context,
-                    stabilisation,
-                    local);
+        if (integrals.reinit(cell) || &properties != properties_of_local)
+          cell_matrix(integrals,
+                      properties,
+                      properties.permeability / rock.fluid().viscosity,
+                      context,
+                      stabilisation,
+                      local);
+        properties_of_local = &properties;
         cell->get_dof_indices(dofs);
         discretization.constraints.distribute_local_to_global(local, dofs, matrix);
         if (with_mass)
@@ -285,17 +287,19 @@ BulkAssembly<dim>::for_each_residual(const StepContext &context,
                                 update_values | update_quadrature_points | update_normal_vectors |
                                   update_JxW_values);
 
+  const RockProperties *properties_of_local = nullptr;
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       {
         const RockProperties &properties = rock(cell->material_id());
-        integrals.reinit(cell);
-        cell_matrix(integrals,
-                    properties,
-                    properties.permeability / rock.fluid().viscosity,
-                    context,
-                    stabilisation,
-                    local);
+        if (integrals.reinit(cell) || &properties != properties_of_local)
+          cell_matrix(integrals,
+                      properties,
+                      properties.permeability / rock.fluid().viscosity,
+                      context,
+                      stabilisation,
+                      local);
+        properties_of_local = &properties;
         cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < n; ++i)
           {

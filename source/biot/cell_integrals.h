@@ -41,7 +41,8 @@ public:
                 const dealii::FiniteElement<dim> &fe,
                 bool                              with_masses);
 
-  void
+  /// Returns whether the integrals have changed: boxes of equal size have equal integrals.
+  bool
   reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
 
   BulkLayout<dim> layout;
@@ -69,6 +70,7 @@ private:
   by_quadrature();
 
   bool                  with_masses;
+  dealii::Tensor<1, dim> box; ///< edge lengths of the last cell, zero if it was no box
   dealii::FEValues<dim> fe_values;
   UnitCell              unit;
   std::vector<double>   shape_gradients; ///< scratch, [d * n_u + a]
