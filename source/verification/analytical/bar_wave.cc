@@ -1,4 +1,5 @@
 #include "verification/analytical/bar_wave.h"
+#include "verification/analytical/constants.h"
 
 #include <cmath>
 
@@ -6,7 +7,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 }
 
 

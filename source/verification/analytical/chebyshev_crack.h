@@ -1,5 +1,7 @@
 #pragma once
 
+#include "verification/analytical/constants.h"
+
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -67,8 +69,6 @@ public:
   }
 
 private:
-  static constexpr double pi = 3.14159265358979323846;
-
   // Of the Chebyshev polynomial T_j, j > 0, in phi.
   double coefficient(const double *phi, const std::size_t j) const
   {

@@ -1,4 +1,5 @@
 #include "verification/analytical/column.h"
+#include "verification/analytical/constants.h"
 
 #include <cmath>
 
@@ -6,8 +7,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 // Below this dimensionless time the sum over images converges in four terms, above it the
 // Fourier series in seven, both to machine accuracy.
 constexpr double early = 0.1;

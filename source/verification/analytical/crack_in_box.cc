@@ -1,6 +1,7 @@
 #include "verification/analytical/crack_in_box.h"
 
 #include "verification/analytical/chebyshev_crack.h"
+#include "verification/analytical/constants.h"
 #include "verification/analytical/dense_matrix.h"
 #include "verification/analytical/roller_walls.h"
 
@@ -10,7 +11,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t n_points = 64;
 } // namespace
 

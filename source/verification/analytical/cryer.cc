@@ -1,4 +1,5 @@
 #include "verification/analytical/cryer.h"
+#include "verification/analytical/constants.h"
 
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -11,7 +12,6 @@ namespace
 {
 using Shape = CryerParameters::Shape;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int n_roots = 2000;
 constexpr double negligible = 40.; // exp(-40) = 4e-18
 

@@ -1,6 +1,7 @@
 #include "verification/analytical/fracture_front.h"
 
 #include "stockwork/base/error.h"
+#include "verification/analytical/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double tolerance = 1e-10;
 constexpr int max_iterations = 40;
 constexpr double gamma_increment = 1e-6; // of the numerical derivative of the exposure

@@ -1,4 +1,5 @@
 #include "verification/analytical/half_crack_grid.h"
+#include "verification/analytical/constants.h"
 
 #include <boost/math/special_functions/ellint_rd.hpp>
 #include <boost/math/special_functions/ellint_rf.hpp>
@@ -11,7 +12,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double zeta_prime_2 = -0.03044845705839327; // zeta'(-2)
 constexpr double zeta_prime_4 = 0.00798381145026862;  // zeta'(-4)
 constexpr double left_parameter = -3.;                // x = 2e-9

@@ -1,5 +1,6 @@
 #include "verification/analytical/hydraulic_fracture.h"
 
+#include "verification/analytical/constants.h"
 #include "verification/analytical/fracture_front.h"
 #include "verification/analytical/roller_walls.h"
 
@@ -12,7 +13,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double grid_step = 0.3;
 constexpr double least_toughness = 0.02;
 

@@ -1,5 +1,6 @@
 #include "verification/analytical/kgd.h"
 
+#include "verification/analytical/constants.h"
 #include "verification/analytical/fracture_front.h"
 
 #include <boost/math/interpolators/cardinal_quintic_b_spline.hpp>
@@ -12,7 +13,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double step = 0.2;
 
 // Below this toughness the solution has not changed to 2e-7 and its tip layer only costs points.

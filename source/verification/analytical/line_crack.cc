@@ -1,4 +1,5 @@
 #include "verification/analytical/line_crack.h"
+#include "verification/analytical/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 double plane_strain_modulus(const double youngs_modulus, const double poisson_ratio)
 {
   return youngs_modulus / (1. - poisson_ratio * poisson_ratio);

@@ -1,4 +1,5 @@
 #include "verification/analytical/mandel.h"
+#include "verification/analytical/constants.h"
 
 #include <boost/math/tools/roots.hpp>
 
@@ -8,7 +9,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr int n_roots = 2000;
 constexpr double negligible = 40.; // exp(-40) = 4e-18
 constexpr double undrained_limit = 1e-12;

@@ -1,6 +1,7 @@
 #include "verification/analytical/parallel_cracks.h"
 
 #include "verification/analytical/chebyshev_crack.h"
+#include "verification/analytical/constants.h"
 #include "verification/analytical/dense_matrix.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 // Enough points that the poles of the neighbours' stress, one distance away from the crack, do
 // not spoil the quadrature.
 unsigned int number_of_points(const double relative_distance)

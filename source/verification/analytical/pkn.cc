@@ -1,4 +1,5 @@
 #include "verification/analytical/pkn.h"
+#include "verification/analytical/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr int n_steps = 400;
 
 // With s = 1 - theta the similarity equation (W^3 W')' = W/5 - (4/5) theta W' is regular at the tip

@@ -1,4 +1,5 @@
 #include "verification/analytical/porous_wave.h"
+#include "verification/analytical/constants.h"
 
 #include <cmath>
 
@@ -8,7 +9,6 @@ namespace
 {
 using Complex = std::complex<double>;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double damping = 25.;           // exp(-25) is the error by periodic continuation
 constexpr double highest_frequency = 200; // times the rise time: the load has fallen to 1e-7
 

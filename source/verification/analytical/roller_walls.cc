@@ -1,4 +1,5 @@
 #include "verification/analytical/roller_walls.h"
+#include "verification/analytical/constants.h"
 
 #include <cmath>
 
@@ -6,7 +7,6 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double near = 0.05; // where series replace differences of large numbers
 constexpr double negligible = 20.;
 
