@@ -22,14 +22,17 @@ def report(summary):
     """The lines of the table."""
     errors, final = summary.get("errors", {}), summary.get("final", {})
     rows = [("quantity at the end", "computed", "reference", "error", "mean error")]
-    for name in [*errors, *(n for n in final if n not in errors)]:
+    others = [n for n in final if n not in errors and not n.startswith(("error_", "reference_"))
+              and n not in ("step", "time", "time_step", "fluid_balance_error")]
+    for name in [*errors, *others]:
         error = errors.get(name, {})
-        rows.append((name, show(final.get(name)), show(error.get("reference")),
+        rows.append((name, show(final.get(name)), show(final.get("reference_" + name)),
                      percent(error.get("final")), percent(error.get("mean"))))
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     lines = ["  ".join(cell.ljust(w) if i == 0 else cell.rjust(w)
                        for i, (cell, w) in enumerate(zip(row, widths))) for row in rows]
     lines.insert(1, "-" * len(lines[0]))
+    lines += sorted({f"reference: {e['reference']}" for e in errors.values() if e.get("reference")})
     balance = summary.get("fluid_balance", {})
     if balance.get("injected"):
         lines.append(f"fluid: {show(balance['injected'])} injected, balanced to "

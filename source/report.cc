@@ -124,6 +124,8 @@ Report<dim>::add_step(const unsigned int step, const StepReport &step_report)
       errors->add_values(time, step_report.dt, observed);
       for (const auto &[name, error] : errors->errors())
         statistics.set("error_" + name, error.final);
+      for (const auto &[name, value] : reference->values(time))
+        statistics.set("reference_" + name, value);
     }
   statistics.end_row();
 

@@ -50,11 +50,16 @@ def fracture_lines(fracture):
     return lines, fracture.point_data["aperture"][ends].mean(axis=1)
 
 
-def window_of(grid, lines):
+def is_open(aperture):
+    """Where the opening can be seen; cells may be cut ahead of the fracture."""
+    return aperture >= 0.01 * aperture.max(initial=0.)
+
+
+def window_of(grid, lines, aperture):
     low, high = grid.points.min(axis=0)[:2], grid.points.max(axis=0)[:2]
     if not len(lines):
         return low[0], high[0], low[1], high[1]
-    corner = lines.reshape(-1, 2)
+    corner = lines[is_open(aperture)].reshape(-1, 2)
     middle, size = (corner.min(axis=0) + corner.max(axis=0)) / 2, np.ptp(corner, axis=0).max()
     x = np.clip([middle[0] - 0.75 * size, middle[0] + 0.75 * size], low[0], high[0])
     y = np.clip([middle[1] - 0.5 * size, middle[1] + 0.5 * size], low[1], high[1])
@@ -68,7 +73,7 @@ def draw(options):
     if os.path.exists(os.path.join(options.directory, "fracture.pvd")):
         fractures = vtu.series(options.directory, "fracture")
         lines, aperture = fracture_lines(vtu.read(vtu.at_time(fractures, time)[1]))
-    window = options.window or window_of(grid, lines)
+    window = options.window or window_of(grid, lines, aperture)
     opening = aperture.max(initial=0.)
     warp = options.warp if options.warp is not None else (
         0.06 * (window[3] - window[2]) / opening if opening > 0 else 0.)
@@ -99,13 +104,16 @@ def draw(options):
         faces, aperture = np.concatenate([faces, faces * flip]), np.concatenate([aperture] * 2)
         window = (-window[1], window[1], window[2], window[3])
     shown = ax.add_collection(PolyCollection(polygons, array=colour, cmap="viridis",
-                                             edgecolors="face", linewidths=0.2, rasterized=True))
+                                             antialiaseds=False, rasterized=True))
     if len(faces):
         tangent = faces[:, 1] - faces[:, 0]
         normal = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
         normal /= np.linalg.norm(normal, axis=1)[:, None]
         half = (0.5 * warp * np.maximum(aperture, 0.))[:, None] * normal
         upper, lower = faces + half[:, None], faces - half[:, None]
+        closed, opened = ~is_open(aperture), is_open(aperture)
+        ax.add_collection(LineCollection(faces[closed], colors="0.6", linewidths=0.8))
+        upper, lower = upper[opened], lower[opened]
         ax.add_collection(PolyCollection(np.concatenate([upper, lower[:, ::-1]], axis=1),
                                          facecolors="white", edgecolors="white"))
         ax.add_collection(LineCollection(np.concatenate([upper, lower]), colors="crimson",
@@ -117,7 +125,7 @@ def draw(options):
     ax.set_ylabel("y [m]")
     name = " ".join(filter(None, (options.field.replace("_", " "), options.component)))
     figure.colorbar(shown, ax=ax, shrink=0.8, label=f"{name} [{unit}]")
-    ax.set_title(f"t = {time:.4g} s" + (f", opening drawn × {warp:.3g}" if warp else ""),
+    ax.set_title(f"t = {time:.4g} s" + (f", opening drawn × {round(warp, -2):.0f}" if warp else ""),
                  fontsize=10)
     output = options.output or os.path.join(options.directory, options.field + ".png")
     figure.savefig(output, dpi=110, bbox_inches="tight")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draw aperture and fluid pressure along the fracture, at several times.
+"""Draw aperture and fluid pressure along the open part of the fracture, at several times.
 
     profile.py DIRECTORY [--times 4] [--output FILE.png]
 """
@@ -42,8 +42,9 @@ def main():
     options = parser.parse_args()
 
     entries = vtu.series(options.directory, "fracture")
-    chosen = [entries[i] for i in
-              sorted(set(np.linspace(0, len(entries) - 1, options.times + 1).astype(int)[1:]))]
+    end = entries[-1][0]
+    chosen = sorted({vtu.at_time(entries, end * (i + 1) / options.times)
+                     for i in range(options.times)})
     last = vtu.read(entries[-1][1])
     names = [n for n in QUANTITIES if n in last.cell_data or n in last.point_data]
     figure, axes = plt.subplots(1, len(names), figsize=(4.5 * len(names), 3.2), squeeze=False)
@@ -51,6 +52,9 @@ def main():
         label, factor = QUANTITIES[name]
         for i, (time, path) in enumerate(chosen):
             place, values, axis = profile(vtu.read(path), name)
+            seen = profile(vtu.read(path), "aperture")[1]
+            seen = seen > 0.003 * seen.max(initial=0.)
+            place, values = place[seen], values[seen]
             ax.plot(place, factor * values, color=plt.cm.viridis(0.85 * i / max(1, len(chosen) - 1)),
                     lw=1.3, label=f"{time:.4g} s")
         ax.set_xlabel(f"{axis} [m]")

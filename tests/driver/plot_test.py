@@ -76,8 +76,8 @@ def write_run(directory):
     with open(f"{directory}/statistics.csv", "w", encoding="utf-8") as file:
         file.write("# s, m, m\ntime,fracture_length,reference_fracture_length\n0,,\n1,2,2.1\n2,3,3.1\n")
     with open(f"{directory}/summary.json", "w", encoding="utf-8") as file:
-        file.write('{"case": "test", "fracture_model": "none", "final": {"fracture_length": 3},'
-                   '"errors": {"fracture_length": {"final": 0.03, "mean": null, "reference": 3.1}},'
+        file.write('{"case": "test", "fracture_model": "none", "final": {"fracture_length": 3, "reference_fracture_length": 3.1},'
+                   '"errors": {"fracture_length": {"final": 0.03, "mean": null, "reference": "KGD"}},'
                    '"fluid_balance": {"injected": 1, "relative_error": 1e-12}}')
 
 
