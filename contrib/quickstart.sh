@@ -67,7 +67,7 @@ case "${1:-}" in
     build/source/stockwork "$deck" --set 'Resolution=coarse' --output "$output"
     begin "drawing" "Pictures need python3-numpy and python3-matplotlib; the run itself is complete."
     "$python" contrib/plot/history.py "$output"
-    "$python" contrib/plot/field.py "$output"
+    "$python" contrib/plot/field.py "$output" --field total_stress --component yy --mirror
     "$python" contrib/plot/profile.py "$output"
     "$python" contrib/report.py "$output"
     printf '\nPictures: %s\nFields for ParaView: %s\n' "$(echo $output/*.png)" "$(echo $output/*.pvd)" ;;
