@@ -501,7 +501,9 @@ CoupledSystem<dim>::solve(const StepContext &context,
           report.reason = error.what();
           return report;
         }
-      double factor = 1.;
+      // A law with kinks (contact, softening) can send Newton's method round in circles; shorter
+      // increments lead out.
+      double factor = iteration > 8 && norms.extra > 1e-4 * force ? 0.4 : 1.;
       for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
         factor = std::min(factor, pressure_limit / std::max(std::abs(dx_extra[i]), 1e-300));
       if (factor < 1.)
