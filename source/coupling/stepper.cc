@@ -36,6 +36,11 @@ StepControl::declare_parameters(ParameterHandler &prm)
                     Quantity(dimension::number, Range{0., INFINITY, true, false}),
                     "Of the local error of a step, relative to the solution; 'inf': steps are not "
                     "chosen by error. BDF2 only.");
+  prm.declare_entry("Reject first attempt of step",
+                    "0",
+                    Patterns::Integer(0),
+                    "For tests: the first attempt at the step of this number is thrown away and the "
+                    "step taken again with half its length. 0: none.");
   prm.leave_subsection();
 }
 
@@ -71,6 +76,7 @@ StepControl::parse_parameters(ParameterHandler &prm)
                     dimension::number,
                     Range{1., 10., false, false},
                     std::isfinite(error_tolerance) ? 2. : -1.);
+  rejected_step   = prm.get_integer("Reject first attempt of step");
   prm.leave_subsection();
 }
 
@@ -160,6 +166,12 @@ Stepper<dim>::advance(const double time, double dt, const unsigned int step)
         {
           accepted = false;
           reason   = "the local error is " + std::to_string(error);
+        }
+
+      if (accepted && step == control.rejected_step && attempt_number == 0)
+        {
+          accepted = false;
+          reason   = "rejected as the deck demands ('Time/Reject first attempt of step')";
         }
 
       if (accepted)

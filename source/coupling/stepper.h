@@ -15,6 +15,7 @@ struct StepControl
   double initial_step, minimum_step, maximum_step;
   double growth;          ///< greatest ratio of successive steps
   double error_tolerance; ///< of the local error estimate; infinite: not used
+  unsigned int rejected_step = 0; ///< its first attempt is thrown away, to test that; 0: none
 
   static void
   declare_parameters(dealii::ParameterHandler &prm);
