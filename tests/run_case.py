@@ -8,6 +8,7 @@
     order    one run per --series value; the observed order of a quantity in the last pair of runs
     same     two runs on different numbers of ranks (or with different settings) agree
     restart  a run that is interrupted and restarted agrees with the run that is not
+    no_restart  a restart must be refused with every --says, because of --second-set or --damage
     error    a deck which must be refused with given sentences, before anything is computed
 
 An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
@@ -16,6 +17,7 @@ VALUE is a number or another path. A list stands for its length (`warnings == 0`
 missing, null or not finite fails.
 """
 import argparse
+import glob
 import math
 import operator
 import os
@@ -285,6 +287,22 @@ def run_restart(runner, options):
     _require_same(runner, "straight", "restarted", options)
 
 
+def _processes_of(program, launcher):
+    """Ids of the processes that run the program, the launcher itself or started by it."""
+    table = subprocess.run(["ps", "-A", "-o", "pid=,ppid=,comm="], capture_output=True, text=True,
+                           check=True).stdout
+    rows = [line.split(None, 2) for line in table.splitlines()]
+    parents = {int(pid): int(parent) for pid, parent, _ in rows}
+
+    def descends(pid):
+        while pid in parents and pid != launcher:
+            pid = parents[pid]
+        return pid == launcher
+
+    name = os.path.basename(program)[:15]
+    return [int(pid) for pid, _, command in rows if command == name and descends(int(pid))]
+
+
 def _terminate_after(runner, process, name, steps):
     """SIGTERM once the statistics hold `steps` rows."""
     while process.poll() is None:
@@ -293,9 +311,36 @@ def _terminate_after(runner, process, name, steps):
         except (OSError, IndexError, StopIteration):
             rows = 0
         if rows >= steps:
-            process.send_signal(signal.SIGTERM)
+            # To one rank, not to mpirun, which would end all of them at once.
+            ranks = _processes_of(runner.program, process.pid)
+            os.kill(ranks[0] if ranks else process.pid, signal.SIGTERM)
             return
         time.sleep(0.01)
+
+
+def run_no_restart(runner, options):
+    """One byte in the middle of each file of the checkpoint that matches --damage is changed."""
+    runner.run("run", options.deck, [*options.set, "Checkpoint/Steps between=1"], options.ranks)
+    if options.damage:
+        files = glob.glob(os.path.join(runner.output("run"), "checkpoint", options.damage))
+        if not files:
+            raise Failure(f"the checkpoint has no file like '{options.damage}'")
+        for name in files:
+            with open(name, "r+b") as file:
+                file.seek(os.path.getsize(name) // 2)
+                byte = file.read(1)[0]
+                file.seek(-1, os.SEEK_CUR)
+                file.write(bytes([byte ^ 1]))
+    command = runner.command("run", options.deck, [*options.set, *options.second_set],
+                             options.ranks, ["--restart"])
+    status = runner.wait(runner.start("run", command), command)
+    said = " ".join(runner.text("run", "stderr").split())
+    if status != 1:
+        raise Failure(f"exit status {status}, should be 1\n{runner.tail('run')}")
+    for sentence in options.says:
+        if sentence not in said:
+            raise Failure(f"stderr does not say\n  {sentence}\nbut\n{runner.tail('run')}")
+    print(f"  restart refused: {said}")
 
 
 def run_error(runner, options):
@@ -320,7 +365,7 @@ def run_error(runner, options):
 
 
 MODES = {"case": run_case, "order": run_order, "same": run_same, "restart": run_restart,
-         "error": run_error}
+         "no_restart": run_no_restart, "error": run_error}
 
 
 def parse(arguments):
@@ -344,6 +389,8 @@ def parse(arguments):
     parser.add_argument("--tolerance", type=float, default=None)
     parser.add_argument("--ignore", help="regular expression of columns not to compare")
     parser.add_argument("--second-set", action="append", default=[])
+    parser.add_argument("--damage", metavar="PATTERN", help="files of the checkpoint")
+    parser.add_argument("--says", action="append", default=[], help="part of the message")
     parser.add_argument("--interrupt-set", action="append", default=[],
                         help="setting that ends the first part early")
     parser.add_argument("--interrupt-after", type=int, default=0, metavar="STEPS",
