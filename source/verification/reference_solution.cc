@@ -32,6 +32,7 @@ const Entry table[] = {
   {"kgd", reference::make_kgd, nullptr},
   {"kgd vertex", reference::make_kgd_vertex, nullptr},
   {"kgd carter", reference::make_kgd_carter, nullptr},
+  {"kgd box", reference::make_kgd_box, nullptr},
 };
 
 
@@ -63,7 +64,8 @@ declare_reference_parameters(ParameterHandler &prm)
                     "disc, loaded and drained at the surface. bar wave, porous wave: along the last "
                     "axis, loaded at the top. line crack: in an infinite body; crack in "
                     "box: with rollers all round. kgd: at the deck's own toughness and viscosity; "
-                    "kgd vertex: without viscosity; kgd carter: with Carter leak-off.");
+                    "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
+                    "the rollers of the domain all round.");
   prm.declare_entry("Reference factor",
                     "1",
                     Patterns::Double(),

@@ -105,20 +105,22 @@ private:
 };
 
 
-class KgdCarterReference : public ReferenceSolution<2>
+class KgdHistoryReference : public ReferenceSolution<2>
 {
 public:
-  KgdCarterReference(const analytical::HydraulicFractureParameters &parameters,
-                     const double                           last_time,
-                     const unsigned int                     wings)
+  KgdHistoryReference(const analytical::HydraulicFractureParameters &parameters,
+                      const double                                   last_time,
+                      const unsigned int                             wings,
+                      const std::string                             &title)
     : kgd(parameters, last_time)
     , wings(wings)
+    , title(title)
   {}
 
   std::string
   name() const override
   {
-    return "KGD with Carter leak-off (Adachi & Detournay 2008)";
+    return title;
   }
 
   std::map<std::string, double>
@@ -133,7 +135,8 @@ public:
 
 private:
   analytical::HydraulicFracture kgd;
-  unsigned int          wings;
+  unsigned int                  wings;
+  std::string                   title;
 };
 } // namespace
 
@@ -158,9 +161,25 @@ make_kgd_carter(const ParameterHandler &, const ReferenceInput<2> &input)
   if (!(input.carter_coefficient > 0.))
     throw InputError("The reference solution 'kgd carter' needs 'Fracture flow/Leak-off = carter' "
                      "with a positive coefficient.");
-  return std::make_unique<KgdCarterReference>(
+  return std::make_unique<KgdHistoryReference>(
     analytical::HydraulicFractureParameters{kgd_parameters(input), input.carter_coefficient},
     input.end_time,
-    n_wings(input));
+    n_wings(input),
+    "KGD with Carter leak-off (Adachi & Detournay 2008)");
+}
+
+
+Made<2>
+make_kgd_box(const ParameterHandler &, const ReferenceInput<2> &input)
+{
+  const unsigned int wings = n_wings(input);
+  return std::make_unique<KgdHistoryReference>(
+    analytical::HydraulicFractureParameters{kgd_parameters(input),
+                                            input.carter_coefficient,
+                                            (input.upper[0] - input.lower[0]) / wings,
+                                            0.5 * (input.upper[1] - input.lower[1])},
+    input.end_time,
+    wings,
+    "KGD in a box with rollers all round");
 }
 } // namespace stockwork::reference

@@ -40,6 +40,8 @@ Made<2>
 make_kgd_vertex(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<2>
 make_kgd_carter(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2>
+make_kgd_box(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 
 
 /// The rock of the deck in the form of the analytical solutions.
