@@ -17,8 +17,7 @@ using namespace dealii;
 namespace
 {
 template <int dim>
-void
-declare_for_dimension(ParameterHandler &prm)
+void declare_for_dimension(ParameterHandler &prm)
 {
   Geometry<dim>::declare_parameters(prm);
   InSitu<dim>::declare_parameters(prm);
@@ -30,26 +29,26 @@ declare_for_dimension(ParameterHandler &prm)
 
 /// Displacement and pressure elements, and whether there is a pore pressure at all.
 template <int dim>
-Discretisation
-parse_discretisation(ParameterHandler              &prm,
-                     const Rock                    &rock,
-                     const BoundaryConditions<dim> &boundary_conditions,
-                     const Network<dim>            &network,
-                     const Requirements            &requirements)
+Discretisation parse_discretisation(ParameterHandler &prm,
+                                    const Rock &rock,
+                                    const BoundaryConditions<dim> &boundary_conditions,
+                                    const Network<dim> &network,
+                                    const Requirements &requirements)
 {
   Discretisation discretisation;
-  const bool     asked = boundary_conditions.mentions_pore_pressure() ||
+  const bool asked = boundary_conditions.mentions_pore_pressure() ||
                      network.needs_pore_pressure() || requirements.pore_pressure;
-  if (rock.bulk_model() == "elastic" && (network.needs_pore_pressure() || requirements.pore_pressure))
-    throw EntryError("Rock/Bulk model",
-                     "elastic",
-                     "poroelastic or auto, because the fracture model or its leak-off needs the pore "
-                     "pressure");
+  if (rock.bulk_model() == "elastic" &&
+      (network.needs_pore_pressure() || requirements.pore_pressure))
+    throw EntryError(
+      "Rock/Bulk model", "elastic",
+      "poroelastic or auto, because the fracture model or its leak-off needs the pore "
+      "pressure");
   discretisation.has_pore_pressure =
     rock.bulk_model() == "poroelastic" || (rock.bulk_model() == "auto" && asked);
 
   prm.enter_subsection("Discretisation");
-  const std::string elements    = prm.get("Elements");
+  const std::string elements = prm.get("Elements");
   discretisation.displacement_degree = elements.substr(0, 2) == "Q2" ? 2 : 1;
   if (elements == "Q1-Q1 stabilised")
     discretisation.stabilisation = PressureStabilisation::projection;
@@ -59,8 +58,7 @@ parse_discretisation(ParameterHandler              &prm,
 
 
 template <int dim>
-const auto &
-create_function(const FractureModelEntry &entry)
+const auto &create_function(const FractureModelEntry &entry)
 {
   if constexpr (dim == 2)
     return entry.create_2d;
@@ -74,10 +72,11 @@ std::unique_ptr<FractureModel<dim>>
 make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const Scene<dim> &scene)
 {
   prm.enter_subsection("Fracture");
-  const std::string name   = prm.get("Model");
-  const auto       &create = create_function<dim>(registry.find(name));
+  const std::string name = prm.get("Model");
+  const auto &create = create_function<dim>(registry.find(name));
   if (!create)
-    throw EntryError("Fracture/Model", name, "a model that exists in " + std::to_string(dim) + "-D");
+    throw EntryError("Fracture/Model", name,
+                     "a model that exists in " + std::to_string(dim) + "-D");
   prm.enter_subsection(name);
   auto model = create(prm, scene);
   prm.leave_subsection();
@@ -87,19 +86,14 @@ make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const S
 } // namespace
 
 
-void
-declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &registry)
+void declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &registry)
 {
   Deck::declare_parameters(prm);
   prm.declare_entry("Title", "", Patterns::Anything(), "For people; appears in the log.");
   prm.declare_entry("Dimension", "2", Patterns::Selection("2|3"), "Of space.");
-  prm.declare_entry("Output directory",
-                    "output",
-                    Patterns::Anything(),
+  prm.declare_entry("Output directory", "output", Patterns::Anything(),
                     "Where results go; --output overrides it.");
-  prm.declare_entry("Additional shared libraries",
-                    "",
-                    Patterns::Anything(),
+  prm.declare_entry("Additional shared libraries", "", Patterns::Anything(),
                     "Files, separated by commas, that bring fracture models of their own; relative "
                     "to the deck.");
   Rock::declare_parameters(prm);
@@ -113,9 +107,7 @@ declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &regis
   CheckpointSchedule::declare_parameters(prm);
 
   prm.enter_subsection("Discretisation");
-  prm.declare_entry("Elements",
-                    "Q2-Q1",
-                    Patterns::Selection("Q2-Q1|Q1-Q1 stabilised|Q1-Q1"),
+  prm.declare_entry("Elements", "Q2-Q1", Patterns::Selection("Q2-Q1|Q1-Q1 stabilised|Q1-Q1"),
                     "Displacement and pore pressure. Plain Q1-Q1 oscillates in the undrained limit "
                     "and is here to show it. In elastic rock only the first counts.");
   prm.leave_subsection();
@@ -126,11 +118,11 @@ declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &regis
     names += (names.empty() ? "" : "|") + name;
   prm.declare_entry("Model", "none", Patterns::Selection(names), "The fracture model.");
   for (const auto &[name, entry] : registry.all())
-    {
-      prm.enter_subsection(name);
-      entry.declare_parameters(prm);
-      prm.leave_subsection();
-    }
+  {
+    prm.enter_subsection(name);
+    entry.declare_parameters(prm);
+    prm.leave_subsection();
+  }
   prm.leave_subsection();
 }
 
@@ -140,20 +132,20 @@ namespace
 /// What loads the first crack: the fluid's pressure less the in-situ stress across it, and the
 /// in-situ shear stress along it.
 template <int dim>
-void
-set_crack_load(const Scene<dim> &scene, ReferenceInput<dim> &input)
+void set_crack_load(const Scene<dim> &scene, ReferenceInput<dim> &input)
 {
   input.crack_pressure = scene.crack_pressure;
   if constexpr (dim == 2)
-    {
-      const auto        &crack  = scene.cracks[0].points;
-      const Tensor<1, 2> along  = (crack.back() - crack.front()) / crack.back().distance(crack.front());
-      const Tensor<1, 2> normal = Point<2>(-along[1], along[0]);
-      const auto         traction =
-        scene.in_situ_stress(crack.front() + 0.5 * (crack.back() - crack.front())) * normal;
-      input.crack_pressure += traction * normal;
-      input.crack_shear = traction * along;
-    }
+  {
+    const auto &crack = scene.cracks[0].points;
+    const Tensor<1, 2> along =
+      (crack.back() - crack.front()) / crack.back().distance(crack.front());
+    const Tensor<1, 2> normal = Point<2>(-along[1], along[0]);
+    const auto traction =
+      scene.in_situ_stress(crack.front() + 0.5 * (crack.back() - crack.front())) * normal;
+    input.crack_pressure += traction * normal;
+    input.crack_shear = traction * along;
+  }
 }
 } // namespace
 
@@ -171,14 +163,13 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
   rock.parse_parameters(prm);
   in_situ.parse_parameters(prm);
-  boundary_conditions.parse_parameters(prm,
-                                       [this](const std::string &side) { return geometry.side(side); });
+  boundary_conditions.parse_parameters(prm, [this](const std::string &side)
+                                       { return geometry.side(side); });
   network.parse_parameters(prm);
-  network.set_fluid(rock.fluid().viscosity,
-                    rock.fluid().compressibility,
+  network.set_fluid(rock.fluid().viscosity, rock.fluid().compressibility,
                     rock.main().permeability / rock.fluid().viscosity);
 
-  scene.cracks      = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
+  scene.cracks = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
   scene.domain_size = geometry.diameter();
   scene.crack_pressure = given_crack_pressure(prm);
   prm.enter_subsection("Fracture");
@@ -198,20 +189,19 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
   input.has_pore_pressure = discretisation.has_pore_pressure;
-  input.end_time          = control.end_time;
+  input.end_time = control.end_time;
   for (const InitialCrack<dim> &crack : scene.cracks)
     input.cracks.push_back(crack.points);
-  input.injection_rate  = network.rate_of_first_well(control.end_time);
+  input.injection_rate = network.rate_of_first_well(control.end_time);
   prm.enter_subsection("Fracture flow");
   if (prm.get("Leak-off") == "carter")
     input.carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
   prm.leave_subsection();
   if (!scene.cracks.empty())
     set_crack_load(scene, input);
-  input.normal_traction = [this](const std::string &side, const double time) {
-    return boundary_conditions.loads().uniform_normal_traction(geometry.side(side), time);
-  };
-  reference             = make_reference<dim>(prm, input);
+  input.normal_traction = [this](const std::string &side, const double time)
+  { return boundary_conditions.loads().uniform_normal_traction(geometry.side(side), time); };
+  reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
   if (boundary_conditions.uses_reference() && reference)
     boundary_conditions.set_reference(reference->field());

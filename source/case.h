@@ -20,8 +20,7 @@
 namespace stockwork
 {
 /// Declares every entry of a deck, those of all registered fracture models included.
-void
-declare_all_parameters(dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
+void declare_all_parameters(dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
 
 /// A deck turned into objects. Whatever can be wrong with a deck is found when this is made, before
 /// anything is computed.
@@ -31,18 +30,18 @@ struct Case
   /// Throws InputError.
   Case(const Deck &deck, dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
 
-  std::string                             name, model_name;
-  Geometry<dim>                           geometry;
-  Rock                                    rock;
-  InSitu<dim>                             in_situ;
-  BoundaryConditions<dim>                 boundary_conditions;
-  Network<dim>                            network;
-  Scene<dim>                              scene;
-  std::unique_ptr<FractureModel<dim>>     model;
-  Discretisation                          discretisation;
-  StepControl                             control;
-  TimeScheme                              scheme;
+  std::string name, model_name;
+  Geometry<dim> geometry;
+  Rock rock;
+  InSitu<dim> in_situ;
+  BoundaryConditions<dim> boundary_conditions;
+  Network<dim> network;
+  Scene<dim> scene;
+  std::unique_ptr<FractureModel<dim>> model;
+  Discretisation discretisation;
+  StepControl control;
+  TimeScheme scheme;
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
-  bool                                    starts_from_reference;
+  bool starts_from_reference;
 };
 } // namespace stockwork

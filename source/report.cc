@@ -7,16 +7,16 @@ namespace stockwork
 using namespace dealii;
 
 template <int dim>
-Report<dim>::Report(RunContext                   &run,
-                    const CoupledSystem<dim>     &system,
-                    const Stepper<dim>           &stepper,
-                    const FractureModel<dim>     &model,
-                    const Network<dim>           &network,
-                    const InSitu<dim>            &in_situ,
-                    const Mapping<dim>           &mapping,
+Report<dim>::Report(RunContext &run,
+                    const CoupledSystem<dim> &system,
+                    const Stepper<dim> &stepper,
+                    const FractureModel<dim> &model,
+                    const Network<dim> &network,
+                    const InSitu<dim> &in_situ,
+                    const Mapping<dim> &mapping,
                     const ReferenceSolution<dim> *reference,
-                    const StepControl            &control,
-                    const std::string            &directory)
+                    const StepControl &control,
+                    const std::string &directory)
   : run(run)
   , system(system)
   , stepper(stepper)
@@ -30,76 +30,71 @@ Report<dim>::Report(RunContext                   &run,
   , start_of_run(control.start_time)
 {
   if (reference)
-    errors =
-      std::make_unique<ErrorRecord<dim>>(*reference, control.start_time, control.end_time);
+    errors = std::make_unique<ErrorRecord<dim>>(*reference, control.start_time, control.end_time);
 }
 
 
 template <int dim>
-void
-Report<dim>::open(const bool restarted, const double time)
+void Report<dim>::open(const bool restarted, const double time)
 {
   start_of_run = time;
   if (run.rank == 0)
-    {
-      const std::string file = directory + "/statistics.csv";
-      if (restarted)
-        statistics.continue_from(file, time);
-      else
-        statistics.open(file);
-    }
+  {
+    const std::string file = directory + "/statistics.csv";
+    if (restarted)
+      statistics.continue_from(file, time);
+    else
+      statistics.open(file);
+  }
 }
 
 
 template <int dim>
-void
-Report<dim>::header() const
+void Report<dim>::header() const
 {
   run.out << progress_header() << std::endl;
 }
 
 
 template <int dim>
-std::map<std::string, double>
-Report<dim>::observe() const
+std::map<std::string, double> Report<dim>::observe() const
 {
   std::map<std::string, double> values;
-  const State                   state   = stepper.last_state();
-  const FractureSummary         summary = model.summary(state, system.collectives());
-  values["fracture_length"]             = summary.length;
-  values["broken_length"]               = summary.broken_length;
-  values["dissipated_energy"]           = summary.dissipated_energy;
+  const State state = stepper.last_state();
+  const FractureSummary summary = model.summary(state, system.collectives());
+  values["fracture_length"] = summary.length;
+  values["broken_length"] = summary.broken_length;
+  values["dissipated_energy"] = summary.dissipated_energy;
   if (summary.stress_intensity_I)
     values["stress_intensity_I"] = *summary.stress_intensity_I;
   if (summary.stress_intensity_II)
     values["stress_intensity_II"] = *summary.stress_intensity_II;
   const FluidBalance &balance = stepper.fluid_balance();
-  values["fracture_volume"]   = balance.fracture_volume;
-  values["injected_volume"]   = balance.total.injected - balance.total.outflow;
-  values["leaked_volume"]     = balance.total.leaked;
+  values["fracture_volume"] = balance.fracture_volume;
+  values["injected_volume"] = balance.total.injected - balance.total.outflow;
+  values["leaked_volume"] = balance.total.leaked;
   const auto wells = network.wells(stepper.last_context(), state, system.collectives());
   if (!wells.empty())
-    {
-      values["inlet_aperture"] = wells[0].inlet_aperture;
-      values["inlet_pressure"] = wells[0].inlet_pressure;
-      // Over the in-situ stress across the fracture, which is what analytical solutions call p.
-      const auto &inlet = network.segments()[wells[0].inlet_segment];
-      values["net_inlet_pressure"] =
-        wells[0].inlet_pressure + inlet.normal * (in_situ.stress(inlet.centre) * inlet.normal);
-    }
+  {
+    values["inlet_aperture"] = wells[0].inlet_aperture;
+    values["inlet_pressure"] = wells[0].inlet_pressure;
+    // Over the in-situ stress across the fracture, which is what analytical solutions call p.
+    const auto &inlet = network.segments()[wells[0].inlet_segment];
+    values["net_inlet_pressure"] =
+      wells[0].inlet_pressure + inlet.normal * (in_situ.stress(inlet.centre) * inlet.normal);
+  }
   return values;
 }
 
 
 template <int dim>
-void
-Report<dim>::add_step(const unsigned int step, const StepReport &step_report)
+void Report<dim>::add_step(const unsigned int step, const StepReport &step_report)
 {
-  const auto    scope = run.timers.scope("output");
-  const double  time  = stepper.last_context().time;
-  const double  balance_error = stepper.fluid_balance().relative_error;
-  const auto    observed      = observe();
-  const auto    pores = system.pore_fluid(stepper.last_context(), stepper.last_state());
+  const auto scope = run.timers.scope("output");
+  const double time = stepper.last_context().time;
+  const double balance_error = stepper.fluid_balance().relative_error;
+  const auto observed = observe();
+  const auto pores = system.pore_fluid(stepper.last_context(), stepper.last_state());
 
   ++summary.steps;
   summary.rejected_steps += step_report.rejected;
@@ -117,37 +112,36 @@ Report<dim>::add_step(const unsigned int step, const StepReport &step_report)
     statistics.set(name, value);
   statistics.set("fluid_balance_error", balance_error);
   if (errors)
-    {
-      const auto scope = run.timers.scope("verification");
-      errors->add_fields(
-        time, step_report.dt, mapping, system.bulk_dofs(), stepper.committed.bulk);
-      errors->add_values(time, step_report.dt, observed);
-      for (const auto &[name, error] : errors->errors())
-        statistics.set("error_" + name, error.final);
-      for (const auto &[name, value] : reference->values(time))
-        statistics.set("reference_" + name, value);
-    }
+  {
+    const auto scope = run.timers.scope("verification");
+    errors->add_fields(time, step_report.dt, mapping, system.bulk_dofs(), stepper.committed.bulk);
+    errors->add_values(time, step_report.dt, observed);
+    for (const auto &[name, error] : errors->errors())
+      statistics.set("error_" + name, error.final);
+    for (const auto &[name, value] : reference->values(time))
+      statistics.set("reference_" + name, value);
+  }
   statistics.end_row();
 
   Progress progress;
-  progress.step                 = step;
-  progress.time                 = time;
-  progress.start_time           = control.start_time;
-  progress.end_time             = control.end_time;
-  progress.time_step            = step_report.dt;
+  progress.step = step;
+  progress.time = time;
+  progress.start_time = control.start_time;
+  progress.end_time = control.end_time;
+  progress.time_step = step_report.dt;
   progress.nonlinear_iterations = step_report.nonlinear_iterations;
-  progress.linear_iterations    = step_report.linear_iterations;
-  progress.rejected             = step_report.rejected;
+  progress.linear_iterations = step_report.linear_iterations;
+  progress.rejected = step_report.rejected;
   if (system.extra_numbering().size() > 0)
-    {
-      progress.fracture_length = observed.at("fracture_length");
-      progress.fluid_balance   = balance_error;
-    }
+  {
+    progress.fracture_length = observed.at("fracture_length");
+    progress.fluid_balance = balance_error;
+  }
   if (observed.count("inlet_aperture"))
-    {
-      progress.inlet_aperture = observed.at("inlet_aperture");
-      progress.inlet_pressure = observed.at("inlet_pressure");
-    }
+  {
+    progress.inlet_aperture = observed.at("inlet_aperture");
+    progress.inlet_pressure = observed.at("inlet_pressure");
+  }
   progress.wall_seconds = run.timers.total();
   progress.fraction_at_start =
     (start_of_run - control.start_time) / (control.end_time - control.start_time);
@@ -156,26 +150,25 @@ Report<dim>::add_step(const unsigned int step, const StepReport &step_report)
 
 
 template <int dim>
-void
-Report<dim>::finish(const unsigned long n_cells)
+void Report<dim>::finish(const unsigned long n_cells)
 {
   for (const auto &[name, value] : statistics.final_values())
     summary.final_values[name] = value;
   if (errors)
     for (const auto &[name, error] : errors->errors())
       summary.errors[name] = {error.final, error.mean(), reference->name()};
-  const FluidVolumes &total          = stepper.fluid_balance().total;
-  summary.case_name                  = case_name;
-  summary.fracture_model             = model_name;
-  summary.ranks                      = run.n_ranks;
-  summary.fluid_balance.injected     = total.injected;
+  const FluidVolumes &total = stepper.fluid_balance().total;
+  summary.case_name = case_name;
+  summary.fracture_model = model_name;
+  summary.ranks = run.n_ranks;
+  summary.fluid_balance.injected = total.injected;
   summary.fluid_balance.in_fractures = total.in_fractures;
-  summary.fluid_balance.leaked       = total.leaked;
-  summary.cells                      = n_cells;
-  summary.unknowns                   = system.n_unknowns();
-  summary.wall_seconds               = run.timers.seconds(run.communicator);
-  summary.peak_memory_bytes          = peak_memory(run.communicator);
-  summary.warnings                   = run.warnings;
+  summary.fluid_balance.leaked = total.leaked;
+  summary.cells = n_cells;
+  summary.unknowns = system.n_unknowns();
+  summary.wall_seconds = run.timers.seconds(run.communicator);
+  summary.peak_memory_bytes = peak_memory(run.communicator);
+  summary.warnings = run.warnings;
   if (run.rank == 0)
     write_summary(directory + "/summary.json", summary);
   run.timers.print(run.out.get_stream(), run.communicator);

@@ -20,65 +20,59 @@ class Report
 {
 public:
   /// `reference` may be null.
-  Report(RunContext                   &run,
-         const CoupledSystem<dim>     &system,
-         const Stepper<dim>           &stepper,
-         const FractureModel<dim>     &model,
-         const Network<dim>           &network,
-         const InSitu<dim>            &in_situ,
-         const dealii::Mapping<dim>   &mapping,
+  Report(RunContext &run,
+         const CoupledSystem<dim> &system,
+         const Stepper<dim> &stepper,
+         const FractureModel<dim> &model,
+         const Network<dim> &network,
+         const InSitu<dim> &in_situ,
+         const dealii::Mapping<dim> &mapping,
          const ReferenceSolution<dim> *reference,
-         const StepControl            &control,
-         const std::string            &directory);
+         const StepControl &control,
+         const std::string &directory);
 
   std::string case_name, model_name;
 
   /// Open statistics.csv; after a restart keep its rows up to `time`.
-  void
-  open(bool restarted, double time);
+  void open(bool restarted, double time);
 
   /// Print the head of the columns.
-  void
-  header() const;
+  void header() const;
 
   /// After an accepted step. Collective.
-  void
-  add_step(unsigned int step, const StepReport &step_report);
+  void add_step(unsigned int step, const StepReport &step_report);
 
   /// Write summary.json and the table of times. Collective.
-  void
-  finish(unsigned long n_cells);
+  void finish(unsigned long n_cells);
 
   /// Sums and error averages, for checkpoints.
   template <class Archive>
-  void
-  serialize(Archive &archive, const unsigned int)
+  void serialize(Archive &archive, const unsigned int)
   {
-    archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations
-      &summary.linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow
-        &summary.fluid_balance.relative_error;
+    archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
+      .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
+      .fluid_balance.relative_error;
     if (errors)
       archive &*errors;
   }
 
 private:
   /// Scalars of the last step by column name.
-  std::map<std::string, double>
-  observe() const;
+  std::map<std::string, double> observe() const;
 
-  RunContext                       &run;
-  const CoupledSystem<dim>         &system;
-  const Stepper<dim>               &stepper;
-  const FractureModel<dim>         &model;
-  const Network<dim>               &network;
-  const InSitu<dim>                &in_situ;
-  const dealii::Mapping<dim>       &mapping;
-  const ReferenceSolution<dim>     *reference;
-  StepControl                       control;
-  std::string                       directory;
-  StatisticsTable                   statistics;
-  RunSummary                        summary;
-  double                            start_of_run;
+  RunContext &run;
+  const CoupledSystem<dim> &system;
+  const Stepper<dim> &stepper;
+  const FractureModel<dim> &model;
+  const Network<dim> &network;
+  const InSitu<dim> &in_situ;
+  const dealii::Mapping<dim> &mapping;
+  const ReferenceSolution<dim> *reference;
+  StepControl control;
+  std::string directory;
+  StatisticsTable statistics;
+  RunSummary summary;
+  double start_of_run;
   std::unique_ptr<ErrorRecord<dim>> errors;
 };
 } // namespace stockwork

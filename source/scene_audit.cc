@@ -18,158 +18,144 @@ namespace
 /// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
 /// it, the smallest over the directions [m].
 template <int dim>
-double
-distance_to_walls(const Case<dim> &the_case)
+double distance_to_walls(const Case<dim> &the_case)
 {
   const Point<dim> lower = the_case.geometry.lower(), upper = the_case.geometry.upper();
-  const auto      &corners = the_case.scene.cracks[0].points;
-  double           distance = std::numeric_limits<double>::infinity();
+  const auto &corners = the_case.scene.cracks[0].points;
+  double distance = std::numeric_limits<double>::infinity();
   for (unsigned int d = 0; d < dim; ++d)
     for (const double wall : {lower[d], upper[d]})
-      {
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const auto &corner : corners)
-          nearest = std::min(nearest, std::abs(corner[d] - wall));
-        if (nearest > 1e-9 * (upper[d] - lower[d])) // a crack that starts on a side is cut by symmetry
-          distance = std::min(distance, nearest);
-      }
+    {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto &corner : corners)
+        nearest = std::min(nearest, std::abs(corner[d] - wall));
+      if (nearest >
+          1e-9 * (upper[d] - lower[d])) // a crack that starts on a side is cut by symmetry
+        distance = std::min(distance, nearest);
+    }
   return distance;
 }
 
 
 template <int dim>
-void
-add_hydraulic_numbers(const Case<dim>          &the_case,
-                      const double              rate,
-                      std::vector<SceneNumber> &numbers)
+void add_hydraulic_numbers(const Case<dim> &the_case,
+                           const double rate,
+                           std::vector<SceneNumber> &numbers)
 {
-  const RockProperties           &rock = the_case.rock.main();
-  const analytical::KgdParameters parameters{rock.young_modulus,
-                                             rock.plane_stress ? 0. : rock.poisson_ratio,
-                                             the_case.rock.fluid().viscosity,
-                                             rock.toughness(),
-                                             rate};
-  const double                    K_m = parameters.dimensionless_toughness();
-  numbers.push_back({"dimensionless toughness K_m",
-                     K_m,
-                     K_m > 4. ? "toughness dominates: the pressure in the fracture is nearly uniform" :
-                     K_m < 1. ? "viscosity dominates: the flow along the fracture must be resolved" :
-                                "neither viscosity nor toughness dominates"});
+  const RockProperties &rock = the_case.rock.main();
+  const analytical::KgdParameters parameters{
+    rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio,
+    the_case.rock.fluid().viscosity, rock.toughness(), rate};
+  const double K_m = parameters.dimensionless_toughness();
+  numbers.push_back(
+    {"dimensionless toughness K_m", K_m,
+     K_m > 4.   ? "toughness dominates: the pressure in the fracture is nearly uniform"
+     : K_m < 1. ? "viscosity dominates: the flow along the fracture must be resolved"
+                : "neither viscosity nor toughness dominates"});
 
   const analytical::Kgd kgd(parameters);
-  const double          duration = the_case.control.end_time - the_case.control.start_time;
-  const double          length   = kgd.half_length(duration);
+  const double duration = the_case.control.end_time - the_case.control.start_time;
+  const double length = kgd.half_length(duration);
   // Rayleigh speed, to 1 %: Viktorov's fit to c_s.
   const double shear_speed = std::sqrt(rock.shear_modulus() / rock.density);
   const double rayleigh =
     shear_speed * (0.87 + 1.12 * rock.poisson_ratio) / (1. + rock.poisson_ratio);
   const double speed = kgd.tip_speed(0.01 * duration) / rayleigh;
-  numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)",
-                     speed,
-                     speed < 0.1 ? "inertia left out: waves settle long before the tip moves on" :
-                                   "inertia matters: set Time/Inertia = on"});
+  numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)", speed,
+                     speed < 0.1 ? "inertia left out: waves settle long before the tip moves on"
+                                 : "inertia matters: set Time/Inertia = on"});
   const double walls = distance_to_walls(the_case) / length;
   std::ostringstream text;
   text << "the fracture grows to about " << std::setprecision(3) << length << " m per wing; "
-       << (walls > 10. ? "the walls are far enough for 1 %" :
-           walls > 4.  ? "the walls cost some per cent" :
-                         "the walls govern the answer: enlarge the domain, or compare with a "
-                         "solution that has them");
+       << (walls > 10.  ? "the walls are far enough for 1 %"
+           : walls > 4. ? "the walls cost some per cent"
+                        : "the walls govern the answer: enlarge the domain, or compare with a "
+                          "solution that has them");
   numbers.push_back({"distance to walls / final length", walls, text.str()});
 }
 } // namespace
 
 
 template <int dim>
-std::vector<SceneNumber>
-scene_numbers(const Case<dim> &the_case, const double smallest_cell)
+std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double smallest_cell)
 {
   std::vector<SceneNumber> numbers;
-  const RockProperties    &rock     = the_case.rock.main();
-  const double             duration = the_case.control.end_time - the_case.control.start_time;
+  const RockProperties &rock = the_case.rock.main();
+  const double duration = the_case.control.end_time - the_case.control.start_time;
 
   if (the_case.discretisation.has_pore_pressure)
-    {
-      const double uniaxial = rock.lame_lambda() + 2. * rock.shear_modulus();
-      const double storage =
-        rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient / uniaxial;
-      const double diffusivity =
-        rock.permeability / (the_case.rock.fluid().viscosity * storage);
-      const double size = the_case.geometry.diameter();
-      const double time = diffusivity * duration / (size * size);
-      numbers.push_back({"diffusion c_v T / L^2",
-                         time,
-                         time < 1e-6 ? "nearly undrained throughout; elastic rock may do" :
-                         time > 1e2  ? "drained long before the end" :
-                                       "diffusion and deformation are solved together"});
-      const double safe = smallest_cell * smallest_cell / (6. * diffusivity);
-      std::ostringstream text;
-      text << "the first step is " << std::setprecision(3) << the_case.control.initial_step << " s; "
-           << (the_case.control.initial_step < safe ?
-                 "below this length the pressure may overshoot at a drained side (Vermeer & Verruijt "
-                 "1981)" :
-                 "long enough for a monotone pressure");
-      numbers.push_back({"shortest safe step h^2 / (6 c_v) [s]", safe, text.str()});
-      const double bulk_modulus = rock.lame_lambda() + 2. / 3. * rock.shear_modulus();
-      const double strength =
-        rock.inverse_biot_modulus > 0. ?
-          rock.biot_coefficient * rock.biot_coefficient / (rock.inverse_biot_modulus * bulk_modulus) :
-          std::numeric_limits<double>::infinity();
-      numbers.push_back({"coupling strength alpha^2 M / K_dr",
-                         strength,
-                         strength < 1. ? "every split scheme converges" :
-                                         "a drained split diverges; solved monolithically"});
-    }
+  {
+    const double uniaxial = rock.lame_lambda() + 2. * rock.shear_modulus();
+    const double storage =
+      rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient / uniaxial;
+    const double diffusivity = rock.permeability / (the_case.rock.fluid().viscosity * storage);
+    const double size = the_case.geometry.diameter();
+    const double time = diffusivity * duration / (size * size);
+    numbers.push_back({"diffusion c_v T / L^2", time,
+                       time < 1e-6  ? "nearly undrained throughout; elastic rock may do"
+                       : time > 1e2 ? "drained long before the end"
+                                    : "diffusion and deformation are solved together"});
+    const double safe = smallest_cell * smallest_cell / (6. * diffusivity);
+    std::ostringstream text;
+    text
+      << "the first step is " << std::setprecision(3) << the_case.control.initial_step << " s; "
+      << (the_case.control.initial_step < safe
+            ? "below this length the pressure may overshoot at a drained side (Vermeer & Verruijt "
+              "1981)"
+            : "long enough for a monotone pressure");
+    numbers.push_back({"shortest safe step h^2 / (6 c_v) [s]", safe, text.str()});
+    const double bulk_modulus = rock.lame_lambda() + 2. / 3. * rock.shear_modulus();
+    const double strength =
+      rock.inverse_biot_modulus > 0.
+        ? rock.biot_coefficient * rock.biot_coefficient / (rock.inverse_biot_modulus * bulk_modulus)
+        : std::numeric_limits<double>::infinity();
+    numbers.push_back({"coupling strength alpha^2 M / K_dr", strength,
+                       strength < 1. ? "every split scheme converges"
+                                     : "a drained split diverges; solved monolithically"});
+  }
   else
-    numbers.push_back({"pore pressure unknowns",
-                       0.,
+    numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});
 
   if (!the_case.scene.cracks.empty() && !std::isnan(rock.energy_release_rate))
+  {
+    if (!std::isnan(rock.tensile_strength))
     {
-      if (!std::isnan(rock.tensile_strength))
-        {
-          const double length =
-            rock.plane_modulus() * rock.energy_release_rate / std::pow(rock.tensile_strength, 2);
-          const double cells = length / smallest_cell;
-          numbers.push_back({"process zone / cell size",
-                             cells,
-                             cells >= 4. * (1. - 1e-6) ?
-                               "resolved" :
-                               "not resolved: pressure and width come out too large"});
-        }
-      const double rate = the_case.network.rate_of_first_well(the_case.control.end_time);
-      if (dim == 2 && rate > 0.)
-        add_hydraulic_numbers(the_case, rate, numbers);
+      const double length =
+        rock.plane_modulus() * rock.energy_release_rate / std::pow(rock.tensile_strength, 2);
+      const double cells = length / smallest_cell;
+      numbers.push_back({"process zone / cell size", cells,
+                         cells >= 4. * (1. - 1e-6)
+                           ? "resolved"
+                           : "not resolved: pressure and width come out too large"});
     }
+    const double rate = the_case.network.rate_of_first_well(the_case.control.end_time);
+    if (dim == 2 && rate > 0.)
+      add_hydraulic_numbers(the_case, rate, numbers);
+  }
   return numbers;
 }
 
 
 template <int dim>
-void
-print_scene_audit(RunContext &run, const Case<dim> &the_case, const double smallest_cell)
+void print_scene_audit(RunContext &run, const Case<dim> &the_case, const double smallest_cell)
 {
   run.out << "Scene audit\n";
   for (const SceneNumber &number : scene_numbers(the_case, smallest_cell))
-    {
-      std::ostringstream line;
-      line << "  " << std::left << std::setw(48) << number.name << std::setw(10)
-           << std::setprecision(3) << number.value << "  " << number.consequence;
-      run.out << line.str() << '\n';
-    }
+  {
+    std::ostringstream line;
+    line << "  " << std::left << std::setw(48) << number.name << std::setw(10)
+         << std::setprecision(3) << number.value << "  " << number.consequence;
+    run.out << line.str() << '\n';
+  }
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
     run.out << "  left out: inertia (Time/Inertia = off)\n";
   run.out << "  left out: plasticity (the rock is elastic)\n" << std::flush;
 }
 
 
-template std::vector<SceneNumber>
-scene_numbers<2>(const Case<2> &, const double);
-template std::vector<SceneNumber>
-scene_numbers<3>(const Case<3> &, const double);
-template void
-print_scene_audit<2>(RunContext &, const Case<2> &, const double);
-template void
-print_scene_audit<3>(RunContext &, const Case<3> &, const double);
+template std::vector<SceneNumber> scene_numbers<2>(const Case<2> &, const double);
+template std::vector<SceneNumber> scene_numbers<3>(const Case<3> &, const double);
+template void print_scene_audit<2>(RunContext &, const Case<2> &, const double);
+template void print_scene_audit<3>(RunContext &, const Case<3> &, const double);
 } // namespace stockwork

@@ -13,7 +13,7 @@ namespace stockwork
 struct SceneNumber
 {
   std::string name;
-  double      value;
+  double value;
   std::string consequence;
 };
 
@@ -22,12 +22,10 @@ struct SceneNumber
 ///
 /// @param smallest_cell size of the smallest cell of the initial mesh [m]
 template <int dim>
-std::vector<SceneNumber>
-scene_numbers(const Case<dim> &the_case, double smallest_cell);
+std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, double smallest_cell);
 
 /// Print the numbers with what is left out and why that is safe. Where a number says that the
 /// answer cannot be trusted, that is a warning of the run.
 template <int dim>
-void
-print_scene_audit(RunContext &run, const Case<dim> &the_case, double smallest_cell);
+void print_scene_audit(RunContext &run, const Case<dim> &the_case, double smallest_cell);
 } // namespace stockwork

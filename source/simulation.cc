@@ -32,8 +32,7 @@ namespace
 {
 /// The next step towards a time that must be met: dt, or what is left, or half of it where dt would
 /// leave a crumb.
-double
-step_towards(const double left, const double dt)
+double step_towards(const double left, const double dt)
 {
   if (left <= dt * (1. + 1e-9))
     return left;
@@ -43,8 +42,7 @@ step_towards(const double left, const double dt)
 
 /// Longest edge of the smallest cell [m].
 template <int dim>
-double
-smallest_cell_size(const parallel::distributed::Triangulation<dim> &triangulation)
+double smallest_cell_size(const parallel::distributed::Triangulation<dim> &triangulation)
 {
   double size = std::numeric_limits<double>::infinity();
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -57,13 +55,12 @@ smallest_cell_size(const parallel::distributed::Triangulation<dim> &triangulatio
 /// Where a run stands between two steps.
 struct Clock
 {
-  double       time = 0.;
-  double       dt   = 0.; ///< proposed for the next step
-  unsigned int step = 0;  ///< the last one
+  double time = 0.;
+  double dt = 0.;        ///< proposed for the next step
+  unsigned int step = 0; ///< the last one
 
   template <class Archive>
-  void
-  serialize(Archive &archive, const unsigned int)
+  void serialize(Archive &archive, const unsigned int)
   {
     archive &time &dt &step;
   }
@@ -75,53 +72,48 @@ template <int dim>
 class Simulation
 {
 public:
-  Simulation(RunContext              &run,
-             Case<dim>               &the_case,
-             ParameterHandler        &prm,
+  Simulation(RunContext &run,
+             Case<dim> &the_case,
+             ParameterHandler &prm,
              const SimulationOptions &options);
 
-  void
-  start();
+  void start();
 
   /// From the last checkpoint.
-  void
-  resume();
+  void resume();
 
-  void
-  march();
+  void march();
 
 private:
-  void
-  save();
+  void save();
 
-  bool
-  finished() const
+  bool finished() const
   {
     return clock.time >= the_case.control.end_time * (1. - 1e-12);
   }
 
-  RunContext              &run;
-  Case<dim>               &the_case;
+  RunContext &run;
+  Case<dim> &the_case;
   const SimulationOptions &options;
 
   parallel::distributed::Triangulation<dim> triangulation;
-  std::unique_ptr<Mapping<dim>>             mapping;
-  CoupledSystem<dim>                        system;
-  MeshAdaptation<dim>                       adaptation;
-  Stepper<dim>                              stepper;
-  Report<dim>                               report;
-  FieldOutput<dim>                          fields;
-  Checkpoint                                checkpoint;
-  CheckpointSchedule                        schedule;
-  std::uint64_t                             deck_fingerprint;
-  Clock                                     clock;
+  std::unique_ptr<Mapping<dim>> mapping;
+  CoupledSystem<dim> system;
+  MeshAdaptation<dim> adaptation;
+  Stepper<dim> stepper;
+  Report<dim> report;
+  FieldOutput<dim> fields;
+  Checkpoint checkpoint;
+  CheckpointSchedule schedule;
+  std::uint64_t deck_fingerprint;
+  Clock clock;
 };
 
 
 template <int dim>
-Simulation<dim>::Simulation(RunContext              &run,
-                            Case<dim>               &the_case,
-                            ParameterHandler        &prm,
+Simulation<dim>::Simulation(RunContext &run,
+                            Case<dim> &the_case,
+                            ParameterHandler &prm,
                             const SimulationOptions &options)
   : run(run)
   , the_case(the_case)
@@ -152,9 +144,10 @@ Simulation<dim>::Simulation(RunContext              &run,
            the_case.control,
            options.output_directory)
   , checkpoint(options.output_directory + "/checkpoint", run.communicator)
-  , deck_fingerprint(fingerprint(prm, {"Time/End time", "Output directory", "Output", "Checkpoint"}))
+  , deck_fingerprint(
+      fingerprint(prm, {"Time/End time", "Output directory", "Output", "Checkpoint"}))
 {
-  report.case_name  = the_case.name;
+  report.case_name = the_case.name;
   report.model_name = the_case.model_name;
   fields.parse_parameters(prm);
   schedule.parse_parameters(prm);
@@ -164,16 +157,14 @@ Simulation<dim>::Simulation(RunContext              &run,
                      "that run with --output.");
   prepare_output_directory(options.output_directory, run.communicator);
   fields.open(options.output_directory, run.communicator);
-  on_root(run.communicator, [&]() {
-    write_effective_deck(prm, options.output_directory + "/effective.prm");
-  });
+  on_root(run.communicator,
+          [&]() { write_effective_deck(prm, options.output_directory + "/effective.prm"); });
   catch_stop_signals();
 }
 
 
 template <int dim>
-void
-Simulation<dim>::start()
+void Simulation<dim>::start()
 {
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
   the_case.geometry.create(triangulation);
@@ -181,26 +172,25 @@ Simulation<dim>::start()
   stepper.committed.bulk = system.ghosted_vector();
   system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
   if (the_case.reference && the_case.starts_from_reference)
-    {
-      const auto field  = the_case.reference->field();
-      auto       values = system.owned_vector();
-      field->set_time(clock.time);
-      VectorTools::interpolate(*mapping, system.bulk_dofs(), *field, values);
-      stepper.committed.bulk = values;
-    }
+  {
+    const auto field = the_case.reference->field();
+    auto values = system.owned_vector();
+    field->set_time(clock.time);
+    VectorTools::interpolate(*mapping, system.bulk_dofs(), *field, values);
+    stepper.committed.bulk = values;
+  }
   the_case.scheme.initialise(stepper.committed);
   report.open(false, clock.time);
 }
 
 
 template <int dim>
-void
-Simulation<dim>::save()
+void Simulation<dim>::save()
 {
-  const auto         scope = run.timers.scope("output");
+  const auto scope = run.timers.scope("output");
   std::ostringstream bytes;
   {
-    boost::archive::binary_oarchive  archive(bytes);
+    boost::archive::binary_oarchive archive(bytes);
     const std::vector<std::uint64_t> keys = system.extra_numbering().keys();
     archive << clock << the_case.scheme << keys;
     for (const std::vector<double> *values : stepper.extra_vectors())
@@ -217,15 +207,14 @@ Simulation<dim>::save()
 
 
 template <int dim>
-void
-Simulation<dim>::resume()
+void Simulation<dim>::resume()
 {
   std::istringstream bytes(checkpoint.read(deck_fingerprint));
   the_case.geometry.create_coarse(triangulation);
   checkpoint.load_mesh(triangulation);
 
   boost::archive::binary_iarchive archive(bytes);
-  std::vector<std::uint64_t>      keys;
+  std::vector<std::uint64_t> keys;
   archive >> clock >> the_case.scheme >> keys;
   std::vector<ExtraUnknown> unknowns;
   for (const std::uint64_t key : keys)
@@ -238,95 +227,91 @@ Simulation<dim>::resume()
 
   system.setup_mesh(clock.time);
   system.adopt_extra(ExtraNumbering(unknowns), stepper.extra_vectors());
-  const auto                                        targets = stepper.bulk_vectors();
-  std::vector<TrilinosWrappers::MPI::BlockVector>   values(targets.size(), system.owned_vector());
+  const auto targets = stepper.bulk_vectors();
+  std::vector<TrilinosWrappers::MPI::BlockVector> values(targets.size(), system.owned_vector());
   std::vector<TrilinosWrappers::MPI::BlockVector *> loaded;
   for (auto &vector : values)
     loaded.push_back(&vector);
   checkpoint.load_vectors(system.bulk_dofs(), loaded);
   for (unsigned int i = 0; i < targets.size(); ++i)
-    {
-      *targets[i] = system.ghosted_vector();
-      *targets[i] = values[i];
-    }
-  run.out << "Restarted at t = " << clock.time << " s, after step " << clock.step << "." << std::endl;
+  {
+    *targets[i] = system.ghosted_vector();
+    *targets[i] = values[i];
+  }
+  run.out << "Restarted at t = " << clock.time << " s, after step " << clock.step << "."
+          << std::endl;
   report.open(true, clock.time);
 }
 
 
 template <int dim>
-void
-Simulation<dim>::march()
+void Simulation<dim>::march()
 {
   print_scene_audit(run, the_case, smallest_cell_size(triangulation));
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   report.header();
   while (!finished())
+  {
+    const double target =
+      std::min({the_case.control.end_time, the_case.network.next_jump(clock.time),
+                fields.next_time(clock.time)});
+    const double tried = step_towards(target - clock.time, clock.dt);
+    StepReport taken;
+    try
     {
-      const double target = std::min({the_case.control.end_time,
-                                      the_case.network.next_jump(clock.time),
-                                      fields.next_time(clock.time)});
-      const double tried  = step_towards(target - clock.time, clock.dt);
-      StepReport   taken;
-      try
-        {
-          taken = stepper.advance(clock.time, tried, clock.step + 1);
-        }
-      catch (const SolveError &error)
-        {
-          save();
-          throw SolveError(error.what() + std::string("\nThe state at t = ") +
-                           std::to_string(clock.time) + " s is in the checkpoint in '" +
-                           options.output_directory + "'; --restart goes on from there.");
-        }
-      clock.time = stepper.last_context().time;
-      // A step shortened to meet a time says nothing about the next.
-      clock.dt = taken.dt < tried || tried == clock.dt ? taken.next_dt :
-                                                         std::max(clock.dt, taken.next_dt);
-      ++clock.step;
-      report.add_step(clock.step, taken);
-      for (const std::string &message : the_case.model->take_messages())
-        run.warn(message);
-      if (fields.due(clock.step, clock.time, finished()))
-        {
-          const auto scope = run.timers.scope("output");
-          fields.write(clock.time,
-                       system.discretization(),
-                       the_case.scene,
-                       *the_case.model,
-                       stepper.last_state());
-        }
-      if (!finished())
-        adaptation.adapt(system, stepper);
-      if (stop_requested(run.communicator))
-        {
-          save();
-          throw SolveError("Stopped by a signal at t = " + std::to_string(clock.time) +
-                           " s; --restart goes on from there.");
-        }
-      if (schedule.due(clock.step, run.communicator))
-        save();
+      taken = stepper.advance(clock.time, tried, clock.step + 1);
     }
+    catch (const SolveError &error)
+    {
+      save();
+      throw SolveError(error.what() + std::string("\nThe state at t = ") +
+                       std::to_string(clock.time) + " s is in the checkpoint in '" +
+                       options.output_directory + "'; --restart goes on from there.");
+    }
+    clock.time = stepper.last_context().time;
+    // A step shortened to meet a time says nothing about the next.
+    clock.dt =
+      taken.dt < tried || tried == clock.dt ? taken.next_dt : std::max(clock.dt, taken.next_dt);
+    ++clock.step;
+    report.add_step(clock.step, taken);
+    for (const std::string &message : the_case.model->take_messages())
+      run.warn(message);
+    if (fields.due(clock.step, clock.time, finished()))
+    {
+      const auto scope = run.timers.scope("output");
+      fields.write(clock.time, system.discretization(), the_case.scene, *the_case.model,
+                   stepper.last_state());
+    }
+    if (!finished())
+      adaptation.adapt(system, stepper);
+    if (stop_requested(run.communicator))
+    {
+      save();
+      throw SolveError("Stopped by a signal at t = " + std::to_string(clock.time) +
+                       " s; --restart goes on from there.");
+    }
+    if (schedule.due(clock.step, run.communicator))
+      save();
+  }
   report.finish(triangulation.n_global_active_cells());
 }
 } // namespace
 
 
 template <int dim>
-void
-simulate(RunContext                  &run,
-         const Deck                  &deck,
-         ParameterHandler            &prm,
-         const FractureModelRegistry &registry,
-         const SimulationOptions     &options)
+void simulate(RunContext &run,
+              const Deck &deck,
+              ParameterHandler &prm,
+              const FractureModelRegistry &registry,
+              const SimulationOptions &options)
 {
   Case<dim> the_case(deck, prm, registry);
   if (options.check_only)
-    {
-      run.out << "The deck is in order." << std::endl;
-      return;
-    }
+  {
+    run.out << "The deck is in order." << std::endl;
+    return;
+  }
   Simulation<dim> simulation(run, the_case, prm, options);
   if (options.restart)
     simulation.resume();
@@ -336,16 +321,14 @@ simulate(RunContext                  &run,
 }
 
 
-template void
-simulate<2>(RunContext &,
-            const Deck &,
-            ParameterHandler &,
-            const FractureModelRegistry &,
-            const SimulationOptions &);
-template void
-simulate<3>(RunContext &,
-            const Deck &,
-            ParameterHandler &,
-            const FractureModelRegistry &,
-            const SimulationOptions &);
+template void simulate<2>(RunContext &,
+                          const Deck &,
+                          ParameterHandler &,
+                          const FractureModelRegistry &,
+                          const SimulationOptions &);
+template void simulate<3>(RunContext &,
+                          const Deck &,
+                          ParameterHandler &,
+                          const FractureModelRegistry &,
+                          const SimulationOptions &);
 } // namespace stockwork

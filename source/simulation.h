@@ -13,17 +13,16 @@ namespace stockwork
 struct SimulationOptions
 {
   std::string output_directory;
-  bool        check_only = false;
-  bool        restart    = false;
+  bool check_only = false;
+  bool restart = false;
 };
 
 /// Runs the case that `prm` describes, from the mesh to summary.json.
 /// Throws InputError before anything is computed, SolveError when no step succeeds any more.
 template <int dim>
-void
-simulate(RunContext                  &run,
-         const Deck                  &deck,
-         dealii::ParameterHandler    &prm,
-         const FractureModelRegistry &registry,
-         const SimulationOptions     &options);
+void simulate(RunContext &run,
+              const Deck &deck,
+              dealii::ParameterHandler &prm,
+              const FractureModelRegistry &registry,
+              const SimulationOptions &options);
 } // namespace stockwork

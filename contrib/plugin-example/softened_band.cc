@@ -24,10 +24,9 @@ public:
     return requirements;
   }
 
-  void
-  bulk_coefficients(const typename stockwork::FractureModel<dim>::CellIterator &,
-                    const std::vector<dealii::Point<dim> > &points,
-                    std::vector<stockwork::BulkCoefficients<dim> > &coefficients) const override
+  void bulk_coefficients(const typename stockwork::FractureModel<dim>::CellIterator &,
+                         const std::vector<dealii::Point<dim>> &points,
+                         std::vector<stockwork::BulkCoefficients<dim>> &coefficients) const override
   {
     for (unsigned int q = 0; q < points.size(); ++q)
       if (points[q][dim - 1] > low && points[q][dim - 1] < high)
@@ -41,11 +40,11 @@ private:
 
 
 template <int dim>
-std::unique_ptr<stockwork::FractureModel<dim> > create(dealii::ParameterHandler &prm,
-                                                       const stockwork::Scene<dim> &)
+std::unique_ptr<stockwork::FractureModel<dim>> create(dealii::ParameterHandler &prm,
+                                                      const stockwork::Scene<dim> &)
 {
-  return std::make_unique<SoftenedBand<dim> >(prm.get_double("From"), prm.get_double("To"),
-                                              prm.get_double("Stiffness factor"));
+  return std::make_unique<SoftenedBand<dim>>(prm.get_double("From"), prm.get_double("To"),
+                                             prm.get_double("Stiffness factor"));
 }
 } // namespace
 

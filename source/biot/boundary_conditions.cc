@@ -22,20 +22,20 @@ namespace
 const std::array<std::string, 3> axis_names = {{"x", "y", "z"}};
 
 /// `left: 0; top: -1 MPa` as pairs of side and value.
-std::vector<std::pair<std::string, std::string>>
-split_by_side(const std::string &entry, const std::string &text)
+std::vector<std::pair<std::string, std::string>> split_by_side(const std::string &entry,
+                                                               const std::string &text)
 {
   std::vector<std::pair<std::string, std::string>> result;
   for (const std::string &part : Utilities::split_string_list(text, ';'))
-    {
-      if (part.empty())
-        continue;
-      const auto colon = part.find(':');
-      if (colon == std::string::npos)
-        throw EntryError("Boundary conditions/" + entry, part, "'side: value', e.g. 'top: 1 MPa'");
-      result.emplace_back(Utilities::trim(part.substr(0, colon)),
-                          Utilities::trim(part.substr(colon + 1)));
-    }
+  {
+    if (part.empty())
+      continue;
+    const auto colon = part.find(':');
+    if (colon == std::string::npos)
+      throw EntryError("Boundary conditions/" + entry, part, "'side: value', e.g. 'top: 1 MPa'");
+    result.emplace_back(Utilities::trim(part.substr(0, colon)),
+                        Utilities::trim(part.substr(colon + 1)));
+  }
   return result;
 }
 
@@ -45,35 +45,33 @@ PrescribedValue<dim>
 parse_value(const std::string &entry, const std::string &text, const Dimension &dimension)
 {
   try
-    {
-      const double constant = parse_quantity(text, dimension);
-      return {[constant](const Point<dim> &, double) { return constant; }, true};
-    }
+  {
+    const double constant = parse_quantity(text, dimension);
+    return {[constant](const Point<dim> &, double) { return constant; }, true};
+  }
   catch (const InputError &quantity_error)
+  {
+    // Not a plain quantity, so a function of place and time in SI units.
+    try
     {
-      // Not a plain quantity, so a function of place and time in SI units.
-      try
-        {
-          auto function = std::make_shared<FunctionParser<dim>>(1);
-          function->initialize(FunctionParser<dim>::default_variable_names() + ",t",
-                               text,
-                               {{"pi", numbers::PI}},
-                               true);
-          function->value(Point<dim>());
-          return {[function](const Point<dim> &point, const double time) {
-                    function->set_time(time);
-                    return function->value(point);
-                  },
-                  false};
-        }
-      catch (...)
-        {
-          throw EntryError("Boundary conditions/" + entry,
-                           text,
-                           std::string("a quantity (") + quantity_error.what() +
-                             ") or a function of x, y, " + (dim == 3 ? "z, " : "") + "t in SI units");
-        }
+      auto function = std::make_shared<FunctionParser<dim>>(1);
+      function->initialize(FunctionParser<dim>::default_variable_names() + ",t", text,
+                           {{"pi", numbers::PI}}, true);
+      function->value(Point<dim>());
+      return {[function](const Point<dim> &point, const double time)
+              {
+                function->set_time(time);
+                return function->value(point);
+              },
+              false};
     }
+    catch (...)
+    {
+      throw EntryError("Boundary conditions/" + entry, text,
+                       std::string("a quantity (") + quantity_error.what() +
+                         ") or a function of x, y, " + (dim == 3 ? "z, " : "") + "t in SI units");
+    }
+  }
 }
 
 
@@ -83,14 +81,14 @@ class ComponentFunction : public Function<dim>
 {
 public:
   ComponentFunction(const PrescribedValue<dim> &prescribed,
-                    const double                time,
-                    const unsigned int          n_components)
+                    const double time,
+                    const unsigned int n_components)
     : Function<dim>(n_components, time)
     , prescribed(prescribed)
-  {}
+  {
+  }
 
-  double
-  value(const Point<dim> &point, const unsigned int) const override
+  double value(const Point<dim> &point, const unsigned int) const override
   {
     return prescribed.value(point, this->get_time());
   }
@@ -102,8 +100,7 @@ private:
 
 /// The coordinate axis that a flat side is normal to. Collective.
 template <int dim>
-unsigned int
-normal_axis(const Triangulation<dim> &triangulation, const types::boundary_id side)
+unsigned int normal_axis(const Triangulation<dim> &triangulation, const types::boundary_id side)
 {
   std::vector<double> extent(dim, 0.);
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -112,10 +109,9 @@ normal_axis(const Triangulation<dim> &triangulation, const types::boundary_id si
         if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == side)
           for (unsigned int v = 1; v < cell->face(f)->n_vertices(); ++v)
             for (unsigned int d = 0; d < dim; ++d)
-              extent[d] =
-                std::max(extent[d],
-                         std::abs(cell->face(f)->vertex(v)[d] - cell->face(f)->vertex(0)[d]) /
-                           cell->face(f)->diameter());
+              extent[d] = std::max(
+                extent[d], std::abs(cell->face(f)->vertex(v)[d] - cell->face(f)->vertex(0)[d]) /
+                             cell->face(f)->diameter());
   Utilities::MPI::max(extent, triangulation.get_communicator(), extent);
   for (unsigned int d = 0; d < dim; ++d)
     if (extent[d] < 1e-10)
@@ -127,43 +123,30 @@ normal_axis(const Triangulation<dim> &triangulation, const types::boundary_id si
 
 
 template <int dim>
-void
-BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
+void BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Boundary conditions");
-  prm.declare_entry("Roller",
-                    "",
-                    Patterns::Anything(),
+  prm.declare_entry("Roller", "", Patterns::Anything(),
                     "Sides, separated by commas, that may slide but not move along their normal. "
                     "A plane of symmetry is the same thing.");
   prm.declare_entry("Fixed", "", Patterns::Anything(), "Sides that do not move at all.");
   for (unsigned int d = 0; d < 3; ++d)
-    prm.declare_entry("Displacement " + axis_names[d],
-                      "",
-                      Patterns::Anything(),
-                      "'side: value' pairs, separated by semicolons; the value is a quantity [m], a "
-                      "function of x, y, z, t in SI units, or 'reference' for the value of the "
-                      "reference solution.");
-  prm.declare_entry("Drained",
-                    "",
-                    Patterns::Anything(),
+    prm.declare_entry(
+      "Displacement " + axis_names[d], "", Patterns::Anything(),
+      "'side: value' pairs, separated by semicolons; the value is a quantity [m], a "
+      "function of x, y, z, t in SI units, or 'reference' for the value of the "
+      "reference solution.");
+  prm.declare_entry("Drained", "", Patterns::Anything(),
                     "Sides where the pore pressure keeps its in-situ value.");
-  prm.declare_entry("Pore pressure",
-                    "",
-                    Patterns::Anything(),
+  prm.declare_entry("Pore pressure", "", Patterns::Anything(),
                     "'side: value' pairs; the pore pressure over its in-situ value [Pa].");
-  prm.declare_entry("Flux",
-                    "",
-                    Patterns::Anything(),
+  prm.declare_entry("Flux", "", Patterns::Anything(),
                     "'side: value' pairs; fluid entering the rock per area [m/s].");
-  prm.declare_entry("Normal traction",
-                    "",
-                    Patterns::Anything(),
-                    "'side: value' pairs; tension positive, increment over the in-situ stress [Pa].");
+  prm.declare_entry(
+    "Normal traction", "", Patterns::Anything(),
+    "'side: value' pairs; tension positive, increment over the in-situ stress [Pa].");
   for (unsigned int d = 0; d < 3; ++d)
-    prm.declare_entry("Traction " + axis_names[d],
-                      "",
-                      Patterns::Anything(),
+    prm.declare_entry("Traction " + axis_names[d], "", Patterns::Anything(),
                       "'side: value' pairs; component of the traction, increment over the in-situ "
                       "stress [Pa].");
   prm.leave_subsection();
@@ -171,10 +154,8 @@ BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
 
 
 template <int dim>
-void
-BoundaryConditions<dim>::parse_parameters(
-  ParameterHandler                                               &prm,
-  const std::function<types::boundary_id(const std::string &)> &side)
+void BoundaryConditions<dim>::parse_parameters(
+  ParameterHandler &prm, const std::function<types::boundary_id(const std::string &)> &side)
 {
   const PrescribedValue<dim> zero = {[](const Point<dim> &, double) { return 0.; }, true};
   prm.enter_subsection("Boundary conditions");
@@ -187,17 +168,18 @@ BoundaryConditions<dim>::parse_parameters(
     dirichlet.push_back({side(name), dim, zero});
 
   const auto add_dirichlet =
-    [&](const std::string &entry, const unsigned int component, const Dimension &dimension) {
-      for (const auto &[name, value] : split_by_side(entry, prm.get(entry)))
-        {
-          Dirichlet condition{side(name), component, zero};
-          if (value == "reference")
-            condition.from_reference = true;
-          else
-            condition.prescribed = parse_value<dim>(entry, value, dimension);
-          dirichlet.push_back(condition);
-        }
-    };
+    [&](const std::string &entry, const unsigned int component, const Dimension &dimension)
+  {
+    for (const auto &[name, value] : split_by_side(entry, prm.get(entry)))
+    {
+      Dirichlet condition{side(name), component, zero};
+      if (value == "reference")
+        condition.from_reference = true;
+      else
+        condition.prescribed = parse_value<dim>(entry, value, dimension);
+      dirichlet.push_back(condition);
+    }
+  };
   for (unsigned int d = 0; d < dim; ++d)
     add_dirichlet("Displacement " + axis_names[d], d, dimension::length);
   add_dirichlet("Pore pressure", dim, dimension::pressure);
@@ -212,31 +194,29 @@ BoundaryConditions<dim>::parse_parameters(
     prescribed_loads.normal_traction[side(name)] =
       parse_value<dim>("Normal traction", value, dimension::pressure);
   for (unsigned int d = 0; d < dim; ++d)
+  {
+    const std::string entry = "Traction " + axis_names[d];
+    for (const auto &[name, value] : split_by_side(entry, prm.get(entry)))
     {
-      const std::string entry = "Traction " + axis_names[d];
-      for (const auto &[name, value] : split_by_side(entry, prm.get(entry)))
-        {
-          auto [position, is_new] = prescribed_loads.traction.try_emplace(side(name));
-          if (is_new)
-            position->second.fill(zero);
-          position->second[d] = parse_value<dim>(entry, value, dimension::pressure);
-        }
+      auto [position, is_new] = prescribed_loads.traction.try_emplace(side(name));
+      if (is_new)
+        position->second.fill(zero);
+      position->second[d] = parse_value<dim>(entry, value, dimension::pressure);
     }
+  }
   prm.leave_subsection();
 }
 
 
 template <int dim>
-void
-BoundaryConditions<dim>::set_reference(std::shared_ptr<Function<dim>> solution)
+void BoundaryConditions<dim>::set_reference(std::shared_ptr<Function<dim>> solution)
 {
   reference = std::move(solution);
 }
 
 
 template <int dim>
-bool
-BoundaryConditions<dim>::uses_reference() const
+bool BoundaryConditions<dim>::uses_reference() const
 {
   for (const Dirichlet &condition : dirichlet)
     if (condition.from_reference)
@@ -246,8 +226,7 @@ BoundaryConditions<dim>::uses_reference() const
 
 
 template <int dim>
-bool
-BoundaryConditions<dim>::mentions_pore_pressure() const
+bool BoundaryConditions<dim>::mentions_pore_pressure() const
 {
   for (const Dirichlet &condition : dirichlet)
     if (condition.component == dim)
@@ -257,8 +236,7 @@ BoundaryConditions<dim>::mentions_pore_pressure() const
 
 
 template <int dim>
-bool
-BoundaryConditions<dim>::constant_in_time() const
+bool BoundaryConditions<dim>::constant_in_time() const
 {
   for (const Dirichlet &condition : dirichlet)
     if (condition.from_reference || !condition.prescribed.constant_in_time)
@@ -268,12 +246,11 @@ BoundaryConditions<dim>::constant_in_time() const
 
 
 template <int dim>
-void
-BoundaryConditions<dim>::constrain(const double               time,
-                                   const Mapping<dim>        &mapping,
-                                   const DoFHandler<dim>     &dof_handler,
-                                   AffineConstraints<double> &values,
-                                   AffineConstraints<double> &increment) const
+void BoundaryConditions<dim>::constrain(const double time,
+                                        const Mapping<dim> &mapping,
+                                        const DoFHandler<dim> &dof_handler,
+                                        AffineConstraints<double> &values,
+                                        AffineConstraints<double> &increment) const
 {
   IndexSet relevant;
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
@@ -282,32 +259,28 @@ BoundaryConditions<dim>::constrain(const double               time,
 
   const unsigned int n_components = dof_handler.get_fe().n_components();
   for (const Dirichlet &condition : dirichlet)
+  {
+    const unsigned int component = condition.component == normal_component
+                                     ? normal_axis(dof_handler.get_triangulation(), condition.side)
+                                     : condition.component;
+    if (component >= n_components)
+      continue; // a pressure condition in dry rock
+    ComponentMask mask(n_components, false);
+    mask.set(component, true);
+    if (condition.from_reference)
     {
-      const unsigned int component = condition.component == normal_component ?
-                                       normal_axis(dof_handler.get_triangulation(), condition.side) :
-                                       condition.component;
-      if (component >= n_components)
-        continue; // a pressure condition in dry rock
-      ComponentMask mask(n_components, false);
-      mask.set(component, true);
-      if (condition.from_reference)
-        {
-          if (!reference)
-            throw InputError("A boundary condition asks for the reference solution, but subsection "
-                             "Verification names none.");
-          reference->set_time(time);
-          VectorTools::interpolate_boundary_values(
-            mapping, dof_handler, condition.side, *reference, values, mask);
-        }
-      else
-        VectorTools::interpolate_boundary_values(
-          mapping,
-          dof_handler,
-          condition.side,
-          ComponentFunction<dim>(condition.prescribed, time, n_components),
-          values,
-          mask);
+      if (!reference)
+        throw InputError("A boundary condition asks for the reference solution, but subsection "
+                         "Verification names none.");
+      reference->set_time(time);
+      VectorTools::interpolate_boundary_values(mapping, dof_handler, condition.side, *reference,
+                                               values, mask);
     }
+    else
+      VectorTools::interpolate_boundary_values(
+        mapping, dof_handler, condition.side,
+        ComponentFunction<dim>(condition.prescribed, time, n_components), values, mask);
+  }
   values.close();
 
   increment.reinit(relevant);

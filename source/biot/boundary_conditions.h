@@ -22,7 +22,7 @@ template <int dim>
 struct PrescribedValue
 {
   std::function<double(const dealii::Point<dim> &, double time)> value;
-  bool                                                           constant_in_time = true;
+  bool constant_in_time = true;
 };
 
 /// Loads on the boundary, by side. Tractions are increments over the in-situ state.
@@ -38,17 +38,16 @@ struct Loads
 
   /// On a side where it is the same everywhere, for reference solutions; throws InputError if the
   /// deck gives none.
-  double
-  uniform_normal_traction(const dealii::types::boundary_id side, const double time) const
+  double uniform_normal_traction(const dealii::types::boundary_id side, const double time) const
   {
     const auto position = normal_traction.find(side);
     if (position == normal_traction.end())
-      throw InputError("The reference solution needs a load: 'Boundary conditions/Normal traction'.");
+      throw InputError(
+        "The reference solution needs a load: 'Boundary conditions/Normal traction'.");
     return position->second.value(dealii::Point<dim>(), time);
   }
 
-  bool
-  empty() const
+  bool empty() const
   {
     return traction.empty() && normal_traction.empty() && flux.empty();
   }
@@ -59,40 +58,32 @@ template <int dim>
 class BoundaryConditions
 {
 public:
-  static void
-  declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(dealii::ParameterHandler &prm);
 
   /// `side` maps a name to a boundary id and throws InputError for an unknown one.
-  void
-  parse_parameters(dealii::ParameterHandler                                              &prm,
-                   const std::function<dealii::types::boundary_id(const std::string &)> &side);
+  void parse_parameters(dealii::ParameterHandler &prm,
+                        const std::function<dealii::types::boundary_id(const std::string &)> &side);
 
   /// The solution that the value `reference` in the deck refers to: components displacement, then
   /// pore pressure (over in situ); its time is set here. Needed before `constrain` if used.
-  void
-  set_reference(std::shared_ptr<dealii::Function<dim>> reference);
+  void set_reference(std::shared_ptr<dealii::Function<dim>> reference);
 
-  bool
-  uses_reference() const;
+  bool uses_reference() const;
 
-  bool
-  constant_in_time() const;
+  bool constant_in_time() const;
 
   /// Is there any condition on pore pressure or flux?
-  bool
-  mentions_pore_pressure() const;
+  bool mentions_pore_pressure() const;
 
   /// Add hanging-node constraints and Dirichlet conditions at `time`; `increment` gets the same
   /// with zero values. Both are closed. Collective.
-  void
-  constrain(double                              time,
-            const dealii::Mapping<dim>         &mapping,
-            const dealii::DoFHandler<dim>      &dof_handler,
-            dealii::AffineConstraints<double>  &values,
-            dealii::AffineConstraints<double>  &increment) const;
+  void constrain(double time,
+                 const dealii::Mapping<dim> &mapping,
+                 const dealii::DoFHandler<dim> &dof_handler,
+                 dealii::AffineConstraints<double> &values,
+                 dealii::AffineConstraints<double> &increment) const;
 
-  const Loads<dim> &
-  loads() const
+  const Loads<dim> &loads() const
   {
     return prescribed_loads;
   }
@@ -101,14 +92,14 @@ private:
   struct Dirichlet
   {
     dealii::types::boundary_id side;
-    unsigned int               component; ///< `normal_component`: found from the side's normal
-    PrescribedValue<dim>       prescribed;
-    bool                       from_reference = false;
+    unsigned int component; ///< `normal_component`: found from the side's normal
+    PrescribedValue<dim> prescribed;
+    bool from_reference = false;
   };
   static constexpr unsigned int normal_component = 100;
 
-  std::vector<Dirichlet>                  dirichlet;
-  Loads<dim>                              prescribed_loads;
-  std::shared_ptr<dealii::Function<dim>>  reference;
+  std::vector<Dirichlet> dirichlet;
+  Loads<dim> prescribed_loads;
+  std::shared_ptr<dealii::Function<dim>> reference;
 };
 } // namespace stockwork

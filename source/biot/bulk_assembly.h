@@ -35,54 +35,48 @@ class BulkAssembly
 {
 public:
   using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
-  using Role         = std::function<CellRole<dim>(const CellIterator &)>;
+  using Role = std::function<CellRole<dim>(const CellIterator &)>;
 
-  BulkAssembly(const Rock               &rock,
-               const Loads<dim>         &loads,
-               PressureStabilisation     stabilisation,
+  BulkAssembly(const Rock &rock,
+               const Loads<dim> &loads,
+               PressureStabilisation stabilisation,
                const Discretization<dim> discretization);
 
   /// Add the matrix of the bulk; `fixed_stress_mass` may be null.
-  void
-  matrix(const StepContext                           &context,
-         const Role                                  &role,
-         dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
-         dealii::TrilinosWrappers::SparseMatrix      *fixed_stress_mass) const;
+  void matrix(const StepContext &context,
+              const Role &role,
+              dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
+              dealii::TrilinosWrappers::SparseMatrix *fixed_stress_mass) const;
 
   /// Add int alpha^2 M div u div v, which turns the drained stiffness into the undrained one, to a
   /// matrix of the displacement block.
-  void
-  undrained_term(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+  void undrained_term(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
   /// Add the residual of the bulk.
-  void
-  residual(const StepContext                          &context,
-           const State                                &state,
-           const Role                                 &role,
-           dealii::TrilinosWrappers::MPI::BlockVector &residual) const;
+  void residual(const StepContext &context,
+                const State &state,
+                const Role &role,
+                dealii::TrilinosWrappers::MPI::BlockVector &residual) const;
 
   /// Add what cut cells have beyond an ordinary cell: matrix and residual of the extra columns.
   void
   cut_cells(const StepContext &context, const State &state, const Role &role, Sink &sink) const;
 
   /// Fluid that the pores of the owned cells have gained since the rate references [m^3 (/m)].
-  double
-  stored_fluid(const StepContext &context, const State &state, const Role &role) const;
+  double stored_fluid(const StepContext &context, const State &state, const Role &role) const;
 
   /// Fluid that has left the owned cells through the boundary in the step [m^3 (/m)]: the reactions
   /// to prescribed pore pressures, less the prescribed flux.
-  double
-  outflow(const StepContext &context, const State &state) const;
+  double outflow(const StepContext &context, const State &state) const;
 
 private:
   /// Call use(layout, dofs, residual) with the unconstrained residual of every owned cell.
   template <class Function>
-  void
-  for_each_residual(const StepContext &context, const State &state, const Function &use) const;
+  void for_each_residual(const StepContext &context, const State &state, const Function &use) const;
 
-  const Rock                &rock;
-  const Loads<dim>          &loads;
-  PressureStabilisation      stabilisation;
-  const Discretization<dim>  discretization;
+  const Rock &rock;
+  const Loads<dim> &loads;
+  PressureStabilisation stabilisation;
+  const Discretization<dim> discretization;
 };
 } // namespace stockwork

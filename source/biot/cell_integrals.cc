@@ -17,20 +17,19 @@ BulkLayout<dim>::BulkLayout(const FiniteElement<dim> &fe)
   u.resize(n_u * dim);
   p.resize(n_p);
   for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-    {
-      const auto [component, node] = fe.system_to_component_index(i);
-      if (component < dim)
-        u[node * dim + component] = i;
-      else
-        p[node] = i;
-    }
+  {
+    const auto [component, node] = fe.system_to_component_index(i);
+    if (component < dim)
+      u[node * dim + component] = i;
+    else
+      p[node] = i;
+  }
 }
 
 
 template <int dim>
-bool
-is_axis_parallel_box(const typename Triangulation<dim>::cell_iterator &cell,
-                     Tensor<1, dim>                                   &extents)
+bool is_axis_parallel_box(const typename Triangulation<dim>::cell_iterator &cell,
+                          Tensor<1, dim> &extents)
 {
   const Point<dim> origin = cell->vertex(0);
   for (unsigned int d = 0; d < dim; ++d)
@@ -45,9 +44,9 @@ is_axis_parallel_box(const typename Triangulation<dim>::cell_iterator &cell,
 
 
 template <int dim>
-CellIntegrals<dim>::CellIntegrals(const Mapping<dim>       &mapping,
+CellIntegrals<dim>::CellIntegrals(const Mapping<dim> &mapping,
                                   const FiniteElement<dim> &fe,
-                                  const bool                with_masses)
+                                  const bool with_masses)
   : layout(fe)
   , with_masses(with_masses)
   , fe_values(mapping,
@@ -73,156 +72,152 @@ CellIntegrals<dim>::CellIntegrals(const Mapping<dim>       &mapping,
 
   const QGauss<dim> quadrature(fe.base_element(0).degree + 1);
   for (unsigned int q = 0; q < quadrature.size(); ++q)
+  {
+    const Point<dim> x = quadrature.point(q);
+    const double w = quadrature.weight(q);
+    for (unsigned int a = 0; a < n_u; ++a)
+      for (unsigned int b = 0; b < n_u; ++b)
+      {
+        const auto &element = fe.base_element(0);
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            unit.gradients[((i * dim + j) * n_u + a) * n_u + b] +=
+              element.shape_grad(a, x)[i] * element.shape_grad(b, x)[j] * w;
+        if (with_masses)
+          unit.masses[a * n_u + b] += element.shape_value(a, x) * element.shape_value(b, x) * w;
+      }
+    for (unsigned int a = 0; a < n_p; ++a)
     {
-      const Point<dim> x = quadrature.point(q);
-      const double     w = quadrature.weight(q);
-      for (unsigned int a = 0; a < n_u; ++a)
+      const auto &element = fe.base_element(1);
+      const double value = element.shape_value(a, x);
+      unit.pressure_means[a] += value * w;
+      for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int b = 0; b < n_u; ++b)
-          {
-            const auto &element = fe.base_element(0);
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                unit.gradients[((i * dim + j) * n_u + a) * n_u + b] +=
-                  element.shape_grad(a, x)[i] * element.shape_grad(b, x)[j] * w;
-            if (with_masses)
-              unit.masses[a * n_u + b] += element.shape_value(a, x) * element.shape_value(b, x) * w;
-          }
-      for (unsigned int a = 0; a < n_p; ++a)
-        {
-          const auto &element = fe.base_element(1);
-          const double value  = element.shape_value(a, x);
-          unit.pressure_means[a] += value * w;
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int b = 0; b < n_u; ++b)
-              unit.divergences[(i * n_p + a) * n_u + b] +=
-                value * fe.base_element(0).shape_grad(b, x)[i] * w;
-          for (unsigned int b = 0; b < n_p; ++b)
-            {
-              unit.pressure_masses[a * n_p + b] += value * element.shape_value(b, x) * w;
-              for (unsigned int i = 0; i < dim; ++i)
-                unit.pressure_gradients[(i * n_p + a) * n_p + b] +=
-                  element.shape_grad(a, x)[i] * element.shape_grad(b, x)[i] * w;
-            }
-        }
+          unit.divergences[(i * n_p + a) * n_u + b] +=
+            value * fe.base_element(0).shape_grad(b, x)[i] * w;
+      for (unsigned int b = 0; b < n_p; ++b)
+      {
+        unit.pressure_masses[a * n_p + b] += value * element.shape_value(b, x) * w;
+        for (unsigned int i = 0; i < dim; ++i)
+          unit.pressure_gradients[(i * n_p + a) * n_p + b] +=
+            element.shape_grad(a, x)[i] * element.shape_grad(b, x)[i] * w;
+      }
     }
+  }
 }
 
 
 template <int dim>
-bool
-CellIntegrals<dim>::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell)
+bool CellIntegrals<dim>::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell)
 {
   Tensor<1, dim> extents;
   if (is_axis_parallel_box<dim>(cell, extents))
-    {
-      // Vertices carry rounding errors, so equal boxes are equal to a few digits less than all.
-      if ((extents - box).norm() <= 1e-12 * extents.norm())
-        return false;
-      by_scaling(extents);
-      box = extents;
-    }
+  {
+    // Vertices carry rounding errors, so equal boxes are equal to a few digits less than all.
+    if ((extents - box).norm() <= 1e-12 * extents.norm())
+      return false;
+    by_scaling(extents);
+    box = extents;
+  }
   else
-    {
-      fe_values.reinit(cell);
-      by_quadrature();
-      box = Tensor<1, dim>();
-    }
+  {
+    fe_values.reinit(cell);
+    by_quadrature();
+    box = Tensor<1, dim>();
+  }
   return true;
 }
 
 
 template <int dim>
-void
-CellIntegrals<dim>::by_scaling(const Tensor<1, dim> &extents)
+void CellIntegrals<dim>::by_scaling(const Tensor<1, dim> &extents)
 {
   const unsigned int n_u = layout.n_u, n_p = layout.n_p;
   volume = 1.;
   for (unsigned int d = 0; d < dim; ++d)
     volume *= extents[d];
 
-  const auto scale =
-    [](double *out, const double *in, const unsigned int n, const double factor) {
-      for (unsigned int k = 0; k < n; ++k)
-        out[k] = factor * in[k];
-    };
+  const auto scale = [](double *out, const double *in, const unsigned int n, const double factor)
+  {
+    for (unsigned int k = 0; k < n; ++k)
+      out[k] = factor * in[k];
+  };
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
-      scale(&gradients[(i * dim + j) * n_u * n_u],
-            &unit.gradients[(i * dim + j) * n_u * n_u],
-            n_u * n_u,
-            volume / (extents[i] * extents[j]));
+      scale(&gradients[(i * dim + j) * n_u * n_u], &unit.gradients[(i * dim + j) * n_u * n_u],
+            n_u * n_u, volume / (extents[i] * extents[j]));
   if (with_masses)
     scale(masses.data(), unit.masses.data(), masses.size(), volume);
   if (n_p == 0)
     return;
   for (unsigned int i = 0; i < dim; ++i)
-    scale(&divergences[i * n_p * n_u], &unit.divergences[i * n_p * n_u], n_p * n_u, volume / extents[i]);
+    scale(&divergences[i * n_p * n_u], &unit.divergences[i * n_p * n_u], n_p * n_u,
+          volume / extents[i]);
   scale(pressure_masses.data(), unit.pressure_masses.data(), n_p * n_p, volume);
   scale(pressure_means.data(), unit.pressure_means.data(), n_p, volume);
   std::fill(pressure_gradients.begin(), pressure_gradients.end(), 0.);
   for (unsigned int i = 0; i < dim; ++i)
-    {
-      const double  factor = volume / (extents[i] * extents[i]);
-      const double *in     = &unit.pressure_gradients[i * n_p * n_p];
-      for (unsigned int k = 0; k < n_p * n_p; ++k)
-        pressure_gradients[k] += factor * in[k];
-    }
+  {
+    const double factor = volume / (extents[i] * extents[i]);
+    const double *in = &unit.pressure_gradients[i * n_p * n_p];
+    for (unsigned int k = 0; k < n_p * n_p; ++k)
+      pressure_gradients[k] += factor * in[k];
+  }
 }
 
 
 template <int dim>
-void
-CellIntegrals<dim>::by_quadrature()
+void CellIntegrals<dim>::by_quadrature()
 {
   const unsigned int n_u = layout.n_u, n_p = layout.n_p;
-  for (auto *array : {&gradients, &masses, &divergences, &pressure_gradients, &pressure_masses,
-                      &pressure_means})
+  for (auto *array :
+       {&gradients, &masses, &divergences, &pressure_gradients, &pressure_masses, &pressure_means})
     std::fill(array->begin(), array->end(), 0.);
   volume = 0.;
   for (const unsigned int q : fe_values.quadrature_point_indices())
+  {
+    const double w = fe_values.JxW(q);
+    volume += w;
+    for (unsigned int a = 0; a < n_u; ++a)
     {
-      const double w = fe_values.JxW(q);
-      volume += w;
-      for (unsigned int a = 0; a < n_u; ++a)
-        {
-          const Tensor<1, dim> &gradient = fe_values.shape_grad(layout.u[a * dim], q);
-          for (unsigned int d = 0; d < dim; ++d)
-            shape_gradients[d * n_u + a] = gradient[d];
-        }
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          for (unsigned int a = 0; a < n_u; ++a)
-            {
-              const double  left  = shape_gradients[i * n_u + a] * w;
-              const double *right = &shape_gradients[j * n_u];
-              double       *out   = &gradients[((i * dim + j) * n_u + a) * n_u];
-              for (unsigned int b = 0; b < n_u; ++b)
-                out[b] += left * right[b];
-            }
-      if (with_masses)
-        for (unsigned int a = 0; a < n_u; ++a)
-          for (unsigned int b = 0; b < n_u; ++b)
-            masses[a * n_u + b] += fe_values.shape_value(layout.u[a * dim], q) *
-                                   fe_values.shape_value(layout.u[b * dim], q) * w;
-      for (unsigned int a = 0; a < n_p; ++a)
-        {
-          const double value = fe_values.shape_value(layout.p[a], q) * w;
-          pressure_means[a] += value;
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              const double *right = &shape_gradients[i * n_u];
-              double       *out   = &divergences[(i * n_p + a) * n_u];
-              for (unsigned int b = 0; b < n_u; ++b)
-                out[b] += value * right[b];
-            }
-          const Tensor<1, dim> gradient = fe_values.shape_grad(layout.p[a], q) * w;
-          for (unsigned int b = 0; b < n_p; ++b)
-            {
-              pressure_masses[a * n_p + b] += value * fe_values.shape_value(layout.p[b], q);
-              pressure_gradients[a * n_p + b] += gradient * fe_values.shape_grad(layout.p[b], q);
-            }
-        }
+      const Tensor<1, dim> &gradient = fe_values.shape_grad(layout.u[a * dim], q);
+      for (unsigned int d = 0; d < dim; ++d)
+        shape_gradients[d * n_u + a] = gradient[d];
     }
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        for (unsigned int a = 0; a < n_u; ++a)
+        {
+          const double left = shape_gradients[i * n_u + a] * w;
+          const double *right = &shape_gradients[j * n_u];
+          double *out = &gradients[((i * dim + j) * n_u + a) * n_u];
+          for (unsigned int b = 0; b < n_u; ++b)
+            out[b] += left * right[b];
+        }
+    if (with_masses)
+      for (unsigned int a = 0; a < n_u; ++a)
+        for (unsigned int b = 0; b < n_u; ++b)
+          masses[a * n_u + b] += fe_values.shape_value(layout.u[a * dim], q) *
+                                 fe_values.shape_value(layout.u[b * dim], q) * w;
+    for (unsigned int a = 0; a < n_p; ++a)
+    {
+      const double value = fe_values.shape_value(layout.p[a], q) * w;
+      pressure_means[a] += value;
+      for (unsigned int i = 0; i < dim; ++i)
+      {
+        const double *right = &shape_gradients[i * n_u];
+        double *out = &divergences[(i * n_p + a) * n_u];
+        for (unsigned int b = 0; b < n_u; ++b)
+          out[b] += value * right[b];
+      }
+      const Tensor<1, dim> gradient = fe_values.shape_grad(layout.p[a], q) * w;
+      for (unsigned int b = 0; b < n_p; ++b)
+      {
+        pressure_masses[a * n_p + b] += value * fe_values.shape_value(layout.p[b], q);
+        pressure_gradients[a * n_p + b] += gradient * fe_values.shape_grad(layout.p[b], q);
+      }
+    }
+  }
 }
 
 
@@ -230,8 +225,8 @@ template struct BulkLayout<2>;
 template struct BulkLayout<3>;
 template class CellIntegrals<2>;
 template class CellIntegrals<3>;
-template bool
-is_axis_parallel_box<2>(const typename Triangulation<2>::cell_iterator &, Tensor<1, 2> &);
-template bool
-is_axis_parallel_box<3>(const typename Triangulation<3>::cell_iterator &, Tensor<1, 3> &);
+template bool is_axis_parallel_box<2>(const typename Triangulation<2>::cell_iterator &,
+                                      Tensor<1, 2> &);
+template bool is_axis_parallel_box<3>(const typename Triangulation<3>::cell_iterator &,
+                                      Tensor<1, 3> &);
 } // namespace stockwork

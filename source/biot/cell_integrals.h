@@ -16,10 +16,10 @@ struct BulkLayout
 {
   explicit BulkLayout(const dealii::FiniteElement<dim> &fe);
 
-  unsigned int              n_u;
-  unsigned int              n_p; ///< zero without pore pressure
-  std::vector<unsigned int> u;   ///< [a * dim + component] -> dof of the cell
-  std::vector<unsigned int> p;   ///< [a] -> dof of the cell
+  unsigned int n_u;
+  unsigned int n_p;            ///< zero without pore pressure
+  std::vector<unsigned int> u; ///< [a * dim + component] -> dof of the cell
+  std::vector<unsigned int> p; ///< [a] -> dof of the cell
 };
 
 /// Integrals of products of shape functions over one cell, from which every constant-coefficient
@@ -37,13 +37,12 @@ template <int dim>
 class CellIntegrals
 {
 public:
-  CellIntegrals(const dealii::Mapping<dim>       &mapping,
+  CellIntegrals(const dealii::Mapping<dim> &mapping,
                 const dealii::FiniteElement<dim> &fe,
-                bool                              with_masses);
+                bool with_masses);
 
   /// Returns whether the integrals have changed: boxes of equal size have equal integrals.
-  bool
-  reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+  bool reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
 
   BulkLayout<dim> layout;
 
@@ -53,7 +52,7 @@ public:
   std::vector<double> pressure_gradients;
   std::vector<double> pressure_masses;
   std::vector<double> pressure_means;
-  double              volume = 0.;
+  double volume = 0.;
 
 private:
   /// All integrals of the unit cell; the pressure gradients by direction.
@@ -63,22 +62,19 @@ private:
       pressure_means;
   };
 
-  void
-  by_scaling(const dealii::Tensor<1, dim> &extents);
+  void by_scaling(const dealii::Tensor<1, dim> &extents);
 
-  void
-  by_quadrature();
+  void by_quadrature();
 
-  bool                  with_masses;
+  bool with_masses;
   dealii::Tensor<1, dim> box; ///< edge lengths of the last cell, zero if it was no box
   dealii::FEValues<dim> fe_values;
-  UnitCell              unit;
-  std::vector<double>   shape_gradients; ///< scratch, [d * n_u + a]
+  UnitCell unit;
+  std::vector<double> shape_gradients; ///< scratch, [d * n_u + a]
 };
 
 /// Is the cell a box parallel to the axes? If so, `extents` are its edge lengths.
 template <int dim>
-bool
-is_axis_parallel_box(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-                     dealii::Tensor<1, dim>                                   &extents);
+bool is_axis_parallel_box(const typename dealii::Triangulation<dim>::cell_iterator &cell,
+                          dealii::Tensor<1, dim> &extents);
 } // namespace stockwork

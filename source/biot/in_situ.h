@@ -14,22 +14,17 @@ template <int dim>
 class InSitu
 {
 public:
-  static void
-  declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(dealii::ParameterHandler &prm);
 
-  void
-  parse_parameters(dealii::ParameterHandler &prm);
+  void parse_parameters(dealii::ParameterHandler &prm);
 
   /// Total stress, tension positive [Pa].
-  dealii::SymmetricTensor<2, dim>
-  stress(const dealii::Point<dim> &point) const;
+  dealii::SymmetricTensor<2, dim> stress(const dealii::Point<dim> &point) const;
 
   /// Pore pressure [Pa].
-  double
-  pore_pressure(const dealii::Point<dim> &point) const;
+  double pore_pressure(const dealii::Point<dim> &point) const;
 
-  bool
-  is_zero() const
+  bool is_zero() const
   {
     return stress_0.norm() == 0. && stress_gradient.norm() == 0. && pressure_0 == 0. &&
            pressure_gradient == 0.;
@@ -37,6 +32,6 @@ public:
 
 private:
   dealii::SymmetricTensor<2, dim> stress_0, stress_gradient;
-  double                          pressure_0 = 0., pressure_gradient = 0., datum = 0.;
+  double pressure_0 = 0., pressure_gradient = 0., datum = 0.;
 };
 } // namespace stockwork

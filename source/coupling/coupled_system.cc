@@ -21,8 +21,7 @@ using namespace dealii;
 namespace
 {
 template <int dim>
-FESystem<dim>
-make_element(const Discretisation &discretisation)
+FESystem<dim> make_element(const Discretisation &discretisation)
 {
   const FE_Q<dim> displacement(discretisation.displacement_degree), pressure(1);
   if (discretisation.has_pore_pressure)
@@ -31,8 +30,7 @@ make_element(const Discretisation &discretisation)
 }
 
 
-void
-truncate(Triplets &triplets, const std::size_t size)
+void truncate(Triplets &triplets, const std::size_t size)
 {
   triplets.rows.resize(size);
   triplets.columns.resize(size);
@@ -42,27 +40,19 @@ truncate(Triplets &triplets, const std::size_t size)
 
 
 template <int dim>
-void
-CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
+void CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
 {
   LinearSolverParameters::declare_parameters(prm);
   CouplingParameters::declare_parameters(prm);
   prm.enter_subsection("Nonlinear solver");
-  prm.declare_entry("Tolerance",
-                    "1e-8",
-                    Quantity(dimension::number, Range::open(0., 1.)),
+  prm.declare_entry("Tolerance", "1e-8", Quantity(dimension::number, Range::open(0., 1.)),
                     "Reduction of the residual of each field against its greatest in the solve.");
-  prm.declare_entry("Maximum iterations",
-                    "25",
-                    Patterns::Integer(1),
+  prm.declare_entry("Maximum iterations", "25", Patterns::Integer(1),
                     "A solve that takes more has failed, and the step is cut.");
-  prm.declare_entry("Maximum pressure change",
-                    "5 MPa",
+  prm.declare_entry("Maximum pressure change", "5 MPa",
                     Quantity(dimension::pressure, Range::positive()),
                     "An iteration that would change a fracture pressure by more is shortened.");
-  prm.declare_entry("Show iterations",
-                    "false",
-                    Patterns::Bool(),
+  prm.declare_entry("Show iterations", "false", Patterns::Bool(),
                     "Print the residuals of every iteration: forces of the bulk and of the "
                     "fracture, mass in pores and in the fracture.");
   prm.leave_subsection();
@@ -70,15 +60,15 @@ CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
 
 
 template <int dim>
-CoupledSystem<dim>::CoupledSystem(RunContext                                 &run,
+CoupledSystem<dim>::CoupledSystem(RunContext &run,
                                   parallel::distributed::Triangulation<dim> &triangulation,
-                                  const Mapping<dim>                         &mapping,
-                                  const Rock                                 &rock,
-                                  const BoundaryConditions<dim>              &boundary_conditions,
-                                  FractureModel<dim>                         &model,
-                                  Network<dim>                               &network,
-                                  const Discretisation                       &discretisation,
-                                  ParameterHandler                           &prm)
+                                  const Mapping<dim> &mapping,
+                                  const Rock &rock,
+                                  const BoundaryConditions<dim> &boundary_conditions,
+                                  FractureModel<dim> &model,
+                                  Network<dim> &network,
+                                  const Discretisation &discretisation,
+                                  ParameterHandler &prm)
   : run(run)
   , triangulation(triangulation)
   , mapping(mapping)
@@ -94,7 +84,7 @@ CoupledSystem<dim>::CoupledSystem(RunContext                                 &ru
   solver_parameters.parse_parameters(prm);
   coupling_parameters.parse_parameters(prm);
   prm.enter_subsection("Nonlinear solver");
-  tolerance      = get_quantity(prm, "Tolerance", dimension::number);
+  tolerance = get_quantity(prm, "Tolerance", dimension::number);
   max_iterations = prm.get_integer("Maximum iterations");
   pressure_limit = get_quantity(prm, "Maximum pressure change", dimension::pressure);
   show_iterations = prm.get_bool("Show iterations");
@@ -103,20 +93,15 @@ CoupledSystem<dim>::CoupledSystem(RunContext                                 &ru
 
 
 template <int dim>
-Discretization<dim>
-CoupledSystem<dim>::discretization() const
+Discretization<dim> CoupledSystem<dim>::discretization() const
 {
-  return {triangulation,
-          dof_handler,
-          mapping,
-          increment_constraints,
+  return {triangulation, dof_handler, mapping, increment_constraints,
           discretisation.has_pore_pressure};
 }
 
 
 template <int dim>
-void
-CoupledSystem<dim>::setup_mesh(const double time)
+void CoupledSystem<dim>::setup_mesh(const double time)
 {
   // Cells come along a space-filling curve, so the numbering is local as it is; and the components
   // of a node stay together, which the multigrid smoother wants.
@@ -127,9 +112,9 @@ CoupledSystem<dim>::setup_mesh(const double time)
   DoFRenumbering::component_wise(dof_handler, block_of_component);
 
   const auto dofs_per_block = DoFTools::count_dofs_per_fe_block(dof_handler, block_of_component);
-  IndexSet   all_relevant;
+  IndexSet all_relevant;
   DoFTools::extract_locally_relevant_dofs(dof_handler, all_relevant);
-  owned    = dof_handler.locally_owned_dofs().split_by_block(dofs_per_block);
+  owned = dof_handler.locally_owned_dofs().split_by_block(dofs_per_block);
   relevant = all_relevant.split_by_block(dofs_per_block);
 
   boundary_conditions.constrain(time, mapping, dof_handler, constraints, increment_constraints);
@@ -138,13 +123,11 @@ CoupledSystem<dim>::setup_mesh(const double time)
   {
     BlockDynamicSparsityPattern pattern(relevant);
     DoFTools::make_sparsity_pattern(dof_handler, pattern, increment_constraints, false);
-    model.add_couplings([&](const std::vector<types::global_dof_index> &dofs) {
-      increment_constraints.add_entries_local_to_global(dofs, pattern, false);
-    });
-    SparsityTools::distribute_sparsity_pattern(pattern,
-                                               dof_handler.locally_owned_dofs(),
-                                               run.communicator,
-                                               all_relevant);
+    model.add_couplings(
+      [&](const std::vector<types::global_dof_index> &dofs)
+      { increment_constraints.add_entries_local_to_global(dofs, pattern, false); });
+    SparsityTools::distribute_sparsity_pattern(pattern, dof_handler.locally_owned_dofs(),
+                                               run.communicator, all_relevant);
     system.bulk.clear();
     system.bulk.reinit(owned, pattern, run.communicator);
     if (discretisation.has_pore_pressure)
@@ -155,27 +138,22 @@ CoupledSystem<dim>::setup_mesh(const double time)
   ++stamps.mesh;
   matrix_is_current = false;
 
-  bulk = std::make_unique<BulkAssembly<dim>>(rock,
-                                             boundary_conditions.loads(),
-                                             discretisation.stabilisation,
-                                             discretization());
+  bulk = std::make_unique<BulkAssembly<dim>>(rock, boundary_conditions.loads(),
+                                             discretisation.stabilisation, discretization());
   if (!solver)
-    {
-      BulkStructure structure;
-      structure.dim               = dim;
-      structure.has_pore_pressure = discretisation.has_pore_pressure;
-      structure.n_dofs            = dof_handler.n_dofs();
-      structure.elastic_constant  = !discretisation.has_pore_pressure;
-      if (coupling_parameters.scheme == CouplingParameters::Scheme::monolithic)
-        solver = make_linear_solver(solver_parameters, structure, run.communicator);
-      else
-        solver = std::make_unique<SplitScheme>(
-          coupling_parameters,
-          solver_parameters,
-          structure,
-          run.communicator,
-          [this](TrilinosWrappers::SparseMatrix &matrix) { bulk->undrained_term(matrix); });
-    }
+  {
+    BulkStructure structure;
+    structure.dim = dim;
+    structure.has_pore_pressure = discretisation.has_pore_pressure;
+    structure.n_dofs = dof_handler.n_dofs();
+    structure.elastic_constant = !discretisation.has_pore_pressure;
+    if (coupling_parameters.scheme == CouplingParameters::Scheme::monolithic)
+      solver = make_linear_solver(solver_parameters, structure, run.communicator);
+    else
+      solver = std::make_unique<SplitScheme>(
+        coupling_parameters, solver_parameters, structure, run.communicator,
+        [this](TrilinosWrappers::SparseMatrix &matrix) { bulk->undrained_term(matrix); });
+  }
   if (solver->wants_hierarchy(dof_handler.n_dofs()))
     system.displacement_hierarchy =
       make_displacement_hierarchy(mapping, dof_handler, increment_constraints);
@@ -184,8 +162,7 @@ CoupledSystem<dim>::setup_mesh(const double time)
 
 
 template <int dim>
-void
-CoupledSystem<dim>::renumber_extra(const std::vector<std::vector<double> *> &values)
+void CoupledSystem<dim>::renumber_extra(const std::vector<std::vector<double> *> &values)
 {
   const ExtraNumbering old = numbering;
   adopt_extra(old, values);
@@ -193,12 +170,11 @@ CoupledSystem<dim>::renumber_extra(const std::vector<std::vector<double> *> &val
 
 
 template <int dim>
-void
-CoupledSystem<dim>::adopt_extra(const ExtraNumbering                     &from,
-                                const std::vector<std::vector<double> *> &values)
+void CoupledSystem<dim>::adopt_extra(const ExtraNumbering &from,
+                                     const std::vector<std::vector<double> *> &values)
 {
   std::vector<ExtraUnknown> unknowns = model.extra_unknowns();
-  n_model_extra                      = unknowns.size();
+  n_model_extra = unknowns.size();
   network.set_segments(model.segments(), communication);
   network.set_offset(n_model_extra);
   const std::vector<ExtraUnknown> pressures = network.unknowns();
@@ -214,8 +190,7 @@ CoupledSystem<dim>::adopt_extra(const ExtraNumbering                     &from,
 
 
 template <int dim>
-TrilinosWrappers::MPI::BlockVector
-CoupledSystem<dim>::ghosted_vector() const
+TrilinosWrappers::MPI::BlockVector CoupledSystem<dim>::ghosted_vector() const
 {
   TrilinosWrappers::MPI::BlockVector vector;
   vector.reinit(owned, relevant, run.communicator);
@@ -224,8 +199,7 @@ CoupledSystem<dim>::ghosted_vector() const
 
 
 template <int dim>
-TrilinosWrappers::MPI::BlockVector
-CoupledSystem<dim>::owned_vector() const
+TrilinosWrappers::MPI::BlockVector CoupledSystem<dim>::owned_vector() const
 {
   TrilinosWrappers::MPI::BlockVector vector;
   vector.reinit(owned, run.communicator);
@@ -234,49 +208,45 @@ CoupledSystem<dim>::owned_vector() const
 
 
 template <int dim>
-State
-CoupledSystem<dim>::state(const Unknowns &current,
-                          const Unknowns &committed,
-                          const Unknowns &rate_reference,
-                          const Unknowns &acceleration_reference) const
+State CoupledSystem<dim>::state(const Unknowns &current,
+                                const Unknowns &committed,
+                                const Unknowns &rate_reference,
+                                const Unknowns &acceleration_reference) const
 {
-  const auto segment_pressure = [this, &current](const std::uint64_t key) {
+  const auto segment_pressure = [this, &current](const std::uint64_t key)
+  {
     const auto &segments = network.segments();
-    const auto  position =
-      std::lower_bound(segments.begin(), segments.end(), key, [](const auto &segment, const auto k) {
-        return segment.key < k;
-      });
-    return position != segments.end() && position->key == key ?
-             network.pressures(current)[position - segments.begin()] :
-             0.;
+    const auto position =
+      std::lower_bound(segments.begin(), segments.end(), key,
+                       [](const auto &segment, const auto k) { return segment.key < k; });
+    return position != segments.end() && position->key == key
+             ? network.pressures(current)[position - segments.begin()]
+             : 0.;
   };
   return {current, committed, rate_reference, acceleration_reference, segment_pressure};
 }
 
 
 template <int dim>
-void
-CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
+void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
 {
   const auto scope = run.timers.scope("assembly");
-  system.bulk      = 0.;
+  system.bulk = 0.;
   if (discretisation.has_pore_pressure)
     system.fixed_stress_mass = 0.;
-  bulk->matrix(context,
-               [this](const auto &cell) { return model.role(cell); },
-               system.bulk,
-               discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr);
-  system.definite   = !discretisation.has_pore_pressure;
-  matrix_context    = context;
+  bulk->matrix(
+    context, [this](const auto &cell) { return model.role(cell); }, system.bulk,
+    discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr);
+  system.definite = !discretisation.has_pore_pressure;
+  matrix_context = context;
   matrix_is_current = true;
-  bulk_was_touched  = false;
+  bulk_was_touched = false;
   ++stamps.bulk_values;
 }
 
 
 template <int dim>
-void
-CoupledSystem<dim>::assemble_linear(const StepContext &context, const State &state)
+void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State &state)
 {
   const bool coefficients_changed =
     context.acceleration != matrix_context.acceleration ||
@@ -286,7 +256,7 @@ CoupledSystem<dim>::assemble_linear(const StepContext &context, const State &sta
     assemble_bulk_matrix(context);
 
   const auto scope = run.timers.scope("assembly");
-  const auto role  = [this](const auto &cell) { return model.role(cell); };
+  const auto role = [this](const auto &cell) { return model.role(cell); };
   system.residual_bulk = 0.;
   bulk->residual(context, state, role, system.residual_bulk);
 
@@ -295,26 +265,21 @@ CoupledSystem<dim>::assemble_linear(const StepContext &context, const State &sta
   linear_extra_extra.clear();
   linear_residual_extra.assign(numbering.size(), 0.);
   if (n_model_extra > 0)
-    {
-      SystemSink sink(increment_constraints,
-                      system,
-                      system.residual_bulk,
-                      linear_residual_extra,
-                      linear_extra_extra,
-                      true);
-      bulk->cut_cells(context, state, role, sink);
-      system.residual_bulk.compress(VectorOperation::add);
-      communication.sum(linear_residual_extra);
-    }
+  {
+    SystemSink sink(increment_constraints, system, system.residual_bulk, linear_residual_extra,
+                    linear_extra_extra, true);
+    bulk->cut_cells(context, state, role, sink);
+    system.residual_bulk.compress(VectorOperation::add);
+    communication.sum(linear_residual_extra);
+  }
   linear_residual_bulk = system.residual_bulk;
-  n_linear_bulk_extra  = system.bulk_extra.values.size();
-  n_linear_extra_bulk  = system.extra_bulk.values.size();
+  n_linear_bulk_extra = system.bulk_extra.values.size();
+  n_linear_extra_bulk = system.extra_bulk.values.size();
 }
 
 
 template <int dim>
-void
-CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const State &state)
+void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const State &state)
 {
   if (bulk_was_touched)
     assemble_linear(context, state); // the kept matrix has terms of the last iteration in it
@@ -322,16 +287,12 @@ CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const State &
   const auto scope = run.timers.scope("fracture");
   truncate(system.bulk_extra, n_linear_bulk_extra);
   truncate(system.extra_bulk, n_linear_extra_bulk);
-  system.extra_extra    = linear_extra_extra;
-  system.residual_bulk  = 0.;
+  system.extra_extra = linear_extra_extra;
+  system.residual_bulk = 0.;
   system.residual_extra.assign(numbering.size(), 0.);
 
-  SystemSink sink(increment_constraints,
-                  system,
-                  system.residual_bulk,
-                  system.residual_extra,
-                  system.extra_extra,
-                  true);
+  SystemSink sink(increment_constraints, system, system.residual_bulk, system.residual_extra,
+                  system.extra_extra, true);
   model.assemble(context, state, sink);
   network.assemble(context, state, communication, sink);
   system.residual_bulk.compress(VectorOperation::add);
@@ -340,10 +301,10 @@ CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const State &
 
   bulk_was_touched = communication.max(sink.bulk_touched ? 1. : 0.) > 0.;
   if (bulk_was_touched)
-    {
-      system.bulk.compress(VectorOperation::add);
-      ++stamps.bulk_values;
-    }
+  {
+    system.bulk.compress(VectorOperation::add);
+    ++stamps.bulk_values;
+  }
   for (unsigned int b = 0; b < owned.size(); ++b)
     system.residual_bulk.block(b) += linear_residual_bulk.block(b);
   for (unsigned int i = 0; i < numbering.size(); ++i)
@@ -355,9 +316,8 @@ CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const State &
 
 
 template <int dim>
-void
-CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::BlockVector &dx_bulk,
-                                           const std::vector<double>                &dx_extra)
+void CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                                                const std::vector<double> &dx_extra)
 {
   auto product = owned_vector();
   system.bulk.vmult(product, dx_bulk);
@@ -371,7 +331,7 @@ CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::BlockVec
   if (numbering.size() == 0)
     return;
   auto ghosted = ghosted_vector();
-  ghosted      = dx_bulk;
+  ghosted = dx_bulk;
   std::vector<double> change(numbering.size(), 0.);
   for (std::size_t k = 0; k < n_linear_extra_bulk; ++k)
     change[system.extra_bulk.rows[k]] +=
@@ -386,8 +346,7 @@ CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::BlockVec
 
 
 template <int dim>
-typename CoupledSystem<dim>::Norms
-CoupledSystem<dim>::residual_norms() const
+typename CoupledSystem<dim>::Norms CoupledSystem<dim>::residual_norms() const
 {
   Norms norms;
   norms.momentum = system.residual_bulk.block(0).l2_norm();
@@ -404,24 +363,23 @@ CoupledSystem<dim>::residual_norms() const
 
 
 template <int dim>
-NonlinearReport
-CoupledSystem<dim>::solve(const StepContext &context,
-                          Unknowns          &current,
-                          const Unknowns    &committed,
-                          const Unknowns    &rate_reference,
-                          const Unknowns    &acceleration_reference)
+NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
+                                          Unknowns &current,
+                                          const Unknowns &committed,
+                                          const Unknowns &rate_reference,
+                                          const Unknowns &acceleration_reference)
 {
   NonlinearReport report;
 
   // Essential conditions hold from the start, so that increments satisfy them with zero values.
   if (context.time != constraints_time && !boundary_conditions.constant_in_time())
-    {
-      AffineConstraints<double> unused;
-      boundary_conditions.constrain(context.time, mapping, dof_handler, constraints, unused);
-      constraints_time = context.time;
-    }
+  {
+    AffineConstraints<double> unused;
+    boundary_conditions.constrain(context.time, mapping, dof_handler, constraints, unused);
+    constraints_time = context.time;
+  }
   auto values = owned_vector();
-  values      = current.bulk;
+  values = current.bulk;
   constraints.distribute(values);
   current.bulk = values;
 
@@ -432,113 +390,110 @@ CoupledSystem<dim>::solve(const StepContext &context,
   const bool linear = numbering.size() == 0 && model.requirements().newton &&
                       !model.requirements().changes_bulk && !bulk_was_touched;
   const double injected = network.balance(context, state, communication).step.injected;
-  Norms        norms = residual_norms(), greatest = norms;
-  double       model_change = 0.;
+  Norms norms = residual_norms(), greatest = norms;
+  double model_change = 0.;
 
-  auto                dx_bulk = owned_vector();
+  auto dx_bulk = owned_vector();
   std::vector<double> dx_extra;
   for (unsigned int iteration = 0;; ++iteration)
+  {
+    for (const auto &[now, most] :
+         {std::make_pair(norms.momentum, &greatest.momentum),
+          std::make_pair(norms.mass, &greatest.mass), std::make_pair(norms.extra, &greatest.extra),
+          std::make_pair(norms.fracture_fluid, &greatest.fracture_fluid)})
+      *most = std::max(*most, now);
+    if (show_iterations)
+      run.out << "    iteration " << iteration << ": " << norms.momentum << ' ' << norms.extra
+              << ' ' << norms.mass << ' ' << norms.fracture_fluid << std::endl;
+    if (!std::isfinite(norms.momentum + norms.mass + norms.extra + norms.fracture_fluid))
     {
-      for (const auto &[now, most] : {std::make_pair(norms.momentum, &greatest.momentum),
-                                      std::make_pair(norms.mass, &greatest.mass),
-                                      std::make_pair(norms.extra, &greatest.extra),
-                                      std::make_pair(norms.fracture_fluid, &greatest.fracture_fluid)})
-        *most = std::max(*most, now);
-      if (show_iterations)
-        run.out << "    iteration " << iteration << ": " << norms.momentum << ' ' << norms.extra << ' '
-                << norms.mass << ' ' << norms.fracture_fluid << std::endl;
-      if (!std::isfinite(norms.momentum + norms.mass + norms.extra + norms.fracture_fluid))
-        {
-          report.reason = "the residual is not a number";
-          return report;
-        }
-      // Forces of the bulk and of the fracture balance one another, so they share a scale: what the
-      // rock exerts on the fracture, for a solve may start in equilibrium and with no residual.
-      double rock_on_fracture = 0.;
-      for (unsigned int i = 0; i < n_model_extra; ++i)
-        rock_on_fracture += linear_residual_extra[i] * linear_residual_extra[i];
-      const double force =
-        std::max({greatest.momentum, greatest.extra, std::sqrt(rock_on_fracture)});
-      const bool   small = model_change <= tolerance &&
-                         norms.momentum <= tolerance * force && norms.extra <= tolerance * force &&
-                         norms.mass <= tolerance * greatest.mass &&
-                         norms.fracture_fluid <= (injected > 0. ?
-                                                    1e-9 * injected :
-                                                    tolerance * greatest.fracture_fluid);
-      if (iteration > 0 && (small || linear))
-        {
-          report.converged  = true;
-          report.iterations = iteration;
-          return report;
-        }
-      if (force + greatest.mass + greatest.fracture_fluid == 0.)
-        {
-          report.converged = true; // nothing happens in this step
-          return report;
-        }
-      if (iteration == max_iterations)
-        {
-          report.iterations = iteration;
-          report.reason     = "no convergence in " + std::to_string(max_iterations) + " iterations";
-          return report;
-        }
-
-      try
-        {
-          const auto         scope = run.timers.scope("solve");
-          const LinearReport linear_report =
-            solver->solve(system, stamps, linear ? tolerance : 1e-6, dx_bulk, dx_extra);
-          report.linear_iterations += linear_report.iterations;
-          // Newton's method forgives an inexact direction; a linear problem is checked below.
-          if (!linear_report.converged && linear_report.relative_residual > 1e-4)
-            {
-              report.reason = "the linear solver has not converged";
-              return report;
-            }
-        }
-      catch (const SolveError &error)
-        {
-          report.reason = error.what();
-          return report;
-        }
-      // A law with kinks (contact, softening) can send Newton's method round in circles; shorter
-      // increments lead out.
-      double factor = iteration > 8 && norms.extra > 1e-4 * force ? 0.4 : 1.;
-      for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
-        factor = std::min(factor, pressure_limit / std::max(std::abs(dx_extra[i]), 1e-300));
-      if (factor < 1.)
-        {
-          dx_bulk *= factor;
-          for (double &value : dx_extra)
-            value *= factor;
-        }
-      values += dx_bulk;
-      constraints.distribute(values);
-      current.bulk = values;
-      for (unsigned int i = 0; i < numbering.size(); ++i)
-        current.extra[i] += dx_extra[i];
-      if (!linear)
-        {
-          model_change = model.update_iterate(context, state, communication);
-          if (!bulk_was_touched)
-            update_linear_residual(dx_bulk, dx_extra);
-          assemble_nonlinear(context, state);
-          norms = residual_norms();
-        }
+      report.reason = "the residual is not a number";
+      return report;
     }
+    // Forces of the bulk and of the fracture balance one another, so they share a scale: what the
+    // rock exerts on the fracture, for a solve may start in equilibrium and with no residual.
+    double rock_on_fracture = 0.;
+    for (unsigned int i = 0; i < n_model_extra; ++i)
+      rock_on_fracture += linear_residual_extra[i] * linear_residual_extra[i];
+    const double force = std::max({greatest.momentum, greatest.extra, std::sqrt(rock_on_fracture)});
+    const bool small = model_change <= tolerance && norms.momentum <= tolerance * force &&
+                       norms.extra <= tolerance * force &&
+                       norms.mass <= tolerance * greatest.mass &&
+                       norms.fracture_fluid <=
+                         (injected > 0. ? 1e-9 * injected : tolerance * greatest.fracture_fluid);
+    if (iteration > 0 && (small || linear))
+    {
+      report.converged = true;
+      report.iterations = iteration;
+      return report;
+    }
+    if (force + greatest.mass + greatest.fracture_fluid == 0.)
+    {
+      report.converged = true; // nothing happens in this step
+      return report;
+    }
+    if (iteration == max_iterations)
+    {
+      report.iterations = iteration;
+      report.reason = "no convergence in " + std::to_string(max_iterations) + " iterations";
+      return report;
+    }
+
+    try
+    {
+      const auto scope = run.timers.scope("solve");
+      const LinearReport linear_report =
+        solver->solve(system, stamps, linear ? tolerance : 1e-6, dx_bulk, dx_extra);
+      report.linear_iterations += linear_report.iterations;
+      // Newton's method forgives an inexact direction; a linear problem is checked below.
+      if (!linear_report.converged && linear_report.relative_residual > 1e-4)
+      {
+        report.reason = "the linear solver has not converged";
+        return report;
+      }
+    }
+    catch (const SolveError &error)
+    {
+      report.reason = error.what();
+      return report;
+    }
+    // A law with kinks (contact, softening) can send Newton's method round in circles; shorter
+    // increments lead out.
+    double factor = iteration > 8 && norms.extra > 1e-4 * force ? 0.4 : 1.;
+    for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
+      factor = std::min(factor, pressure_limit / std::max(std::abs(dx_extra[i]), 1e-300));
+    if (factor < 1.)
+    {
+      dx_bulk *= factor;
+      for (double &value : dx_extra)
+        value *= factor;
+    }
+    values += dx_bulk;
+    constraints.distribute(values);
+    current.bulk = values;
+    for (unsigned int i = 0; i < numbering.size(); ++i)
+      current.extra[i] += dx_extra[i];
+    if (!linear)
+    {
+      model_change = model.update_iterate(context, state, communication);
+      if (!bulk_was_touched)
+        update_linear_residual(dx_bulk, dx_extra);
+      assemble_nonlinear(context, state);
+      norms = residual_norms();
+    }
+  }
 }
 
 
 template <int dim>
-typename CoupledSystem<dim>::PoreFluid
-CoupledSystem<dim>::pore_fluid(const StepContext &context, const State &state) const
+typename CoupledSystem<dim>::PoreFluid CoupledSystem<dim>::pore_fluid(const StepContext &context,
+                                                                      const State &state) const
 {
   PoreFluid fluid;
   if (!discretisation.has_pore_pressure)
     return fluid;
-  fluid.stored  = communication.sum(bulk->stored_fluid(context, state, [this](const auto &cell) {
-    return model.role(cell);
-  }));
+  fluid.stored = communication.sum(
+    bulk->stored_fluid(context, state, [this](const auto &cell) { return model.role(cell); }));
   fluid.outflow = communication.sum(bulk->outflow(context, state));
   return fluid;
 }

@@ -20,17 +20,17 @@ namespace stockwork
 /// How the displacement and the pore pressure are discretised.
 struct Discretisation
 {
-  unsigned int          displacement_degree = 2;
-  bool                  has_pore_pressure   = false;
-  PressureStabilisation stabilisation       = PressureStabilisation::none;
+  unsigned int displacement_degree = 2;
+  bool has_pore_pressure = false;
+  PressureStabilisation stabilisation = PressureStabilisation::none;
 };
 
 struct NonlinearReport
 {
-  bool         converged         = false;
-  unsigned int iterations        = 0;
+  bool converged = false;
+  unsigned int iterations = 0;
   unsigned int linear_iterations = 0;
-  std::string  reason; ///< why not, for the user
+  std::string reason; ///< why not, for the user
 };
 
 /// All unknowns of the run and the one nonlinear system that couples them: bulk, fracture model
@@ -43,158 +43,138 @@ template <int dim>
 class CoupledSystem
 {
 public:
-  static void
-  declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(dealii::ParameterHandler &prm);
 
-  CoupledSystem(RunContext                                               &run,
-                dealii::parallel::distributed::Triangulation<dim>       &triangulation,
-                const dealii::Mapping<dim>                               &mapping,
-                const Rock                                               &rock,
-                const BoundaryConditions<dim>                            &boundary_conditions,
-                FractureModel<dim>                                       &model,
-                Network<dim>                                             &network,
-                const Discretisation                                     &discretisation,
-                dealii::ParameterHandler                                 &prm);
+  CoupledSystem(RunContext &run,
+                dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                const dealii::Mapping<dim> &mapping,
+                const Rock &rock,
+                const BoundaryConditions<dim> &boundary_conditions,
+                FractureModel<dim> &model,
+                Network<dim> &network,
+                const Discretisation &discretisation,
+                dealii::ParameterHandler &prm);
 
   /// The mesh is new: number the bulk unknowns, tell the model, find the extra unknowns.
-  void
-  setup_mesh(double time);
+  void setup_mesh(double time);
 
   /// The fracture is new: number the extra unknowns again. The values of the unknowns handed over
   /// move along; the first of them gets initial values for new unknowns, the others too.
-  void
-  renumber_extra(const std::vector<std::vector<double> *> &values);
+  void renumber_extra(const std::vector<std::vector<double> *> &values);
 
   /// As above with the keys of another numbering, after a change of mesh or a restart.
-  void
-  adopt_extra(const ExtraNumbering &from, const std::vector<std::vector<double> *> &values);
+  void adopt_extra(const ExtraNumbering &from, const std::vector<std::vector<double> *> &values);
 
   /// Solve for `current` at the time of the context, starting from its present value.
-  NonlinearReport
-  solve(const StepContext &context,
-        Unknowns          &current,
-        const Unknowns    &committed,
-        const Unknowns    &rate_reference,
-        const Unknowns    &acceleration_reference);
+  NonlinearReport solve(const StepContext &context,
+                        Unknowns &current,
+                        const Unknowns &committed,
+                        const Unknowns &rate_reference,
+                        const Unknowns &acceleration_reference);
 
   /// Zero vectors with ghost values / without.
-  dealii::TrilinosWrappers::MPI::BlockVector
-  ghosted_vector() const;
-  dealii::TrilinosWrappers::MPI::BlockVector
-  owned_vector() const;
+  dealii::TrilinosWrappers::MPI::BlockVector ghosted_vector() const;
+  dealii::TrilinosWrappers::MPI::BlockVector owned_vector() const;
 
   /// Let a transferred vector satisfy the hanging-node constraints (and essential conditions).
-  void
-  make_conforming(dealii::TrilinosWrappers::MPI::BlockVector &vector) const
+  void make_conforming(dealii::TrilinosWrappers::MPI::BlockVector &vector) const
   {
     constraints.distribute(vector);
   }
 
-  Discretization<dim>
-  discretization() const;
+  Discretization<dim> discretization() const;
 
-  const dealii::DoFHandler<dim> &
-  bulk_dofs() const
+  const dealii::DoFHandler<dim> &bulk_dofs() const
   {
     return dof_handler;
   }
 
-  const ExtraNumbering &
-  extra_numbering() const
+  const ExtraNumbering &extra_numbering() const
   {
     return numbering;
   }
 
-  unsigned int
-  n_unknowns() const
+  unsigned int n_unknowns() const
   {
     return dof_handler.n_dofs() + numbering.size();
   }
 
-  const Collectives &
-  collectives() const
+  const Collectives &collectives() const
   {
     return communication;
   }
 
   /// State as models and network see it.
-  State
-  state(const Unknowns &current,
-        const Unknowns &committed,
-        const Unknowns &rate_reference,
-        const Unknowns &acceleration_reference) const;
+  State state(const Unknowns &current,
+              const Unknowns &committed,
+              const Unknowns &rate_reference,
+              const Unknowns &acceleration_reference) const;
 
   /// Content of fluid that the pores have gained since the references, and what has left through
   /// the boundary, in the step [m^3 (/m)].
   struct PoreFluid
   {
-    double stored  = 0.;
+    double stored = 0.;
     double outflow = 0.;
   };
-  PoreFluid
-  pore_fluid(const StepContext &context, const State &state) const;
+  PoreFluid pore_fluid(const StepContext &context, const State &state) const;
 
 private:
-  void
-  assemble_bulk_matrix(const StepContext &context);
+  void assemble_bulk_matrix(const StepContext &context);
 
-  void
-  assemble_linear(const StepContext &context, const State &state);
+  void assemble_linear(const StepContext &context, const State &state);
 
-  void
-  assemble_nonlinear(const StepContext &context, const State &state);
+  void assemble_nonlinear(const StepContext &context, const State &state);
 
-  void
-  update_linear_residual(const dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
-                         const std::vector<double>                        &dx_extra);
+  void update_linear_residual(const dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                              const std::vector<double> &dx_extra);
 
   struct Norms
   {
     double momentum = 0., mass = 0., extra = 0., fracture_fluid = 0.;
   };
-  Norms
-  residual_norms() const;
+  Norms residual_norms() const;
 
-  RunContext                                        &run;
+  RunContext &run;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
-  const dealii::Mapping<dim>                        &mapping;
-  const Rock                                        &rock;
-  const BoundaryConditions<dim>                     &boundary_conditions;
-  FractureModel<dim>                                &model;
-  Network<dim>                                      &network;
-  Discretisation                                     discretisation;
-  Collectives                                        communication;
+  const dealii::Mapping<dim> &mapping;
+  const Rock &rock;
+  const BoundaryConditions<dim> &boundary_conditions;
+  FractureModel<dim> &model;
+  Network<dim> &network;
+  Discretisation discretisation;
+  Collectives communication;
 
-  double       tolerance, pressure_limit;
+  double tolerance, pressure_limit;
   unsigned int max_iterations;
-  bool         show_iterations;
+  bool show_iterations;
 
-  dealii::FESystem<dim>             fe;
-  dealii::DoFHandler<dim>           dof_handler;
+  dealii::FESystem<dim> fe;
+  dealii::DoFHandler<dim> dof_handler;
   dealii::AffineConstraints<double> constraints; ///< with values
   dealii::AffineConstraints<double> increment_constraints;
-  double                            constraints_time = 0.;
-  std::vector<dealii::IndexSet>     owned, relevant;
+  double constraints_time = 0.;
+  std::vector<dealii::IndexSet> owned, relevant;
 
   ExtraNumbering numbering;
-  unsigned int   n_model_extra = 0;
+  unsigned int n_model_extra = 0;
 
   std::unique_ptr<BulkAssembly<dim>> bulk;
-  LinearSolverParameters             solver_parameters;
-  CouplingParameters                 coupling_parameters;
-  std::unique_ptr<LinearSolver>      solver;
+  LinearSolverParameters solver_parameters;
+  CouplingParameters coupling_parameters;
+  std::unique_ptr<LinearSolver> solver;
 
   LinearSystem system;
   SystemStamps stamps;
 
   // The part of the system that is linear in the unknowns, kept through the iteration.
   dealii::TrilinosWrappers::MPI::BlockVector linear_residual_bulk;
-  std::vector<double>                        linear_residual_extra;
-  Triplets                                   linear_extra_extra;
-  std::size_t                                n_linear_bulk_extra = 0, n_linear_extra_bulk = 0;
+  std::vector<double> linear_residual_extra;
+  Triplets linear_extra_extra;
+  std::size_t n_linear_bulk_extra = 0, n_linear_extra_bulk = 0;
 
-  bool        matrix_is_current = false;
-  bool        bulk_was_touched  = false;
+  bool matrix_is_current = false;
+  bool bulk_was_touched = false;
   StepContext matrix_context;
 };
 } // namespace stockwork

@@ -23,20 +23,17 @@ public:
                 dealii::ExcMessage("Two extra unknowns have the same key."));
   }
 
-  unsigned int
-  size() const
+  unsigned int size() const
   {
     return unknowns.size();
   }
 
-  const ExtraUnknown &
-  operator[](const unsigned int i) const
+  const ExtraUnknown &operator[](const unsigned int i) const
   {
     return unknowns[i];
   }
 
-  bool
-  same_keys(const ExtraNumbering &other) const
+  bool same_keys(const ExtraNumbering &other) const
   {
     if (size() != other.size())
       return false;
@@ -49,23 +46,22 @@ public:
   /// Values in this numbering from values in another: by key, and the initial value of an unknown
   /// that the other does not know (`new_value` instead, where it is not NaN).
   std::vector<double>
-  transfer(const ExtraNumbering      &from,
+  transfer(const ExtraNumbering &from,
            const std::vector<double> &values,
-           const double               new_value = std::numeric_limits<double>::quiet_NaN()) const
+           const double new_value = std::numeric_limits<double>::quiet_NaN()) const
   {
     std::vector<double> result(size());
     for (unsigned int i = 0; i < size(); ++i)
-      {
-        const auto position = from.index.find(unknowns[i].key);
-        result[i]           = position != from.index.end() ? values[position->second] :
-                              new_value == new_value       ? new_value :
-                                                             unknowns[i].initial;
-      }
+    {
+      const auto position = from.index.find(unknowns[i].key);
+      result[i] = position != from.index.end() ? values[position->second]
+                  : new_value == new_value     ? new_value
+                                               : unknowns[i].initial;
+    }
     return result;
   }
 
-  std::vector<std::uint64_t>
-  keys() const
+  std::vector<std::uint64_t> keys() const
   {
     std::vector<std::uint64_t> result;
     for (const ExtraUnknown &unknown : unknowns)
@@ -74,7 +70,7 @@ public:
   }
 
 private:
-  std::vector<ExtraUnknown>                       unknowns;
+  std::vector<ExtraUnknown> unknowns;
   std::unordered_map<std::uint64_t, unsigned int> index;
 };
 } // namespace stockwork

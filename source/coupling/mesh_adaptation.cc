@@ -12,23 +12,20 @@ namespace stockwork
 {
 using namespace dealii;
 
-void
-declare_mesh_adaptation(ParameterHandler &prm)
+void declare_mesh_adaptation(ParameterHandler &prm)
 {
   prm.enter_subsection("Mesh");
-  prm.declare_entry("Maximum number of cells",
-                    "2000000",
-                    Patterns::Integer(1),
+  prm.declare_entry("Maximum number of cells", "2000000", Patterns::Integer(1),
                     "A mesh that would have more ends the run with a message.");
   prm.leave_subsection();
 }
 
 
 template <int dim>
-MeshAdaptation<dim>::MeshAdaptation(ParameterHandler                          &prm,
-                                    const Geometry<dim>                       &geometry,
+MeshAdaptation<dim>::MeshAdaptation(ParameterHandler &prm,
+                                    const Geometry<dim> &geometry,
                                     parallel::distributed::Triangulation<dim> &triangulation,
-                                    const FractureModel<dim>                  &model)
+                                    const FractureModel<dim> &model)
   : geometry(geometry)
   , triangulation(triangulation)
   , model(model)
@@ -40,8 +37,7 @@ MeshAdaptation<dim>::MeshAdaptation(ParameterHandler                          &p
 
 
 template <int dim>
-bool
-MeshAdaptation<dim>::flag()
+bool MeshAdaptation<dim>::flag()
 {
   std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
   model.wanted_cell_size(triangulation, wanted);
@@ -50,64 +46,62 @@ MeshAdaptation<dim>::flag()
 
 
 template <int dim>
-void
-MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
+void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
 {
   while (flag())
-    {
-      triangulation.execute_coarsening_and_refinement();
-      if (triangulation.n_global_active_cells() > max_cells)
-        throw InputError("The mesh has more than " + std::to_string(max_cells) +
-                         " cells ('Mesh/Maximum number of cells'). Is the wanted cell size meant?");
-    }
+  {
+    triangulation.execute_coarsening_and_refinement();
+    if (triangulation.n_global_active_cells() > max_cells)
+      throw InputError("The mesh has more than " + std::to_string(max_cells) +
+                       " cells ('Mesh/Maximum number of cells'). Is the wanted cell size meant?");
+  }
   triangulation.repartition();
   system.setup_mesh(time);
 }
 
 
 template <int dim>
-bool
-MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper)
+bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper)
 {
   bool changed = false;
   while (flag())
+  {
+    changed = true;
+    const auto vectors = stepper.bulk_vectors();
+    const ExtraNumbering numbering = system.extra_numbering();
+
+    // One transfer for all vectors; it reads ghosted ones and fills owned ones.
+    std::vector<TrilinosWrappers::MPI::BlockVector> before(vectors.size());
+    std::vector<const TrilinosWrappers::MPI::BlockVector *> sources;
+    for (unsigned int i = 0; i < vectors.size(); ++i)
     {
-      changed            = true;
-      const auto vectors = stepper.bulk_vectors();
-      const ExtraNumbering numbering = system.extra_numbering();
-
-      // One transfer for all vectors; it reads ghosted ones and fills owned ones.
-      std::vector<TrilinosWrappers::MPI::BlockVector>         before(vectors.size());
-      std::vector<const TrilinosWrappers::MPI::BlockVector *> sources;
-      for (unsigned int i = 0; i < vectors.size(); ++i)
-        {
-          before[i] = system.ghosted_vector();
-          before[i] = *vectors[i];
-          sources.push_back(&before[i]);
-        }
-      parallel::distributed::SolutionTransfer<dim, TrilinosWrappers::MPI::BlockVector> transfer(
-        system.bulk_dofs());
-      triangulation.prepare_coarsening_and_refinement();
-      transfer.prepare_for_coarsening_and_refinement(sources);
-      triangulation.execute_coarsening_and_refinement();
-      if (triangulation.n_global_active_cells() > max_cells)
-        throw SolveError("The mesh has grown to more than " + std::to_string(max_cells) +
-                         " cells ('Mesh/Maximum number of cells').");
-      system.setup_mesh(stepper.last_context().time);
-
-      std::vector<TrilinosWrappers::MPI::BlockVector>   after(vectors.size(), system.owned_vector());
-      std::vector<TrilinosWrappers::MPI::BlockVector *> targets;
-      for (auto &vector : after)
-        targets.push_back(&vector);
-      transfer.interpolate(targets);
-      for (unsigned int i = 0; i < vectors.size(); ++i)
-        {
-          system.make_conforming(after[i]);
-          *vectors[i] = system.ghosted_vector();
-          *vectors[i] = after[i];
-        }
-      system.adopt_extra(numbering, stepper.extra_vectors());
+      before[i] = system.ghosted_vector();
+      before[i] = *vectors[i];
+      sources.push_back(&before[i]);
     }
+    parallel::distributed::SolutionTransfer<dim, TrilinosWrappers::MPI::BlockVector> transfer(
+      system.bulk_dofs());
+    triangulation.prepare_coarsening_and_refinement();
+    transfer.prepare_for_coarsening_and_refinement(sources);
+    triangulation.execute_coarsening_and_refinement();
+    if (triangulation.n_global_active_cells() > max_cells)
+      throw SolveError("The mesh has grown to more than " + std::to_string(max_cells) +
+                       " cells ('Mesh/Maximum number of cells').");
+    system.setup_mesh(stepper.last_context().time);
+
+    std::vector<TrilinosWrappers::MPI::BlockVector> after(vectors.size(), system.owned_vector());
+    std::vector<TrilinosWrappers::MPI::BlockVector *> targets;
+    for (auto &vector : after)
+      targets.push_back(&vector);
+    transfer.interpolate(targets);
+    for (unsigned int i = 0; i < vectors.size(); ++i)
+    {
+      system.make_conforming(after[i]);
+      *vectors[i] = system.ghosted_vector();
+      *vectors[i] = after[i];
+    }
+    system.adopt_extra(numbering, stepper.extra_vectors());
+  }
   return changed;
 }
 

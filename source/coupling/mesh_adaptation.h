@@ -9,8 +9,7 @@
 namespace stockwork
 {
 /// Declares the entries of subsection "Mesh" about refinement in the course of the run.
-void
-declare_mesh_adaptation(dealii::ParameterHandler &prm);
+void declare_mesh_adaptation(dealii::ParameterHandler &prm);
 
 /// Makes cells as small as the fracture model wants them, where and when it does, and moves all
 /// unknowns along. The mesh never changes inside a step.
@@ -18,27 +17,24 @@ template <int dim>
 class MeshAdaptation
 {
 public:
-  MeshAdaptation(dealii::ParameterHandler                          &prm,
-                 const Geometry<dim>                               &geometry,
+  MeshAdaptation(dealii::ParameterHandler &prm,
+                 const Geometry<dim> &geometry,
                  dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                 const FractureModel<dim>                          &model);
+                 const FractureModel<dim> &model);
 
   /// Before the first step, when there are no unknowns to move yet: make the mesh ready.
-  void
-  prepare(CoupledSystem<dim> &system, double time);
+  void prepare(CoupledSystem<dim> &system, double time);
 
   /// Between steps. Returns whether the mesh has changed.
-  bool
-  adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper);
+  bool adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper);
 
 private:
   /// Set flags; is there anything to do?
-  bool
-  flag();
+  bool flag();
 
-  const Geometry<dim>                               &geometry;
+  const Geometry<dim> &geometry;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
-  const FractureModel<dim>                          &model;
-  unsigned int                                       max_cells;
+  const FractureModel<dim> &model;
+  unsigned int max_cells;
 };
 } // namespace stockwork

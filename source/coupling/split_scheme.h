@@ -25,23 +25,20 @@ struct CouplingParameters
     fixed_strain  ///< flow first, at constant strain
   };
 
-  Scheme       scheme         = Scheme::monolithic;
-  std::string  name           = "monolithic";
-  double       stabilisation  = 1.;
+  Scheme scheme = Scheme::monolithic;
+  std::string name = "monolithic";
+  double stabilisation = 1.;
   unsigned int maximum_passes = 500;
-  bool         force          = false;
+  bool force = false;
 
-  static void
-  declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(dealii::ParameterHandler &prm);
 
-  void
-  parse_parameters(dealii::ParameterHandler &prm);
+  void parse_parameters(dealii::ParameterHandler &prm);
 
   /// Throws InputError for a scheme that cannot converge in this rock, unless it is forced: drained
   /// and fixed-strain splits need alpha^2 M / K < 1 (Kim, Tchelepi & Juanes 2011), the undrained
   /// split a fluid or grains that can be compressed. Fracture unknowns are not split yet.
-  void
-  check(const RockProperties &rock, bool has_pore_pressure, bool has_fracture) const;
+  void check(const RockProperties &rock, bool has_pore_pressure, bool has_fracture) const;
 };
 
 
@@ -49,8 +46,8 @@ struct CouplingParameters
 /// that ends at the solution of the coupled system:
 ///
 ///   fixed stress:   -(C + L) p' = g - B^T u - L p,   K u' = f - B p',   L = b int alpha^2/K_dr p q
-///   undrained:      (K + U) u' = f - B p + U u,      -C p' = g - B^T u',   U = int alpha^2 M div div
-///   drained:        as undrained with U = 0;  fixed strain: as fixed stress with L = 0
+///   undrained:      (K + U) u' = f - B p + U u,      -C p' = g - B^T u',   U = int alpha^2 M div
+///   div drained:        as undrained with U = 0;  fixed strain: as fixed stress with L = 0
 ///
 /// (Kim, Tchelepi & Juanes 2011, Comput. Methods Appl. Mech. Engrg. 200; b is the stabilisation
 /// factor.) The blocks are solved by linear solvers of their own, which keep their factors.
@@ -60,43 +57,40 @@ public:
   /// Adds U to a matrix with the pattern of K.
   using UndrainedTerm = std::function<void(dealii::TrilinosWrappers::SparseMatrix &)>;
 
-  SplitScheme(const CouplingParameters     &parameters,
+  SplitScheme(const CouplingParameters &parameters,
               const LinearSolverParameters &solver_parameters,
-              const BulkStructure          &structure,
-              MPI_Comm                      communicator,
-              UndrainedTerm                 undrained_term);
+              const BulkStructure &structure,
+              MPI_Comm communicator,
+              UndrainedTerm undrained_term);
 
   /// Throws SolveError when the passes diverge or do not end.
-  LinearReport
-  solve(const LinearSystem                         &system,
-        const SystemStamps                         &stamps,
-        double                                      tolerance,
-        dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
-        std::vector<double>                        &dx_extra) override;
+  LinearReport solve(const LinearSystem &system,
+                     const SystemStamps &stamps,
+                     double tolerance,
+                     dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                     std::vector<double> &dx_extra) override;
 
 private:
   /// One block as a linear system of its own.
   struct Block
   {
-    LinearSystem                  system;
-    SystemStamps                  stamps;
+    LinearSystem system;
+    SystemStamps stamps;
     std::unique_ptr<LinearSolver> solver;
 
     /// x += A^-1 (-residual)
-    void
-    correct(const dealii::TrilinosWrappers::MPI::Vector &residual,
-            double                                       tolerance,
-            dealii::TrilinosWrappers::MPI::Vector       &x);
+    void correct(const dealii::TrilinosWrappers::MPI::Vector &residual,
+                 double tolerance,
+                 dealii::TrilinosWrappers::MPI::Vector &x);
   };
 
-  void
-  update_blocks(const LinearSystem &system, const SystemStamps &stamps);
+  void update_blocks(const LinearSystem &system, const SystemStamps &stamps);
 
   CouplingParameters parameters;
-  MPI_Comm           communicator;
-  UndrainedTerm      undrained_term;
-  Block              mechanics, flow;
-  SystemStamps       seen;
-  bool               has_seen = false;
+  MPI_Comm communicator;
+  UndrainedTerm undrained_term;
+  Block mechanics, flow;
+  SystemStamps seen;
+  bool has_seen = false;
 };
 } // namespace stockwork

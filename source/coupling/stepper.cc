@@ -10,48 +10,38 @@ namespace stockwork
 {
 using namespace dealii;
 
-void
-StepControl::declare_parameters(ParameterHandler &prm)
+void StepControl::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Time");
   prm.declare_entry("Start time", "0 s", Quantity(dimension::time), "");
   prm.declare_entry("End time", "1 s", Quantity(dimension::time), "After the start time.");
-  prm.declare_entry("Initial step",
-                    "",
-                    Patterns::Anything(),
+  prm.declare_entry("Initial step", "", Patterns::Anything(),
                     "Length of the first step [s]; empty: a hundredth of the run.");
-  prm.declare_entry("Minimum step",
-                    "",
-                    Patterns::Anything(),
+  prm.declare_entry("Minimum step", "", Patterns::Anything(),
                     "A solve that fails with this step ends the run [s]; empty: 1e-6 of the "
                     "initial step.");
-  prm.declare_entry("Maximum step", "inf", Quantity(dimension::time, Range{0., INFINITY, true, false}), "");
-  prm.declare_entry("Step growth",
-                    "",
-                    Patterns::Anything(),
+  prm.declare_entry("Maximum step", "inf",
+                    Quantity(dimension::time, Range{0., INFINITY, true, false}), "");
+  prm.declare_entry("Step growth", "", Patterns::Anything(),
                     "Greatest ratio of successive steps, at least 1; empty: 1.3 where the fracture "
                     "model or the error tolerance chooses the step, else 1 (constant steps).");
-  prm.declare_entry("Error tolerance",
-                    "inf",
+  prm.declare_entry("Error tolerance", "inf",
                     Quantity(dimension::number, Range{0., INFINITY, true, false}),
                     "Of the local error of a step, relative to the solution; 'inf': steps are not "
                     "chosen by error. BDF2 only.");
-  prm.declare_entry("Reject first attempt of step",
-                    "0",
-                    Patterns::Integer(0),
-                    "For tests: the first attempt at the step of this number is thrown away and the "
-                    "step taken again with half its length. 0: none.");
+  prm.declare_entry(
+    "Reject first attempt of step", "0", Patterns::Integer(0),
+    "For tests: the first attempt at the step of this number is thrown away and the "
+    "step taken again with half its length. 0: none.");
   prm.leave_subsection();
 }
 
 
-void
-StepControl::parse_parameters(ParameterHandler &prm)
+void StepControl::parse_parameters(ParameterHandler &prm)
 {
-  const auto optional = [&](const std::string &entry,
-                            const Dimension   &dimension,
-                            const Range       &range,
-                            const double       otherwise) {
+  const auto optional = [&](const std::string &entry, const Dimension &dimension,
+                            const Range &range, const double otherwise)
+  {
     const std::string text = prm.get(entry);
     if (text.empty())
       return otherwise;
@@ -62,44 +52,41 @@ StepControl::parse_parameters(ParameterHandler &prm)
   };
   prm.enter_subsection("Time");
   start_time = get_quantity(prm, "Start time", dimension::time);
-  end_time   = get_quantity(prm, "End time", dimension::time);
+  end_time = get_quantity(prm, "End time", dimension::time);
   if (!(end_time > start_time))
-    throw EntryError("Time/End time",
-                     prm.get("End time"),
+    throw EntryError("Time/End time", prm.get("End time"),
                      "a time after the start time, " + prm.get("Start time"));
   initial_step =
     optional("Initial step", dimension::time, Range::positive(), (end_time - start_time) / 100.);
-  minimum_step    = optional("Minimum step", dimension::time, Range::positive(), 1e-6 * initial_step);
-  maximum_step    = get_quantity(prm, "Maximum step", dimension::time);
+  minimum_step = optional("Minimum step", dimension::time, Range::positive(), 1e-6 * initial_step);
+  maximum_step = get_quantity(prm, "Maximum step", dimension::time);
   error_tolerance = get_quantity(prm, "Error tolerance", dimension::number);
-  growth          = optional("Step growth",
-                    dimension::number,
-                    Range{1., 10., false, false},
+  growth = optional("Step growth", dimension::number, Range{1., 10., false, false},
                     std::isfinite(error_tolerance) ? 2. : -1.);
-  rejected_step   = prm.get_integer("Reject first attempt of step");
+  rejected_step = prm.get_integer("Reject first attempt of step");
   prm.leave_subsection();
 }
 
 
 template <int dim>
-Stepper<dim>::Stepper(RunContext         &run,
+Stepper<dim>::Stepper(RunContext &run,
                       CoupledSystem<dim> &system,
                       FractureModel<dim> &model,
-                      Network<dim>       &network,
-                      TimeScheme         &scheme,
-                      const StepControl  &control)
+                      Network<dim> &network,
+                      TimeScheme &scheme,
+                      const StepControl &control)
   : run(run)
   , system(system)
   , model(model)
   , network(network)
   , scheme(scheme)
   , control(control)
-{}
+{
+}
 
 
 template <int dim>
-bool
-Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_limit)
+bool Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_limit)
 {
   // More passes than any model's own limit: a model that never stops growing must not hang the run.
   constexpr unsigned int max_passes = 100;
@@ -112,128 +99,120 @@ Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_limit)
   network.begin_step(context);
 
   for (unsigned int pass = 0; pass < max_passes; ++pass)
+  {
+    const NonlinearReport solve =
+      system.solve(context, current, before, rate_reference, acceleration_reference);
+    report.nonlinear_iterations += solve.iterations;
+    report.linear_iterations += solve.linear_iterations;
+    if (!solve.converged)
     {
-      const NonlinearReport solve =
-        system.solve(context, current, before, rate_reference, acceleration_reference);
-      report.nonlinear_iterations += solve.iterations;
-      report.linear_iterations += solve.linear_iterations;
-      if (!solve.converged)
-        {
-          reason = solve.reason;
-          return false;
-        }
-      const State state =
-        system.state(current, before, rate_reference, acceleration_reference);
-      const Verdict verdict = model.advance(context, state, system.collectives());
-      dt_limit              = std::min(dt_limit, verdict.dt_limit);
-      switch (verdict.kind)
-        {
-          case Verdict::Kind::accept:
-            return true;
-          case Verdict::Kind::reject:
-            reason = verdict.reason;
-            return false;
-          case Verdict::Kind::topology_changed:
-            ++report.growths;
-            system.renumber_extra({&current.extra,
-                                   &before.extra,
-                                   &rate_reference.extra,
-                                   &acceleration_reference.extra});
-        }
+      reason = solve.reason;
+      return false;
     }
+    const State state = system.state(current, before, rate_reference, acceleration_reference);
+    const Verdict verdict = model.advance(context, state, system.collectives());
+    dt_limit = std::min(dt_limit, verdict.dt_limit);
+    switch (verdict.kind)
+    {
+    case Verdict::Kind::accept:
+      return true;
+    case Verdict::Kind::reject:
+      reason = verdict.reason;
+      return false;
+    case Verdict::Kind::topology_changed:
+      ++report.growths;
+      system.renumber_extra(
+        {&current.extra, &before.extra, &rate_reference.extra, &acceleration_reference.extra});
+    }
+  }
   reason = "the fracture has not come to rest in " + std::to_string(max_passes) + " solves";
   return false;
 }
 
 
 template <int dim>
-StepReport
-Stepper<dim>::advance(const double time, double dt, const unsigned int step)
+StepReport Stepper<dim>::advance(const double time, double dt, const unsigned int step)
 {
-  StepReport           report;
+  StepReport report;
   const ExtraNumbering committed_numbering = system.extra_numbering();
   for (unsigned int attempt_number = 0;; ++attempt_number)
+  {
+    context = scheme.context(time, dt, step, attempt_number);
+    double dt_limit = std::numeric_limits<double>::infinity();
+    std::string reason;
+    bool accepted = attempt(report, reason, dt_limit);
+
+    // A smooth run may also be judged by its local error.
+    const double error = accepted ? scheme.error_estimate(context, before, current) : -1.;
+    if (error > 2. * control.error_tolerance && dt > control.minimum_step)
     {
-      context              = scheme.context(time, dt, step, attempt_number);
-      double      dt_limit = std::numeric_limits<double>::infinity();
-      std::string reason;
-      bool        accepted = attempt(report, reason, dt_limit);
-
-      // A smooth run may also be judged by its local error.
-      const double error =
-        accepted ? scheme.error_estimate(context, before, current) : -1.;
-      if (error > 2. * control.error_tolerance && dt > control.minimum_step)
-        {
-          accepted = false;
-          reason   = "the local error is " + std::to_string(error);
-        }
-
-      if (accepted && step == control.rejected_step && attempt_number == 0)
-        {
-          accepted = false;
-          reason   = "rejected as the deck demands ('Time/Reject first attempt of step')";
-        }
-
-      if (accepted)
-        {
-          const State state = last_state();
-          balance           = network.balance(context, state, system.collectives());
-          network.commit(context, state, system.collectives());
-          model.commit(context, state);
-          // The history follows the numbering that has come out of the step.
-          for (std::vector<double> *history : scheme.extra_history())
-            *history = system.extra_numbering().transfer(committed_numbering, *history, 0.);
-          scheme.accept(context, before, current);
-          committed = current;
-
-          double growth = control.growth;
-          if (growth < 0.)
-            growth = std::isfinite(dt_limit) ? 1.3 : 1.;
-          if (error > 0. && std::isfinite(control.error_tolerance))
-            {
-              // A new step costs a new factor of the matrix: it must be worth it.
-              const double wanted =
-                0.9 * std::pow(control.error_tolerance / error, 1. / (scheme.order() + 1.));
-              growth = wanted < 1. ? std::max(wanted, 0.3) : wanted < 1.5 ? 1. : std::min(wanted, growth);
-            }
-          else if (std::isfinite(control.error_tolerance))
-            growth = 1.; // not enough history for an estimate
-          report.dt = dt;
-          report.next_dt =
-            std::min({dt * growth, dt_limit, control.maximum_step});
-          report.next_dt = std::max(report.next_dt, control.minimum_step);
-          return report;
-        }
-
-      ++report.rejected;
-      model.rollback();
-      network.rollback();
-      current.extra = committed.extra;
-      system.adopt_extra(committed_numbering, {&current.extra});
-      if (dt <= control.minimum_step * (1. + 1e-10))
-        throw SolveError("Step " + std::to_string(step) + " at t = " + std::to_string(time) +
-                         " s fails even with the shortest step allowed, " + std::to_string(dt) +
-                         " s: " + reason +
-                         ". Try a smaller 'Time/Minimum step', a finer mesh where the fracture is, "
-                         "or a greater 'Fracture flow/Minimum aperture'.");
-      run.out << "  step " << step << ": " << reason << "; dt " << dt << " -> "
-              << std::max(0.5 * dt, control.minimum_step) << " s" << std::endl;
-      dt = std::max(0.5 * dt, control.minimum_step);
+      accepted = false;
+      reason = "the local error is " + std::to_string(error);
     }
+
+    if (accepted && step == control.rejected_step && attempt_number == 0)
+    {
+      accepted = false;
+      reason = "rejected as the deck demands ('Time/Reject first attempt of step')";
+    }
+
+    if (accepted)
+    {
+      const State state = last_state();
+      balance = network.balance(context, state, system.collectives());
+      network.commit(context, state, system.collectives());
+      model.commit(context, state);
+      // The history follows the numbering that has come out of the step.
+      for (std::vector<double> *history : scheme.extra_history())
+        *history = system.extra_numbering().transfer(committed_numbering, *history, 0.);
+      scheme.accept(context, before, current);
+      committed = current;
+
+      double growth = control.growth;
+      if (growth < 0.)
+        growth = std::isfinite(dt_limit) ? 1.3 : 1.;
+      if (error > 0. && std::isfinite(control.error_tolerance))
+      {
+        // A new step costs a new factor of the matrix: it must be worth it.
+        const double wanted =
+          0.9 * std::pow(control.error_tolerance / error, 1. / (scheme.order() + 1.));
+        growth = wanted < 1. ? std::max(wanted, 0.3) : wanted < 1.5 ? 1. : std::min(wanted, growth);
+      }
+      else if (std::isfinite(control.error_tolerance))
+        growth = 1.; // not enough history for an estimate
+      report.dt = dt;
+      report.next_dt = std::min({dt * growth, dt_limit, control.maximum_step});
+      report.next_dt = std::max(report.next_dt, control.minimum_step);
+      return report;
+    }
+
+    ++report.rejected;
+    model.rollback();
+    network.rollback();
+    current.extra = committed.extra;
+    system.adopt_extra(committed_numbering, {&current.extra});
+    if (dt <= control.minimum_step * (1. + 1e-10))
+      throw SolveError("Step " + std::to_string(step) + " at t = " + std::to_string(time) +
+                       " s fails even with the shortest step allowed, " + std::to_string(dt) +
+                       " s: " + reason +
+                       ". Try a smaller 'Time/Minimum step', a finer mesh where the fracture is, "
+                       "or a greater 'Fracture flow/Minimum aperture'.");
+    run.out << "  step " << step << ": " << reason << "; dt " << dt << " -> "
+            << std::max(0.5 * dt, control.minimum_step) << " s" << std::endl;
+    dt = std::max(0.5 * dt, control.minimum_step);
+  }
 }
 
 
 template <int dim>
-State
-Stepper<dim>::last_state() const
+State Stepper<dim>::last_state() const
 {
   return system.state(current, before, rate_reference, acceleration_reference);
 }
 
 
 template <int dim>
-std::vector<TrilinosWrappers::MPI::BlockVector *>
-Stepper<dim>::bulk_vectors()
+std::vector<TrilinosWrappers::MPI::BlockVector *> Stepper<dim>::bulk_vectors()
 {
   auto vectors = scheme.bulk_history();
   vectors.insert(vectors.begin(), &committed.bulk);
@@ -242,8 +221,7 @@ Stepper<dim>::bulk_vectors()
 
 
 template <int dim>
-std::vector<std::vector<double> *>
-Stepper<dim>::extra_vectors()
+std::vector<std::vector<double> *> Stepper<dim>::extra_vectors()
 {
   auto vectors = scheme.extra_history();
   vectors.insert(vectors.begin(), &committed.extra);

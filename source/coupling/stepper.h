@@ -13,26 +13,24 @@ struct StepControl
 {
   double start_time, end_time;
   double initial_step, minimum_step, maximum_step;
-  double growth;          ///< greatest ratio of successive steps
-  double error_tolerance; ///< of the local error estimate; infinite: not used
+  double growth;                  ///< greatest ratio of successive steps
+  double error_tolerance;         ///< of the local error estimate; infinite: not used
   unsigned int rejected_step = 0; ///< its first attempt is thrown away, to test that; 0: none
 
-  static void
-  declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(dealii::ParameterHandler &prm);
 
-  void
-  parse_parameters(dealii::ParameterHandler &prm);
+  void parse_parameters(dealii::ParameterHandler &prm);
 };
 
 /// What a step took.
 struct StepReport
 {
-  double       dt                   = 0.; ///< as accepted
-  double       next_dt              = 0.; ///< proposed
-  unsigned int rejected             = 0;  ///< attempts
-  unsigned int growths              = 0;  ///< times the topology has changed
+  double dt = 0.;            ///< as accepted
+  double next_dt = 0.;       ///< proposed
+  unsigned int rejected = 0; ///< attempts
+  unsigned int growths = 0;  ///< times the topology has changed
   unsigned int nonlinear_iterations = 0;
-  unsigned int linear_iterations    = 0;
+  unsigned int linear_iterations = 0;
 };
 
 /// Carries the unknowns through one time step: solve, let the fracture grow, solve again; accept,
@@ -41,56 +39,49 @@ template <int dim>
 class Stepper
 {
 public:
-  Stepper(RunContext         &run,
+  Stepper(RunContext &run,
           CoupledSystem<dim> &system,
           FractureModel<dim> &model,
-          Network<dim>       &network,
-          TimeScheme         &scheme,
-          const StepControl  &control);
+          Network<dim> &network,
+          TimeScheme &scheme,
+          const StepControl &control);
 
   /// The unknowns at the last accepted time.
   Unknowns committed;
 
   /// From `time`, a step of at most `dt`. Throws SolveError if not even the shortest step succeeds;
   /// the unknowns are then those of the last accepted step.
-  StepReport
-  advance(double time, double dt, unsigned int step);
+  StepReport advance(double time, double dt, unsigned int step);
 
   /// The state at the end of the last step, for reports: references are those of that step.
-  State
-  last_state() const;
+  State last_state() const;
 
-  const StepContext &
-  last_context() const
+  const StepContext &last_context() const
   {
     return context;
   }
 
-  const FluidBalance &
-  fluid_balance() const
+  const FluidBalance &fluid_balance() const
   {
     return balance;
   }
 
   /// All bulk vectors that must move with the mesh, and all lists of extra unknowns.
-  std::vector<dealii::TrilinosWrappers::MPI::BlockVector *>
-  bulk_vectors();
-  std::vector<std::vector<double> *>
-  extra_vectors();
+  std::vector<dealii::TrilinosWrappers::MPI::BlockVector *> bulk_vectors();
+  std::vector<std::vector<double> *> extra_vectors();
 
 private:
-  bool
-  attempt(StepReport &report, std::string &reason, double &dt_limit);
+  bool attempt(StepReport &report, std::string &reason, double &dt_limit);
 
-  RunContext         &run;
+  RunContext &run;
   CoupledSystem<dim> &system;
   FractureModel<dim> &model;
-  Network<dim>       &network;
-  TimeScheme         &scheme;
-  StepControl         control;
+  Network<dim> &network;
+  TimeScheme &scheme;
+  StepControl control;
 
-  StepContext  context;
-  Unknowns     current, before, rate_reference, acceleration_reference;
+  StepContext context;
+  Unknowns current, before, rate_reference, acceleration_reference;
   FluidBalance balance;
 };
 } // namespace stockwork

@@ -8,10 +8,9 @@ namespace
 {
 /// Call `add(dof, weight)` for the unconstrained dofs that a dof depends on.
 template <class Function>
-void
-resolve(const AffineConstraints<double>     &constraints,
-        const types::global_dof_index        dof,
-        const Function                      &add)
+void resolve(const AffineConstraints<double> &constraints,
+             const types::global_dof_index dof,
+             const Function &add)
 {
   if (!constraints.is_constrained(dof))
     add(dof, 1.);
@@ -22,31 +21,31 @@ resolve(const AffineConstraints<double>     &constraints,
 } // namespace
 
 
-SystemSink::SystemSink(const AffineConstraints<double>    &constraints,
-                       LinearSystem                       &system,
+SystemSink::SystemSink(const AffineConstraints<double> &constraints,
+                       LinearSystem &system,
                        TrilinosWrappers::MPI::BlockVector &residual_bulk,
-                       std::vector<double>                &residual_extra,
-                       Triplets                           &extra_extra,
-                       const bool                          wants_matrix)
+                       std::vector<double> &residual_extra,
+                       Triplets &extra_extra,
+                       const bool wants_matrix)
   : constraints(constraints)
   , system(system)
   , residual_bulk(residual_bulk)
   , residual_extra(residual_extra)
   , extra_extra(extra_extra)
   , with_matrix(wants_matrix)
-{}
+{
+}
 
 
-void
-SystemSink::add(const LocalSystem &local)
+void SystemSink::add(const LocalSystem &local)
 {
   const unsigned int n_bulk = local.bulk.size(), n_extra = local.extra.size();
 
   for (unsigned int i = 0; i < n_bulk; ++i)
     if (local.residual(i) != 0.)
-      resolve(constraints, local.bulk[i], [&](const auto dof, const double weight) {
-        residual_bulk(dof) += weight * local.residual(i);
-      });
+      resolve(constraints, local.bulk[i],
+              [&](const auto dof, const double weight)
+              { residual_bulk(dof) += weight * local.residual(i); });
   for (unsigned int i = 0; i < n_extra; ++i)
     residual_extra[local.extra[i]] += local.residual(n_bulk + i);
 
@@ -55,26 +54,31 @@ SystemSink::add(const LocalSystem &local)
   for (unsigned int i = 0; i < n_bulk; ++i)
     for (unsigned int j = 0; j < n_bulk; ++j)
       if (local.matrix(i, j) != 0.)
-        {
-          bulk_touched = true;
-          resolve(constraints, local.bulk[i], [&](const auto row, const double row_weight) {
-            resolve(constraints, local.bulk[j], [&](const auto column, const double weight) {
-              system.bulk.add(row, column, row_weight * weight * local.matrix(i, j));
-            });
-          });
-        }
+      {
+        bulk_touched = true;
+        resolve(constraints, local.bulk[i],
+                [&](const auto row, const double row_weight)
+                {
+                  resolve(constraints, local.bulk[j],
+                          [&](const auto column, const double weight) {
+                            system.bulk.add(row, column, row_weight * weight * local.matrix(i, j));
+                          });
+                });
+      }
   for (unsigned int i = 0; i < n_bulk; ++i)
     for (unsigned int e = 0; e < n_extra; ++e)
-      {
-        const double down = local.matrix(i, n_bulk + e), across = local.matrix(n_bulk + e, i);
-        if (down != 0. || across != 0.)
-          resolve(constraints, local.bulk[i], [&](const auto dof, const double weight) {
-            if (down != 0.)
-              system.bulk_extra.add(dof, local.extra[e], weight * down);
-            if (across != 0.)
-              system.extra_bulk.add(local.extra[e], dof, weight * across);
-          });
-      }
+    {
+      const double down = local.matrix(i, n_bulk + e), across = local.matrix(n_bulk + e, i);
+      if (down != 0. || across != 0.)
+        resolve(constraints, local.bulk[i],
+                [&](const auto dof, const double weight)
+                {
+                  if (down != 0.)
+                    system.bulk_extra.add(dof, local.extra[e], weight * down);
+                  if (across != 0.)
+                    system.extra_bulk.add(local.extra[e], dof, weight * across);
+                });
+    }
   for (unsigned int d = 0; d < n_extra; ++d)
     for (unsigned int e = 0; e < n_extra; ++e)
       if (local.matrix(n_bulk + d, n_bulk + e) != 0.)

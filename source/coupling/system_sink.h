@@ -17,36 +17,33 @@ class SystemSink : public Sink
 {
 public:
   /// The residual of the extra rows is added to `residual_extra`, this rank's part only.
-  SystemSink(const dealii::AffineConstraints<double>    &constraints,
-             LinearSystem                               &system,
+  SystemSink(const dealii::AffineConstraints<double> &constraints,
+             LinearSystem &system,
              dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk,
-             std::vector<double>                        &residual_extra,
-             Triplets                                   &extra_extra,
-             bool                                        wants_matrix);
+             std::vector<double> &residual_extra,
+             Triplets &extra_extra,
+             bool wants_matrix);
 
-  bool
-  wants_matrix() const override
+  bool wants_matrix() const override
   {
     return with_matrix;
   }
 
-  bool
-  wants_residual() const override
+  bool wants_residual() const override
   {
     return true;
   }
 
-  void
-  add(const LocalSystem &local) override;
+  void add(const LocalSystem &local) override;
 
   bool bulk_touched = false;
 
 private:
-  const dealii::AffineConstraints<double>    &constraints;
-  LinearSystem                               &system;
+  const dealii::AffineConstraints<double> &constraints;
+  LinearSystem &system;
   dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk;
-  std::vector<double>                        &residual_extra;
-  Triplets                                   &extra_extra;
-  bool                                        with_matrix;
+  std::vector<double> &residual_extra;
+  Triplets &extra_extra;
+  bool with_matrix;
 };
 } // namespace stockwork

@@ -17,63 +17,50 @@ namespace
 {
 /// result = a x + b y, in all unknowns. Ghost values take part, so that none need be fetched again;
 /// deal.II's own operators do not write to vectors with ghost values.
-void
-combine(Unknowns &result, const double a, const Unknowns &x, const double b, const Unknowns &y)
+void combine(Unknowns &result, const double a, const Unknowns &x, const double b, const Unknowns &y)
 {
   if (&result != &x)
     result = x;
   for (unsigned int k = 0; k < result.bulk.n_blocks(); ++k)
-    {
-      Epetra_MultiVector &block = result.bulk.block(k).trilinos_vector();
-      if (b != 0.)
-        block.Update(b, y.bulk.block(k).trilinos_vector(), a);
-      else if (a != 1.)
-        block.Scale(a);
-    }
+  {
+    Epetra_MultiVector &block = result.bulk.block(k).trilinos_vector();
+    if (b != 0.)
+      block.Update(b, y.bulk.block(k).trilinos_vector(), a);
+    else if (a != 1.)
+      block.Scale(a);
+  }
   for (unsigned int i = 0; i < result.extra.size(); ++i)
     result.extra[i] = a * result.extra[i] + (b != 0. ? b * y.extra[i] : 0.);
 }
 } // namespace
 
 
-void
-TimeScheme::declare_parameters(ParameterHandler &prm)
+void TimeScheme::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Time");
-  prm.declare_entry("Scheme",
-                    "auto",
-                    Patterns::Selection("auto|backward Euler|BDF2|Newmark"),
+  prm.declare_entry("Scheme", "auto", Patterns::Selection("auto|backward Euler|BDF2|Newmark"),
                     "auto: Newmark with inertia; BDF2 for consolidation without a fracture; else "
                     "backward Euler.");
-  prm.declare_entry("Inertia",
-                    "off",
-                    Patterns::Selection("off|on"),
+  prm.declare_entry("Inertia", "off", Patterns::Selection("off|on"),
                     "Accelerations of rock and fluid together (u-p form).");
-  prm.declare_entry("Newmark beta",
-                    "0.25",
-                    Quantity(dimension::number, Range::positive()),
+  prm.declare_entry("Newmark beta", "0.25", Quantity(dimension::number, Range::positive()),
                     "Unconditionally stable for 2 beta >= gamma >= 1/2.");
-  prm.declare_entry("Newmark gamma",
-                    "0.5",
-                    Quantity(dimension::number, Range::positive()),
+  prm.declare_entry("Newmark gamma", "0.5", Quantity(dimension::number, Range::positive()),
                     "Above 1/2 damps numerically, at the price of second order.");
-  prm.declare_entry("Theta",
-                    "0.5",
-                    Quantity(dimension::number, Range::closed(0.5, 1.)),
+  prm.declare_entry("Theta", "0.5", Quantity(dimension::number, Range::closed(0.5, 1.)),
                     "Of the pressure, with Newmark.");
   prm.leave_subsection();
 }
 
 
-void
-TimeScheme::parse_parameters(ParameterHandler &prm, const bool smooth)
+void TimeScheme::parse_parameters(ParameterHandler &prm, const bool smooth)
 {
   prm.enter_subsection("Time");
-  const std::string name    = prm.get("Scheme");
-  const bool        inertia = prm.get("Inertia") == "on";
-  beta                      = get_quantity(prm, "Newmark beta", dimension::number);
-  gamma                     = get_quantity(prm, "Newmark gamma", dimension::number);
-  theta                     = get_quantity(prm, "Theta", dimension::number);
+  const std::string name = prm.get("Scheme");
+  const bool inertia = prm.get("Inertia") == "on";
+  beta = get_quantity(prm, "Newmark beta", dimension::number);
+  gamma = get_quantity(prm, "Newmark gamma", dimension::number);
+  theta = get_quantity(prm, "Theta", dimension::number);
   prm.leave_subsection();
 
   if (name == "Newmark" || (name == "auto" && inertia))
@@ -84,143 +71,128 @@ TimeScheme::parse_parameters(ParameterHandler &prm, const bool smooth)
     scheme = Kind::backward_euler;
 
   if (inertia != (scheme == Kind::newmark))
-    throw EntryError("Time/Scheme",
-                     name,
-                     inertia ? "Newmark or auto when Time/Inertia = on" :
-                               "not Newmark when Time/Inertia = off");
+    throw EntryError("Time/Scheme", name,
+                     inertia ? "Newmark or auto when Time/Inertia = on"
+                             : "not Newmark when Time/Inertia = off");
   if (scheme == Kind::newmark && !(2. * beta >= gamma && gamma >= 0.5))
-    throw EntryError("Time/Newmark gamma",
-                     std::to_string(gamma),
+    throw EntryError("Time/Newmark gamma", std::to_string(gamma),
                      "at least 1/2 and at most 2 beta = " + std::to_string(2. * beta) +
                        " (otherwise the scheme is unstable)");
 }
 
 
-void
-TimeScheme::initialise(const Unknowns &unknowns)
+void TimeScheme::initialise(const Unknowns &unknowns)
 {
   if (scheme == Kind::backward_euler)
     return;
   if (scheme == Kind::bdf2)
-    {
-      combine(previous, 1., unknowns, 0., unknowns);
-      combine(earlier, 1., unknowns, 0., unknowns);
-    }
+  {
+    combine(previous, 1., unknowns, 0., unknowns);
+    combine(earlier, 1., unknowns, 0., unknowns);
+  }
   if (scheme == Kind::newmark)
-    {
-      combine(velocity, 0., unknowns, 0., unknowns);
-      combine(acceleration, 0., unknowns, 0., unknowns);
-    }
+  {
+    combine(velocity, 0., unknowns, 0., unknowns);
+    combine(acceleration, 0., unknowns, 0., unknowns);
+  }
 }
 
 
-unsigned int
-TimeScheme::order() const
+unsigned int TimeScheme::order() const
 {
   return scheme == Kind::backward_euler ? 1 : 2;
 }
 
 
-StepContext
-TimeScheme::context(const double       time,
-                    const double       dt,
-                    const unsigned int step,
-                    const unsigned int attempt) const
+StepContext TimeScheme::context(const double time,
+                                const double dt,
+                                const unsigned int step,
+                                const unsigned int attempt) const
 {
   StepContext context;
-  context.time    = time + dt;
-  context.dt      = dt;
-  context.step    = step;
+  context.time = time + dt;
+  context.dt = dt;
+  context.step = step;
   context.attempt = attempt;
   context.rate = context.pressure_rate = 1. / dt;
   if (scheme == Kind::bdf2 && n_accepted > 0)
-    {
-      const double r = dt / previous_dt;
-      context.rate = context.pressure_rate = (1. + 2. * r) / ((1. + r) * dt);
-    }
+  {
+    const double r = dt / previous_dt;
+    context.rate = context.pressure_rate = (1. + 2. * r) / ((1. + r) * dt);
+  }
   else if (scheme == Kind::newmark)
-    {
-      context.rate          = gamma / (beta * dt);
-      context.acceleration  = 1. / (beta * dt * dt);
-      context.pressure_rate = 1. / (theta * dt);
-    }
+  {
+    context.rate = gamma / (beta * dt);
+    context.acceleration = 1. / (beta * dt * dt);
+    context.pressure_rate = 1. / (theta * dt);
+  }
   return context;
 }
 
 
-void
-TimeScheme::references(const StepContext &context,
-                       const Unknowns    &committed,
-                       Unknowns          &rate_reference,
-                       Unknowns          &acceleration_reference) const
+void TimeScheme::references(const StepContext &context,
+                            const Unknowns &committed,
+                            Unknowns &rate_reference,
+                            Unknowns &acceleration_reference) const
 {
   const double dt = context.dt;
   if (scheme == Kind::bdf2 && n_accepted > 0)
-    {
-      const double r = dt / previous_dt;
-      combine(rate_reference,
-              (1. + r) * (1. + r) / (1. + 2. * r),
-              committed,
-              -r * r / (1. + 2. * r),
-              previous);
-    }
+  {
+    const double r = dt / previous_dt;
+    combine(rate_reference, (1. + r) * (1. + r) / (1. + 2. * r), committed, -r * r / (1. + 2. * r),
+            previous);
+  }
   else if (scheme == Kind::newmark)
+  {
+    // u'' = (u - u_n - dt v_n)/(beta dt^2) - (1/(2 beta) - 1) a_n, and
+    // u'  = v_n + dt ((1-gamma) a_n + gamma u''), solved for the references.
+    combine(acceleration_reference, 1., committed, dt, velocity);
+    combine(acceleration_reference, 1., acceleration_reference, beta * dt * dt * (0.5 / beta - 1.),
+            acceleration);
+    Unknowns known;
+    combine(known, 1., velocity, dt * (1. - gamma), acceleration);
+    combine(rate_reference, 1., acceleration_reference, -beta * dt / gamma, known);
+    if (rate_reference.bulk.n_blocks() > 1)
     {
-      // u'' = (u - u_n - dt v_n)/(beta dt^2) - (1/(2 beta) - 1) a_n, and
-      // u'  = v_n + dt ((1-gamma) a_n + gamma u''), solved for the references.
-      combine(acceleration_reference, 1., committed, dt, velocity);
-      combine(acceleration_reference,
-              1.,
-              acceleration_reference,
-              beta * dt * dt * (0.5 / beta - 1.),
-              acceleration);
-      Unknowns known;
-      combine(known, 1., velocity, dt * (1. - gamma), acceleration);
-      combine(rate_reference, 1., acceleration_reference, -beta * dt / gamma, known);
-      if (rate_reference.bulk.n_blocks() > 1)
-        {
-          // p' = (p - p_n)/(theta dt) - (1/theta - 1) p'_n
-          auto &pressure = rate_reference.bulk.block(1);
-          pressure       = committed.bulk.block(1);
-          pressure.add((1. - theta) * dt, velocity.bulk.block(1));
-        }
+      // p' = (p - p_n)/(theta dt) - (1/theta - 1) p'_n
+      auto &pressure = rate_reference.bulk.block(1);
+      pressure = committed.bulk.block(1);
+      pressure.add((1. - theta) * dt, velocity.bulk.block(1));
     }
+  }
   else
     combine(rate_reference, 1., committed, 0., committed);
 }
 
 
-void
-TimeScheme::accept(const StepContext &context, const Unknowns &committed, const Unknowns &current)
+void TimeScheme::accept(const StepContext &context,
+                        const Unknowns &committed,
+                        const Unknowns &current)
 {
   if (scheme == Kind::newmark)
-    {
-      Unknowns rate_reference, acceleration_reference;
-      references(context, committed, rate_reference, acceleration_reference);
-      combine(velocity, context.rate, current, -context.rate, rate_reference);
-      if (velocity.bulk.n_blocks() > 1)
-        velocity.bulk.block(1) *= context.pressure_rate / context.rate;
-      combine(acceleration,
-              context.acceleration,
-              current,
-              -context.acceleration,
-              acceleration_reference);
-    }
+  {
+    Unknowns rate_reference, acceleration_reference;
+    references(context, committed, rate_reference, acceleration_reference);
+    combine(velocity, context.rate, current, -context.rate, rate_reference);
+    if (velocity.bulk.n_blocks() > 1)
+      velocity.bulk.block(1) *= context.pressure_rate / context.rate;
+    combine(acceleration, context.acceleration, current, -context.acceleration,
+            acceleration_reference);
+  }
   if (scheme == Kind::bdf2)
-    {
-      std::swap(earlier, previous);
-      combine(previous, 1., committed, 0., committed);
-    }
-  earlier_dt  = previous_dt;
+  {
+    std::swap(earlier, previous);
+    combine(previous, 1., committed, 0., committed);
+  }
+  earlier_dt = previous_dt;
   previous_dt = context.dt;
   ++n_accepted;
 }
 
 
-double
-TimeScheme::error_estimate(const StepContext &context,
-                           const Unknowns    &committed,
-                           const Unknowns    &current) const
+double TimeScheme::error_estimate(const StepContext &context,
+                                  const Unknowns &committed,
+                                  const Unknowns &current) const
 {
   if (scheme != Kind::bdf2 || n_accepted < 2)
     return -1.;
@@ -230,47 +202,44 @@ TimeScheme::error_estimate(const StepContext &context,
   // is that over the leading coefficient.
   const double h0 = context.dt, h1 = previous_dt, h2 = earlier_dt;
   const double missed = h0 * (h0 + h1) / context.rate;
-  const std::array<double, 4> weights = {{missed / (h0 * (h0 + h1) * (h0 + h1 + h2)),
-                                          -missed / (h0 * h1 * (h1 + h2)),
-                                          missed / ((h0 + h1) * h1 * h2),
-                                          -missed / ((h0 + h1 + h2) * (h1 + h2) * h2)}};
+  const std::array<double, 4> weights = {
+    {missed / (h0 * (h0 + h1) * (h0 + h1 + h2)), -missed / (h0 * h1 * (h1 + h2)),
+     missed / ((h0 + h1) * h1 * h2), -missed / ((h0 + h1 + h2) * (h1 + h2) * h2)}};
   double relative = 0.;
   for (unsigned int k = 0; k < current.bulk.n_blocks(); ++k)
+  {
+    // Owned entries only, so that the norms count no ghost value twice.
+    TrilinosWrappers::MPI::Vector error(current.bulk.block(k).locally_owned_elements(),
+                                        current.bulk.block(k).get_mpi_communicator()),
+      point(error);
+    error = current.bulk.block(k);
+    const double size = error.l2_norm();
+    const Unknowns *last[] = {&committed, &previous, &earlier};
+    error *= weights[0];
+    for (unsigned int i = 0; i < 3; ++i)
     {
-      // Owned entries only, so that the norms count no ghost value twice.
-      TrilinosWrappers::MPI::Vector error(current.bulk.block(k).locally_owned_elements(),
-                                          current.bulk.block(k).get_mpi_communicator()),
-        point(error);
-      error                     = current.bulk.block(k);
-      const double        size  = error.l2_norm();
-      const Unknowns     *last[] = {&committed, &previous, &earlier};
-      error *= weights[0];
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          point = last[i]->bulk.block(k);
-          error.add(weights[i + 1], point);
-        }
-      if (size > 0.)
-        relative = std::max(relative, error.l2_norm() / size);
+      point = last[i]->bulk.block(k);
+      error.add(weights[i + 1], point);
     }
+    if (size > 0.)
+      relative = std::max(relative, error.l2_norm() / size);
+  }
   return relative;
 }
 
 
-void
-TimeScheme::predict(const StepContext &context, Unknowns &unknowns) const
+void TimeScheme::predict(const StepContext &context, Unknowns &unknowns) const
 {
   if (scheme == Kind::newmark)
-    {
-      Unknowns start;
-      combine(start, 1., unknowns, context.dt, velocity);
-      combine(unknowns, 1., start, 0.5 * context.dt * context.dt, acceleration);
-    }
+  {
+    Unknowns start;
+    combine(start, 1., unknowns, context.dt, velocity);
+    combine(unknowns, 1., start, 0.5 * context.dt * context.dt, acceleration);
+  }
 }
 
 
-std::vector<TrilinosWrappers::MPI::BlockVector *>
-TimeScheme::bulk_history()
+std::vector<TrilinosWrappers::MPI::BlockVector *> TimeScheme::bulk_history()
 {
   if (scheme == Kind::newmark)
     return {&velocity.bulk, &acceleration.bulk};
@@ -280,8 +249,7 @@ TimeScheme::bulk_history()
 }
 
 
-std::vector<std::vector<double> *>
-TimeScheme::extra_history()
+std::vector<std::vector<double> *> TimeScheme::extra_history()
 {
   if (scheme == Kind::newmark)
     return {&velocity.extra, &acceleration.extra};

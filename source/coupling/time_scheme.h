@@ -21,73 +21,62 @@ public:
     newmark
   };
 
-  static void
-  declare_parameters(dealii::ParameterHandler &prm);
+  static void declare_parameters(dealii::ParameterHandler &prm);
 
   /// `smooth`: nothing in the run changes abruptly, so `auto` may choose second order.
-  void
-  parse_parameters(dealii::ParameterHandler &prm, bool smooth);
+  void parse_parameters(dealii::ParameterHandler &prm, bool smooth);
 
   /// The vectors of the history get the layout of `unknowns` and are zero; call once at the start.
-  void
-  initialise(const Unknowns &unknowns);
+  void initialise(const Unknowns &unknowns);
 
   /// Coefficients of a step from the last accepted time.
-  StepContext
-  context(double time, double dt, unsigned int step, unsigned int attempt) const;
+  StepContext context(double time, double dt, unsigned int step, unsigned int attempt) const;
 
   /// Fill the references that go with `context`.
-  void
-  references(const StepContext &context,
-             const Unknowns    &committed,
-             Unknowns          &rate_reference,
-             Unknowns          &acceleration_reference) const;
+  void references(const StepContext &context,
+                  const Unknowns &committed,
+                  Unknowns &rate_reference,
+                  Unknowns &acceleration_reference) const;
 
   /// The step is accepted; `committed` is the state at its start, `current` at its end.
-  void
-  accept(const StepContext &context, const Unknowns &committed, const Unknowns &current);
+  void accept(const StepContext &context, const Unknowns &committed, const Unknowns &current);
 
   /// The local error of the step relative to the size of the solution, the greater of displacement
   /// and pressure, of order order()+1 in dt; negative while there is not enough history.
-  double
-  error_estimate(const StepContext &context, const Unknowns &committed, const Unknowns &current) const;
+  double error_estimate(const StepContext &context,
+                        const Unknowns &committed,
+                        const Unknowns &current) const;
 
   /// Extrapolated start of the iteration, in place of the committed state `unknowns`.
-  void
-  predict(const StepContext &context, Unknowns &unknowns) const;
+  void predict(const StepContext &context, Unknowns &unknowns) const;
 
-  unsigned int
-  order() const;
+  unsigned int order() const;
 
-  Kind
-  kind() const
+  Kind kind() const
   {
     return scheme;
   }
 
   /// Vectors of history that must move with the mesh and into checkpoints.
-  std::vector<dealii::TrilinosWrappers::MPI::BlockVector *>
-  bulk_history();
+  std::vector<dealii::TrilinosWrappers::MPI::BlockVector *> bulk_history();
 
   /// The extra unknowns of the history, for renumbering.
-  std::vector<std::vector<double> *>
-  extra_history();
+  std::vector<std::vector<double> *> extra_history();
 
   template <class Archive>
-  void
-  serialize(Archive &archive, const unsigned int)
+  void serialize(Archive &archive, const unsigned int)
   {
     archive &previous_dt &earlier_dt &n_accepted;
   }
 
 private:
-  Kind   scheme    = Kind::backward_euler;
-  double beta      = 0.25;
-  double gamma     = 0.5;
-  double theta     = 0.5;
+  Kind scheme = Kind::backward_euler;
+  double beta = 0.25;
+  double gamma = 0.5;
+  double theta = 0.5;
 
-  double       previous_dt = 0., earlier_dt = 0.;
-  unsigned int n_accepted  = 0;
+  double previous_dt = 0., earlier_dt = 0.;
+  unsigned int n_accepted = 0;
 
   Unknowns previous;     ///< the state before the committed one (BDF2)
   Unknowns earlier;      ///< the one before that (BDF2, for the error estimate)

@@ -16,127 +16,121 @@ using namespace dealii;
 
 template <int dim>
 ErrorRecord<dim>::ErrorRecord(const ReferenceSolution<dim> &reference,
-                              const double                  start_time,
-                              const double                  end_time)
+                              const double start_time,
+                              const double end_time)
   : reference(reference)
   , start_time(start_time)
   , end_time(end_time)
-{}
-
-
-template <int dim>
-void
-ErrorRecord<dim>::add(const std::string &quantity,
-                      const double       time,
-                      const double       dt,
-                      const double       error)
 {
-  Error &record = all[quantity];
-  record.final  = error;
-  if (time >= start_time + 0.05 * (end_time - start_time))
-    {
-      record.integral += error * dt;
-      record.duration += dt;
-    }
 }
 
 
 template <int dim>
-bool
-ErrorRecord<dim>::compares(const double time) const
+void ErrorRecord<dim>::add(const std::string &quantity,
+                           const double time,
+                           const double dt,
+                           const double error)
+{
+  Error &record = all[quantity];
+  record.final = error;
+  if (time >= start_time + 0.05 * (end_time - start_time))
+  {
+    record.integral += error * dt;
+    record.duration += dt;
+  }
+}
+
+
+template <int dim>
+bool ErrorRecord<dim>::compares(const double time) const
 {
   return reference.compares_every_step || time >= end_time * (1. - 1e-12);
 }
 
 
 template <int dim>
-void
-ErrorRecord<dim>::add_fields(const double                              time,
-                             const double                              dt,
-                             const Mapping<dim>                       &mapping,
-                             const DoFHandler<dim>                    &dof_handler,
-                             const TrilinosWrappers::MPI::BlockVector &solution)
+void ErrorRecord<dim>::add_fields(const double time,
+                                  const double dt,
+                                  const Mapping<dim> &mapping,
+                                  const DoFHandler<dim> &dof_handler,
+                                  const TrilinosWrappers::MPI::BlockVector &solution)
 {
   const auto field = reference.field();
   if (!field || !compares(time))
     return;
   field->set_time(time);
-  const auto        &fe           = dof_handler.get_fe();
+  const auto &fe = dof_handler.get_fe();
   const unsigned int n_components = fe.n_components();
   AssertDimension(field->n_components, n_components);
   const QGauss<dim> quadrature(fe.degree + 2);
-  FEValues<dim>     fe_values(mapping,
-                          fe,
-                          quadrature,
+  FEValues<dim> fe_values(mapping, fe, quadrature,
                           update_values | update_quadrature_points | update_JxW_values);
   std::vector<Vector<double>> computed(quadrature.size(), Vector<double>(n_components));
-  Vector<double>              expected(n_components);
-  const auto                  point = reference.observation_point();
-  double                      observed = -std::numeric_limits<double>::infinity();
+  Vector<double> expected(n_components);
+  const auto point = reference.observation_point();
+  double observed = -std::numeric_limits<double>::infinity();
 
   // Squares of the differences and of the reference: of the displacement, of the pressure.
   std::vector<double> squares(4, 0.);
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
+    {
+      fe_values.reinit(cell);
+      fe_values.get_function_values(solution, computed);
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
       {
-        fe_values.reinit(cell);
-        fe_values.get_function_values(solution, computed);
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            field->vector_value(fe_values.quadrature_point(q), expected);
-            expected *= reference.comparison_factor;
-            for (unsigned int c = 0; c < n_components; ++c)
-              {
-                const double difference = computed[q](c) - expected(c);
-                squares[c < dim ? 0 : 2] += difference * difference * fe_values.JxW(q);
-                squares[c < dim ? 1 : 3] += expected(c) * expected(c) * fe_values.JxW(q);
-              }
-          }
-        if (point && n_components > dim)
-          for (const unsigned int v : cell->vertex_indices())
-            if (cell->vertex(v).distance(*point) < 1e-8 * cell->diameter())
-              observed = solution(cell->vertex_dof_index(v, dim));
+        field->vector_value(fe_values.quadrature_point(q), expected);
+        expected *= reference.comparison_factor;
+        for (unsigned int c = 0; c < n_components; ++c)
+        {
+          const double difference = computed[q](c) - expected(c);
+          squares[c < dim ? 0 : 2] += difference * difference * fe_values.JxW(q);
+          squares[c < dim ? 1 : 3] += expected(c) * expected(c) * fe_values.JxW(q);
+        }
       }
+      if (point && n_components > dim)
+        for (const unsigned int v : cell->vertex_indices())
+          if (cell->vertex(v).distance(*point) < 1e-8 * cell->diameter())
+            observed = solution(cell->vertex_dof_index(v, dim));
+    }
   const MPI_Comm communicator = dof_handler.get_communicator();
   Utilities::MPI::sum(squares, communicator, squares);
   for (unsigned int k = 0; k < 2; ++k)
     if (squares[2 * k + 1] > 0.)
-      add(k == 0 ? "displacement" : "pore_pressure",
-          time,
-          dt,
+      add(k == 0 ? "displacement" : "pore_pressure", time, dt,
           std::sqrt(squares[2 * k] / squares[2 * k + 1]));
 
   if (point && n_components > dim)
-    {
-      peak           = std::max(peak, Utilities::MPI::max(observed, communicator));
-      peak_reference = std::max(peak_reference, field->value(*point, dim));
-      const double expected_peak = reference.comparison_factor * peak_reference;
-      add("peak_pore_pressure", time, dt, std::abs(peak - expected_peak) / std::abs(expected_peak));
-    }
+  {
+    peak = std::max(peak, Utilities::MPI::max(observed, communicator));
+    peak_reference = std::max(peak_reference, field->value(*point, dim));
+    const double expected_peak = reference.comparison_factor * peak_reference;
+    add("peak_pore_pressure", time, dt, std::abs(peak - expected_peak) / std::abs(expected_peak));
+  }
 }
 
 
 template <int dim>
-void
-ErrorRecord<dim>::add_values(const double                         time,
-                             const double                         dt,
-                             const std::map<std::string, double> &values)
+void ErrorRecord<dim>::add_values(const double time,
+                                  const double dt,
+                                  const std::map<std::string, double> &values)
 {
   if (!compares(time))
     return;
-  const auto find = [&values](const std::string &column) {
+  const auto find = [&values](const std::string &column)
+  {
     const auto position = values.find(column);
     return position != values.end() ? position->second : std::numeric_limits<double>::quiet_NaN();
   };
   for (const auto &[quantity, value] : reference.values(time))
-    {
-      const double expected = reference.comparison_factor * value;
-      double       found    = find(quantity == "inlet_pressure" ? "net_inlet_pressure" : quantity);
-      if (quantity == "fracture_length")
-        found = 0.5 * (found + find("broken_length"));
-      if (expected != 0. && std::isfinite(found))
-        add(quantity, time, dt, std::abs(found - expected) / std::abs(expected));
-    }
+  {
+    const double expected = reference.comparison_factor * value;
+    double found = find(quantity == "inlet_pressure" ? "net_inlet_pressure" : quantity);
+    if (quantity == "fracture_length")
+      found = 0.5 * (found + find("broken_length"));
+    if (expected != 0. && std::isfinite(found))
+      add(quantity, time, dt, std::abs(found - expected) / std::abs(expected));
+  }
 }
 
 

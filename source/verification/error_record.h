@@ -23,19 +23,17 @@ class ErrorRecord
 public:
   struct Error
   {
-    double final    = 0.;
+    double final = 0.;
     double integral = 0.;
     double duration = 0.;
 
-    double
-    mean() const
+    double mean() const
     {
       return duration > 0. ? integral / duration : final;
     }
 
     template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
+    void serialize(Archive &archive, const unsigned int)
     {
       archive &final &integral &duration;
     }
@@ -44,42 +42,36 @@ public:
   ErrorRecord(const ReferenceSolution<dim> &reference, double start_time, double end_time);
 
   /// Relative L2 errors of displacement and pore pressure at the end of a step. Collective.
-  void
-  add_fields(double                                            time,
-             double                                            dt,
-             const dealii::Mapping<dim>                       &mapping,
-             const dealii::DoFHandler<dim>                    &dof_handler,
-             const dealii::TrilinosWrappers::MPI::BlockVector &solution);
+  void add_fields(double time,
+                  double dt,
+                  const dealii::Mapping<dim> &mapping,
+                  const dealii::DoFHandler<dim> &dof_handler,
+                  const dealii::TrilinosWrappers::MPI::BlockVector &solution);
 
   /// Relative errors of scalars that both sides know. The length of a fracture with a process zone
   /// is the mean of its whole and its fully broken length: the zone counts for half, as in the
   /// linear-elastic limit.
-  void
-  add_values(double time, double dt, const std::map<std::string, double> &values);
+  void add_values(double time, double dt, const std::map<std::string, double> &values);
 
-  const std::map<std::string, Error> &
-  errors() const
+  const std::map<std::string, Error> &errors() const
   {
     return all;
   }
 
   template <class Archive>
-  void
-  serialize(Archive &archive, const unsigned int)
+  void serialize(Archive &archive, const unsigned int)
   {
     archive &all &peak &peak_reference;
   }
 
 private:
-  bool
-  compares(double time) const;
+  bool compares(double time) const;
 
-  void
-  add(const std::string &quantity, double time, double dt, double error);
+  void add(const std::string &quantity, double time, double dt, double error);
 
   const ReferenceSolution<dim> &reference;
-  double                        start_time, end_time;
-  std::map<std::string, Error>  all;
-  double                        peak = 0., peak_reference = 0.;
+  double start_time, end_time;
+  std::map<std::string, Error> all;
+  double peak = 0., peak_reference = 0.;
 };
 } // namespace stockwork

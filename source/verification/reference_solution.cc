@@ -37,8 +37,7 @@ const Entry table[] = {
 
 
 template <int dim>
-auto
-maker(const Entry &entry)
+auto maker(const Entry &entry)
 {
   if constexpr (dim == 2)
     return entry.make_2d;
@@ -48,51 +47,38 @@ maker(const Entry &entry)
 } // namespace
 
 
-void
-declare_reference_parameters(ParameterHandler &prm)
+void declare_reference_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Verification");
   std::string names = "none";
   for (const Entry &entry : table)
     names += std::string("|") + entry.name;
-  prm.declare_entry("Reference",
-                    "none",
-                    Patterns::Selection(names),
-                    "Analytical solution that the run is compared with. It takes its constants from "
-                    "the rest of the deck. column: along the last axis, loaded at the top. mandel: "
-                    "quarter x, y >= 0, moved at the top. cryer: octant of a ball, deleeuw: quarter of a "
-                    "disc, loaded and drained at the surface. bar wave, porous wave: along the last "
-                    "axis, loaded at the top. line crack: in an infinite body; crack in "
-                    "box: with rollers all round. kgd: at the deck's own toughness and viscosity; "
-                    "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
-                    "the rollers of the domain all round.");
-  prm.declare_entry("Reference factor",
-                    "1",
-                    Patterns::Double(),
+  prm.declare_entry(
+    "Reference", "none", Patterns::Selection(names),
+    "Analytical solution that the run is compared with. It takes its constants from "
+    "the rest of the deck. column: along the last axis, loaded at the top. mandel: "
+    "quarter x, y >= 0, moved at the top. cryer: octant of a ball, deleeuw: quarter of a "
+    "disc, loaded and drained at the surface. bar wave, porous wave: along the last "
+    "axis, loaded at the top. line crack: in an infinite body; crack in "
+    "box: with rollers all round. kgd: at the deck's own toughness and viscosity; "
+    "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
+    "the rollers of the domain all round.");
+  prm.declare_entry("Reference factor", "1", Patterns::Double(),
                     "Multiplies the reference where errors are formed. Other than 1 only in tests "
                     "that a comparison can fail.");
-  prm.declare_entry("Start from reference",
-                    "false",
-                    Patterns::Bool(),
+  prm.declare_entry("Start from reference", "false", Patterns::Bool(),
                     "Take displacement and pore pressure at the start time from the reference.");
-  prm.declare_entry("Compare",
-                    "every step",
-                    Patterns::Selection("every step|at the end"),
+  prm.declare_entry("Compare", "every step", Patterns::Selection("every step|at the end"),
                     "When errors are formed. Their mean over time needs every step.");
-  prm.declare_entry("Load",
-                    "1 N/m",
-                    Quantity(dimension::force_per_length),
+  prm.declare_entry("Load", "1 N/m", Quantity(dimension::force_per_length),
                     "mandel: force on the half width of the plate.");
-  prm.declare_entry("Rise time",
-                    "1 s",
-                    Quantity(dimension::time, Range::positive()),
+  prm.declare_entry("Rise time", "1 s", Quantity(dimension::time, Range::positive()),
                     "bar wave, porous wave: duration of the rise of the load.");
   prm.leave_subsection();
 }
 
 
-bool
-starts_from_reference(ParameterHandler &prm)
+bool starts_from_reference(ParameterHandler &prm)
 {
   prm.enter_subsection("Verification");
   const bool result = prm.get_bool("Start from reference");
@@ -102,35 +88,33 @@ starts_from_reference(ParameterHandler &prm)
 
 
 template <int dim>
-std::unique_ptr<ReferenceSolution<dim>>
-make_reference(ParameterHandler &prm, const ReferenceInput<dim> &input)
+std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
+                                                       const ReferenceInput<dim> &input)
 {
   std::unique_ptr<ReferenceSolution<dim>> solution;
   prm.enter_subsection("Verification");
   const std::string name = prm.get("Reference");
   for (const Entry &entry : table)
     if (name == entry.name)
-      {
-        if (maker<dim>(entry) == nullptr)
-          throw EntryError("Verification/Reference",
-                           name,
-                           "a solution in " + std::to_string(dim) + "-D");
-        solution                      = maker<dim>(entry)(prm, input);
-        solution->comparison_factor   = prm.get_double("Reference factor");
-        solution->compares_every_step = prm.get("Compare") == "every step";
-      }
+    {
+      if (maker<dim>(entry) == nullptr)
+        throw EntryError("Verification/Reference", name,
+                         "a solution in " + std::to_string(dim) + "-D");
+      solution = maker<dim>(entry)(prm, input);
+      solution->comparison_factor = prm.get_double("Reference factor");
+      solution->compares_every_step = prm.get("Compare") == "every step";
+    }
   const bool starts = prm.get_bool("Start from reference");
   prm.leave_subsection();
   if (starts && (!solution || !solution->field()))
-    throw EntryError("Verification/Start from reference",
-                     "true",
+    throw EntryError("Verification/Start from reference", "true",
                      "false, because reference '" + name + "' gives no fields");
   return solution;
 }
 
 
-template std::unique_ptr<ReferenceSolution<2>>
-make_reference<2>(ParameterHandler &, const ReferenceInput<2> &);
-template std::unique_ptr<ReferenceSolution<3>>
-make_reference<3>(ParameterHandler &, const ReferenceInput<3> &);
+template std::unique_ptr<ReferenceSolution<2>> make_reference<2>(ParameterHandler &,
+                                                                 const ReferenceInput<2> &);
+template std::unique_ptr<ReferenceSolution<3>> make_reference<3>(ParameterHandler &,
+                                                                 const ReferenceInput<3> &);
 } // namespace stockwork

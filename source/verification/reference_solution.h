@@ -23,28 +23,24 @@ public:
   virtual ~ReferenceSolution() = default;
 
   /// For people: "Mandel (1953)".
-  virtual std::string
-  name() const = 0;
+  virtual std::string name() const = 0;
 
   /// Displacement and, if the rock has one, pore pressure over in situ in the last component, as a
   /// function of place and of its time; null where only scalars are known.
-  virtual std::shared_ptr<dealii::Function<dim>>
-  field() const
+  virtual std::shared_ptr<dealii::Function<dim>> field() const
   {
     return {};
   }
 
   /// Where the course of the pore pressure is of interest (the Mandel-Cryer effect).
-  virtual std::optional<dealii::Point<dim>>
-  observation_point() const
+  virtual std::optional<dealii::Point<dim>> observation_point() const
   {
     return {};
   }
 
   /// Scalars at a time, by the names of the columns of the statistics; `inlet_pressure` is net of
   /// the in-situ stress and is compared with the column net_inlet_pressure.
-  virtual std::map<std::string, double>
-  values(double /*time*/) const
+  virtual std::map<std::string, double> values(double /*time*/) const
   {
     return {};
   }
@@ -62,10 +58,10 @@ public:
 template <int dim>
 struct ReferenceInput
 {
-  const Rock        &rock;
+  const Rock &rock;
   dealii::Point<dim> lower, upper; ///< corners of the domain [m]
-  bool               has_pore_pressure = false;
-  double             end_time = 0.; ///< [s]
+  bool has_pore_pressure = false;
+  double end_time = 0.; ///< [s]
 
   /// Corners of the cracks that are there at the start.
   std::vector<std::vector<dealii::Point<dim>>> cracks = {};
@@ -92,15 +88,13 @@ struct ReferenceInput
 };
 
 /// Declares subsection Verification with the entries of all reference solutions.
-void
-declare_reference_parameters(dealii::ParameterHandler &prm);
+void declare_reference_parameters(dealii::ParameterHandler &prm);
 
 /// Whether the run starts from the reference solution's fields and not from zero.
-bool
-starts_from_reference(dealii::ParameterHandler &prm);
+bool starts_from_reference(dealii::ParameterHandler &prm);
 
 /// The solution that the deck names, or null for `none`.
 template <int dim>
-std::unique_ptr<ReferenceSolution<dim>>
-make_reference(dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
+std::unique_ptr<ReferenceSolution<dim>> make_reference(dealii::ParameterHandler &prm,
+                                                       const ReferenceInput<dim> &input);
 } // namespace stockwork

@@ -21,9 +21,8 @@ public:
   {
   }
 
-  Verdict advance(const StepContext &context,
-                  const State &state,
-                  const Collectives &collectives) override
+  Verdict
+  advance(const StepContext &context, const State &state, const Collectives &collectives) override
   {
     Verdict verdict = model->advance(context, state, collectives);
     if (verdict.kind == Verdict::Kind::accept)
@@ -63,9 +62,8 @@ public:
   {
     return model->role(cell);
   }
-  void assemble(const StepContext &context,
-                const State &state,
-                stockwork::Sink &sink) const override
+  void
+  assemble(const StepContext &context, const State &state, stockwork::Sink &sink) const override
   {
     model->assemble(context, state, sink);
   }

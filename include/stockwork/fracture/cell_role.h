@@ -14,16 +14,15 @@ namespace stockwork
 template <int dim>
 struct CutCell
 {
-  std::vector<dealii::Point<dim>> points;  ///< in unit-cell coordinates
-  std::vector<double>             weights; ///< times the Jacobian: they sum to the cell's volume
+  std::vector<dealii::Point<dim>> points; ///< in unit-cell coordinates
+  std::vector<double> weights;            ///< times the Jacobian: they sum to the cell's volume
 
-  std::vector<unsigned int> extra;     ///< index of the unknown, one per column
-  std::vector<unsigned int> component; ///< direction of displacement, one per column
-  std::vector<double>       values;    ///< [q * n_columns + c]
+  std::vector<unsigned int> extra;               ///< index of the unknown, one per column
+  std::vector<unsigned int> component;           ///< direction of displacement, one per column
+  std::vector<double> values;                    ///< [q * n_columns + c]
   std::vector<dealii::Tensor<1, dim>> gradients; ///< real space, [q * n_columns + c]
 
-  unsigned int
-  n_columns() const
+  unsigned int n_columns() const
   {
     return extra.size();
   }
@@ -46,7 +45,7 @@ struct BulkCoefficients
 {
   dealii::SymmetricTensor<4, dim> stiffness;
   dealii::SymmetricTensor<2, dim> biot;
-  double                          storage; ///< 1/M [1/Pa]
+  double storage;                           ///< 1/M [1/Pa]
   dealii::SymmetricTensor<2, dim> mobility; ///< k/mu [m^2/(Pa s)]
 };
 } // namespace stockwork

@@ -12,42 +12,37 @@ class Collectives
 public:
   explicit Collectives(const MPI_Comm communicator)
     : communicator(communicator)
-  {}
+  {
+  }
 
-  double
-  sum(const double value) const
+  double sum(const double value) const
   {
     return dealii::Utilities::MPI::sum(value, communicator);
   }
 
-  void
-  sum(std::vector<double> &values) const
+  void sum(std::vector<double> &values) const
   {
     dealii::Utilities::MPI::sum(values, communicator, values);
   }
 
-  double
-  max(const double value) const
+  double max(const double value) const
   {
     return dealii::Utilities::MPI::max(value, communicator);
   }
 
-  double
-  min(const double value) const
+  double min(const double value) const
   {
     return dealii::Utilities::MPI::min(value, communicator);
   }
 
-  unsigned int
-  rank() const
+  unsigned int rank() const
   {
     return dealii::Utilities::MPI::this_mpi_process(communicator);
   }
 
   /// Everyone's objects, in the order of the ranks. T needs boost serialization.
   template <class T>
-  std::vector<T>
-  gather(const std::vector<T> &mine) const
+  std::vector<T> gather(const std::vector<T> &mine) const
   {
     std::vector<T> all;
     for (auto &part : dealii::Utilities::MPI::all_gather(communicator, mine))

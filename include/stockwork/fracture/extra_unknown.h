@@ -10,7 +10,7 @@ namespace stockwork
 struct ExtraUnknown
 {
   std::uint64_t key;
-  double        initial = 0.; ///< value, and rate reference, when it appears for the first time
-  double        scale   = 1.; ///< typical size, for the convergence test
+  double initial = 0.; ///< value, and rate reference, when it appears for the first time
+  double scale = 1.;   ///< typical size, for the convergence test
 };
 } // namespace stockwork

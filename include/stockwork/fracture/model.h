@@ -26,10 +26,10 @@ namespace stockwork
 /// What a model needs of the others. What nobody asks for is never allocated.
 struct Requirements
 {
-  bool pore_pressure     = false; ///< cannot run in dry, elastic rock
-  bool symmetric         = true;  ///< its own terms keep the matrix symmetric
-  bool changes_bulk      = false; ///< bulk_coefficients() has something to say
-  bool newton            = true;  ///< assemble() gives the exact derivative (else a secant)
+  bool pore_pressure = false; ///< cannot run in dry, elastic rock
+  bool symmetric = true;      ///< its own terms keep the matrix symmetric
+  bool changes_bulk = false;  ///< bulk_coefficients() has something to say
+  bool newton = true;         ///< assemble() gives the exact derivative (else a secant)
   bool quasi_static_only = false;
 };
 
@@ -42,9 +42,9 @@ struct Verdict
     topology_changed, ///< the fracture has grown: solve again at the same time
     reject            ///< not admissible: the driver rolls back and cuts the step
   };
-  Kind        kind     = Kind::accept;
-  double      dt_limit = std::numeric_limits<double>::infinity(); ///< for the next attempt or step
-  std::string reason;                                             ///< said to the user
+  Kind kind = Kind::accept;
+  double dt_limit = std::numeric_limits<double>::infinity(); ///< for the next attempt or step
+  std::string reason;                                        ///< said to the user
 };
 
 /// A fracture model. Few functions are pure; a model overrides what it needs. The order of calls
@@ -63,92 +63,85 @@ public:
 
   virtual ~FractureModel() = default;
 
-  virtual Requirements
-  requirements() const
+  virtual Requirements requirements() const
   {
     return {};
   }
 
   /// The mesh or the numbering of the bulk unknowns is new.
-  virtual void
-  setup(const Discretization<dim> &, const Collectives &)
-  {}
+  virtual void setup(const Discretization<dim> &, const Collectives &)
+  {
+  }
 
-  virtual void
-  begin_step(const StepContext &)
-  {}
+  virtual void begin_step(const StepContext &)
+  {
+  }
 
   /// The model's own unknowns, in the order of their indices, the same on every rank. Fluid
   /// pressures are not among them.
-  virtual std::vector<ExtraUnknown>
-  extra_unknowns() const
+  virtual std::vector<ExtraUnknown> extra_unknowns() const
   {
     return {};
   }
 
   /// Locally owned segments.
-  virtual dealii::ArrayView<const Segment<dim>>
-  segments() const
+  virtual dealii::ArrayView<const Segment<dim>> segments() const
   {
     return {};
   }
 
   /// How the bulk kernel shall treat a locally owned cell.
-  virtual CellRole<dim>
-  role(const CellIterator &) const
+  virtual CellRole<dim> role(const CellIterator &) const
   {
     return {};
   }
 
   /// Change the coefficients at the quadrature points of a cell; only called where
   /// requirements().changes_bulk.
-  virtual void
-  bulk_coefficients(const CellIterator &,
-                    const std::vector<dealii::Point<dim>> &,
-                    std::vector<BulkCoefficients<dim>> &) const
-  {}
+  virtual void bulk_coefficients(const CellIterator &,
+                                 const std::vector<dealii::Point<dim>> &,
+                                 std::vector<BulkCoefficients<dim>> &) const
+  {
+  }
 
   /// Pairs of bulk dofs that assemble() couples beyond those of a common cell.
-  virtual void
-  add_couplings(
+  virtual void add_couplings(
     const std::function<void(const std::vector<dealii::types::global_dof_index> &)> &) const
-  {}
+  {
+  }
 
   /// Add the model's own terms (cohesive tractions, bonds); not the fluid, not the bulk. A
   /// function of committed history and of the state alone: it may be called any number of times.
-  virtual void
-  assemble(const StepContext &, const State &, Sink &) const
-  {}
+  virtual void assemble(const StepContext &, const State &, Sink &) const
+  {
+  }
 
   /// Between two linear solves: move trial quantities (damage, contact sets) along with the
   /// iterate. Returns the relative change, which counts in the convergence test.
-  virtual double
-  update_iterate(const StepContext &, const State &, const Collectives &)
+  virtual double update_iterate(const StepContext &, const State &, const Collectives &)
   {
     return 0.;
   }
 
   /// The unknowns have converged: grow?
-  virtual Verdict
-  advance(const StepContext &, const State &, const Collectives &)
+  virtual Verdict advance(const StepContext &, const State &, const Collectives &)
   {
     return {};
   }
 
   /// The step is accepted: trial history becomes history.
-  virtual void
-  commit(const StepContext &, const State &)
-  {}
+  virtual void commit(const StepContext &, const State &)
+  {
+  }
 
   /// The step is rejected: back to the state at begin_step, as if it had never been.
-  virtual void
-  rollback()
-  {}
+  virtual void rollback()
+  {
+  }
 
   /// Sentences for the user since the last call: values the model has chosen by itself, warnings, a
   /// tip that has stopped. The same on every rank.
-  virtual std::vector<std::string>
-  take_messages()
+  virtual std::vector<std::string> take_messages()
   {
     return {};
   }
@@ -156,27 +149,26 @@ public:
   /// Lower the wanted size of cells (by active cell index, [m]) where the fracture is or may soon
   /// be. Called before the first setup(), when nothing but the scene's cracks is known, and between
   /// steps.
-  virtual void
-  wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &,
-                   std::vector<float> &) const
-  {}
+  virtual void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &,
+                                std::vector<float> &) const
+  {
+  }
 
-  virtual void
-  save(boost::archive::binary_oarchive &) const
-  {}
+  virtual void save(boost::archive::binary_oarchive &) const
+  {
+  }
 
-  virtual void
-  load(boost::archive::binary_iarchive &)
-  {}
+  virtual void load(boost::archive::binary_iarchive &)
+  {
+  }
 
-  virtual FractureSummary
-  summary(const State &, const Collectives &) const
+  virtual FractureSummary summary(const State &, const Collectives &) const
   {
     return {};
   }
 
-  virtual void
-  write_fields(const State &, FieldSink<dim> &) const
-  {}
+  virtual void write_fields(const State &, FieldSink<dim> &) const
+  {
+  }
 };
 } // namespace stockwork

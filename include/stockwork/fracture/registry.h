@@ -31,15 +31,12 @@ class FractureModelRegistry
 {
 public:
   /// Throws InputError when the name is taken.
-  void
-  add(const std::string &name, FractureModelEntry entry);
+  void add(const std::string &name, FractureModelEntry entry);
 
   /// Throws InputError naming the known models.
-  const FractureModelEntry &
-  find(const std::string &name) const;
+  const FractureModelEntry &find(const std::string &name) const;
 
-  const std::map<std::string, FractureModelEntry> &
-  all() const
+  const std::map<std::string, FractureModelEntry> &all() const
   {
     return entries;
   }

@@ -16,10 +16,10 @@ namespace stockwork
 struct LinearFunctional
 {
   std::vector<dealii::types::global_dof_index> bulk;
-  std::vector<double>                          bulk_coefficients;
-  std::vector<unsigned int>                    extra;
-  std::vector<double>                          extra_coefficients;
-  double                                       constant = 0.;
+  std::vector<double> bulk_coefficients;
+  std::vector<unsigned int> extra;
+  std::vector<double> extra_coefficients;
+  double constant = 0.;
 };
 
 /// A piece of a fracture, as the fluid sees it: a place, an area, a normal, neighbours, and the
@@ -30,23 +30,22 @@ struct Segment
 {
   struct Neighbour
   {
-    std::uint64_t key;      ///< the neighbour's key
-    double        distance; ///< from this segment's centre to the shared edge [m]
-    double        width;    ///< length of the shared edge [m]; 1 in 2-D
+    std::uint64_t key; ///< the neighbour's key
+    double distance;   ///< from this segment's centre to the shared edge [m]
+    double width;      ///< length of the shared edge [m]; 1 in 2-D
 
     template <class Archive>
-    void
-    serialize(Archive &ar, const unsigned int)
+    void serialize(Archive &ar, const unsigned int)
     {
       ar &key &distance &width;
     }
   };
 
-  std::uint64_t           key = 0; ///< the same on every rank, on every mesh, after a restart
-  dealii::Point<dim>      centre;
-  dealii::Tensor<1, dim>  normal; ///< unit, from the minus to the plus side
-  double                  area = 0.; ///< [m^2]; [m] per unit thickness in 2-D
-  std::vector<Neighbour>  neighbours;
+  std::uint64_t key = 0; ///< the same on every rank, on every mesh, after a restart
+  dealii::Point<dim> centre;
+  dealii::Tensor<1, dim> normal; ///< unit, from the minus to the plus side
+  double area = 0.;              ///< [m^2]; [m] per unit thickness in 2-D
+  std::vector<Neighbour> neighbours;
 
   /// Mean aperture [m]. Known on the rank that owns the host cell only.
   LinearFunctional opening;

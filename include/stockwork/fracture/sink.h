@@ -18,25 +18,24 @@ namespace stockwork
 struct LocalSystem
 {
   std::vector<dealii::types::global_dof_index> bulk;
-  std::vector<unsigned int>                    extra;
-  dealii::FullMatrix<double>                   matrix;
-  dealii::Vector<double>                       residual;
+  std::vector<unsigned int> extra;
+  dealii::FullMatrix<double> matrix;
+  dealii::Vector<double> residual;
 
   /// Size and zero matrix and residual for the index lists as they stand.
-  void
-  reinit()
+  void reinit()
   {
     const unsigned int n = bulk.size() + extra.size();
     if (matrix.m() != n)
-      {
-        matrix.reinit(n, n);
-        residual.reinit(n);
-      }
+    {
+      matrix.reinit(n, n);
+      residual.reinit(n);
+    }
     else
-      {
-        matrix   = 0.;
-        residual = 0.;
-      }
+    {
+      matrix = 0.;
+      residual = 0.;
+    }
   }
 };
 
@@ -47,13 +46,10 @@ class Sink
 public:
   virtual ~Sink() = default;
 
-  virtual bool
-  wants_matrix() const = 0;
+  virtual bool wants_matrix() const = 0;
 
-  virtual bool
-  wants_residual() const = 0;
+  virtual bool wants_residual() const = 0;
 
-  virtual void
-  add(const LocalSystem &) = 0;
+  virtual void add(const LocalSystem &) = 0;
 };
 } // namespace stockwork

@@ -18,17 +18,16 @@ namespace stockwork
 /// and Newmark differ in the numbers only, so nobody below the time scheme asks which one runs.
 struct StepContext
 {
-  double       time    = 0.; ///< time at the end of the step [s]
-  double       dt      = 0.; ///< length of the step [s]
-  unsigned int step    = 0;  ///< number of the step, from 1
+  double time = 0.;          ///< time at the end of the step [s]
+  double dt = 0.;            ///< length of the step [s]
+  unsigned int step = 0;     ///< number of the step, from 1
   unsigned int attempt = 0;  ///< 0 for the first attempt at this step
-  double       rate          = 0.; ///< [1/s]
-  double       pressure_rate = 0.; ///< [1/s]
-  double       acceleration  = 0.; ///< [1/s^2], zero when quasi-static
+  double rate = 0.;          ///< [1/s]
+  double pressure_rate = 0.; ///< [1/s]
+  double acceleration = 0.;  ///< [1/s^2], zero when quasi-static
 
   /// 1/rate [s]. Mass balances are integrated over this time, see Sink.
-  double
-  effective_dt() const
+  double effective_dt() const
   {
     return 1. / rate;
   }
@@ -41,7 +40,7 @@ struct StepContext
 struct Unknowns
 {
   dealii::TrilinosWrappers::MPI::BlockVector bulk;
-  std::vector<double>                        extra;
+  std::vector<double> extra;
 };
 
 /// What an assembly may depend on, besides the committed history of the model.

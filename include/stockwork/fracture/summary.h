@@ -12,11 +12,11 @@ namespace stockwork
 /// join. Apertures, pressures and volumes come from the segments, not from here.
 struct FractureSummary
 {
-  double       length        = 0.; ///< of all cracks, from mouth to physical tip [m] ([m^2] in 3-D)
-  double       broken_length = 0.; ///< part without any strength left
-  double       dissipated_energy = 0.; ///< by the fracture process since the start [J/m]
-  unsigned int n_tips        = 0;
-  std::optional<double> stress_intensity_I;  ///< of the first crack's last tip [Pa m^1/2]
+  double length = 0.;            ///< of all cracks, from mouth to physical tip [m] ([m^2] in 3-D)
+  double broken_length = 0.;     ///< part without any strength left
+  double dissipated_energy = 0.; ///< by the fracture process since the start [J/m]
+  unsigned int n_tips = 0;
+  std::optional<double> stress_intensity_I; ///< of the first crack's last tip [Pa m^1/2]
   std::optional<double> stress_intensity_II;
 };
 
@@ -28,12 +28,10 @@ public:
   virtual ~FieldSink() = default;
 
   /// One value per active cell, by active cell index; unowned entries are ignored.
-  virtual void
-  add_cell_field(const std::string &name, const std::vector<double> &values) = 0;
+  virtual void add_cell_field(const std::string &name, const std::vector<double> &values) = 0;
 
   /// A polyline piece of the fracture (2-D) with values at it.
-  virtual void
-  add_fracture_piece(const std::vector<dealii::Point<dim>> &corners,
-                     const std::vector<std::pair<std::string, double>> &values) = 0;
+  virtual void add_fracture_piece(const std::vector<dealii::Point<dim>> &corners,
+                                  const std::vector<std::pair<std::string, double>> &values) = 0;
 };
 } // namespace stockwork

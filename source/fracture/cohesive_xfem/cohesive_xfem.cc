@@ -401,8 +401,8 @@ void CohesiveXFEM<dim>::wanted_cell_size(
   {
     if (parameters.cell_size > 0.)
       for (const auto &crack : scene.cracks)
-        request_cell_size(triangulation, crack.points, parameters.cell_size,
-                          parameters.rings_ahead, sizes);
+        request_cell_size(triangulation, crack.points, parameters.cell_size, parameters.rings_ahead,
+                          sizes);
     return;
   }
   request_cell_size(triangulation, discontinuity, parameters.cell_size, parameters.rings_ahead,

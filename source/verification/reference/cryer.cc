@@ -18,10 +18,10 @@ public:
     : Field<dim>(true)
     , cryer(parameters)
     , now(cryer.at(0.))
-  {}
+  {
+  }
 
-  void
-  set_time(const double time) override
+  void set_time(const double time) override
   {
     if (time != this->get_time())
       now = cryer.at(time);
@@ -39,7 +39,7 @@ protected:
   }
 
 private:
-  analytical::Cryer       cryer;
+  analytical::Cryer cryer;
   analytical::CryerAtTime now;
 };
 
@@ -50,22 +50,20 @@ class CryerReference : public ReferenceSolution<dim>
 public:
   explicit CryerReference(const analytical::CryerParameters &parameters)
     : solution(std::make_shared<CryerField<dim>>(parameters))
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return dim == 2 ? "de Leeuw (1965)" : "Cryer (1963)";
   }
 
-  std::shared_ptr<Function<dim>>
-  field() const override
+  std::shared_ptr<Function<dim>> field() const override
   {
     return solution;
   }
 
-  std::optional<Point<dim>>
-  observation_point() const override
+  std::optional<Point<dim>> observation_point() const override
   {
     return Point<dim>();
   }
@@ -77,20 +75,15 @@ private:
 
 
 template <int dim>
-Made<dim>
-make_cryer(const ParameterHandler &, const ReferenceInput<dim> &input)
+Made<dim> make_cryer(const ParameterHandler &, const ReferenceInput<dim> &input)
 {
   using Shape = analytical::CryerParameters::Shape;
   return std::make_unique<CryerReference<dim>>(
-    analytical::CryerParameters{dim == 2 ? Shape::cylinder : Shape::sphere,
-                                medium(input.rock),
-                                input.upper[0],
-                                -input.normal_traction("surface", 0.)});
+    analytical::CryerParameters{dim == 2 ? Shape::cylinder : Shape::sphere, medium(input.rock),
+                                input.upper[0], -input.normal_traction("surface", 0.)});
 }
 
 
-template Made<2>
-make_cryer<2>(const ParameterHandler &, const ReferenceInput<2> &);
-template Made<3>
-make_cryer<3>(const ParameterHandler &, const ReferenceInput<3> &);
+template Made<2> make_cryer<2>(const ParameterHandler &, const ReferenceInput<2> &);
+template Made<3> make_cryer<3>(const ParameterHandler &, const ReferenceInput<3> &);
 } // namespace stockwork::reference

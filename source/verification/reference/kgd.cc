@@ -13,30 +13,27 @@ using namespace dealii;
 
 namespace
 {
-analytical::KgdParameters
-kgd_parameters(const ReferenceInput<2> &input)
+analytical::KgdParameters kgd_parameters(const ReferenceInput<2> &input)
 {
   const RockProperties &rock = input.rock.main();
   if (!(input.injection_rate > 0.))
-    throw InputError("The reference solution of the KGD fracture needs a well with a positive rate.");
+    throw InputError(
+      "The reference solution of the KGD fracture needs a well with a positive rate.");
   if (!(rock.energy_release_rate > 0.))
-    throw InputError("The reference solution of the KGD fracture needs 'Rock/Fracture toughness' or "
-                     "'Rock/Critical energy release rate'.");
-  return {rock.young_modulus,
-          rock.poisson_ratio,
-          input.rock.fluid().viscosity,
-          rock.toughness(),
+    throw InputError(
+      "The reference solution of the KGD fracture needs 'Rock/Fracture toughness' or "
+      "'Rock/Critical energy release rate'.");
+  return {rock.young_modulus, rock.poisson_ratio, input.rock.fluid().viscosity, rock.toughness(),
           input.injection_rate};
 }
 
 
 /// The number of wings in the model: one if a crack begins on the boundary.
-unsigned int
-n_wings(const ReferenceInput<2> &input)
+unsigned int n_wings(const ReferenceInput<2> &input)
 {
   if (input.cracks.empty())
     throw InputError("The reference solution of the KGD fracture needs an initial crack.");
-  const auto  &crack = input.cracks[0];
+  const auto &crack = input.cracks[0];
   const double small = 1e-8 * (input.upper[0] - input.lower[0]);
   for (const Point<2> &end : {crack.front(), crack.back()})
     if (std::abs(end[0] - input.lower[0]) < small || std::abs(end[0] - input.upper[0]) < small)
@@ -51,16 +48,15 @@ public:
   KgdReference(const analytical::KgdParameters &parameters, const unsigned int wings)
     : kgd(parameters)
     , wings(wings)
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return "KGD, self-similar for every toughness (Adachi & Detournay 2002)";
   }
 
-  std::map<std::string, double>
-  values(const double time) const override
+  std::map<std::string, double> values(const double time) const override
   {
     return {{"fracture_length", wings * kgd.half_length(time)},
             {"inlet_aperture", kgd.inlet_opening(time)},
@@ -70,7 +66,7 @@ public:
 
 private:
   analytical::Kgd kgd;
-  unsigned int    wings;
+  unsigned int wings;
 };
 
 
@@ -81,16 +77,15 @@ public:
     : kgd(parameters)
     , rate(parameters.rate)
     , wings(wings)
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return "KGD, toughness vertex";
   }
 
-  std::map<std::string, double>
-  values(const double time) const override
+  std::map<std::string, double> values(const double time) const override
   {
     return {{"fracture_length", wings * kgd.half_length(time)},
             {"inlet_aperture", kgd.inlet_opening(time)},
@@ -100,8 +95,8 @@ public:
 
 private:
   analytical::KgdToughnessVertex kgd;
-  double                         rate;
-  unsigned int                   wings;
+  double rate;
+  unsigned int wings;
 };
 
 
@@ -109,22 +104,21 @@ class KgdHistoryReference : public ReferenceSolution<2>
 {
 public:
   KgdHistoryReference(const analytical::HydraulicFractureParameters &parameters,
-                      const double                                   last_time,
-                      const unsigned int                             wings,
-                      const std::string                             &title)
+                      const double last_time,
+                      const unsigned int wings,
+                      const std::string &title)
     : kgd(parameters, last_time)
     , wings(wings)
     , title(title)
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return title;
   }
 
-  std::map<std::string, double>
-  values(const double time) const override
+  std::map<std::string, double> values(const double time) const override
   {
     return {{"fracture_length", wings * kgd.half_length(time)},
             {"inlet_aperture", kgd.inlet_opening(time)},
@@ -135,51 +129,42 @@ public:
 
 private:
   analytical::HydraulicFracture kgd;
-  unsigned int                  wings;
-  std::string                   title;
+  unsigned int wings;
+  std::string title;
 };
 } // namespace
 
 
-Made<2>
-make_kgd(const ParameterHandler &, const ReferenceInput<2> &input)
+Made<2> make_kgd(const ParameterHandler &, const ReferenceInput<2> &input)
 {
   return std::make_unique<KgdReference>(kgd_parameters(input), n_wings(input));
 }
 
 
-Made<2>
-make_kgd_vertex(const ParameterHandler &, const ReferenceInput<2> &input)
+Made<2> make_kgd_vertex(const ParameterHandler &, const ReferenceInput<2> &input)
 {
   return std::make_unique<KgdVertexReference>(kgd_parameters(input), n_wings(input));
 }
 
 
-Made<2>
-make_kgd_carter(const ParameterHandler &, const ReferenceInput<2> &input)
+Made<2> make_kgd_carter(const ParameterHandler &, const ReferenceInput<2> &input)
 {
   if (!(input.carter_coefficient > 0.))
     throw InputError("The reference solution 'kgd carter' needs 'Fracture flow/Leak-off = carter' "
                      "with a positive coefficient.");
   return std::make_unique<KgdHistoryReference>(
     analytical::HydraulicFractureParameters{kgd_parameters(input), input.carter_coefficient},
-    input.end_time,
-    n_wings(input),
-    "KGD with Carter leak-off (Adachi & Detournay 2008)");
+    input.end_time, n_wings(input), "KGD with Carter leak-off (Adachi & Detournay 2008)");
 }
 
 
-Made<2>
-make_kgd_box(const ParameterHandler &, const ReferenceInput<2> &input)
+Made<2> make_kgd_box(const ParameterHandler &, const ReferenceInput<2> &input)
 {
   const unsigned int wings = n_wings(input);
   return std::make_unique<KgdHistoryReference>(
-    analytical::HydraulicFractureParameters{kgd_parameters(input),
-                                            input.carter_coefficient,
+    analytical::HydraulicFractureParameters{kgd_parameters(input), input.carter_coefficient,
                                             (input.upper[0] - input.lower[0]) / wings,
                                             0.5 * (input.upper[1] - input.lower[1])},
-    input.end_time,
-    wings,
-    "KGD in a box with rollers all round");
+    input.end_time, wings, "KGD in a box with rollers all round");
 }
 } // namespace stockwork::reference

@@ -1,7 +1,7 @@
 // A straight crack under given net pressure: in a body so large that its walls do not count
 // (Sneddon & Elliott 1946), or in the middle of a box with rollers on all sides.
-#include "verification/analytical/crack_in_box.h"
 #include "verification/analytical/line_crack.h"
+#include "verification/analytical/crack_in_box.h"
 
 #include "stockwork/base/error.h"
 
@@ -20,14 +20,13 @@ namespace
 struct StraightCrack
 {
   Point<2> centre;
-  double   half_length;
-  double   angle;
+  double half_length;
+  double angle;
   unsigned int n_wings; ///< in the model
 };
 
 
-StraightCrack
-straight_crack(const ReferenceInput<2> &input)
+StraightCrack straight_crack(const ReferenceInput<2> &input)
 {
   if (input.cracks.empty())
     throw InputError("The reference solution of a pressurised crack needs an initial crack.");
@@ -35,9 +34,9 @@ straight_crack(const ReferenceInput<2> &input)
     throw InputError("The reference solution of a pressurised crack needs its pressure given, "
                      "'Cracks/Fluid pressure'.");
   const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
-  const double   small = 1e-8 * (input.upper - input.lower).norm();
+  const double small = 1e-8 * (input.upper - input.lower).norm();
   const Tensor<1, 2> along = last - first;
-  StraightCrack  crack{(first + last) / 2., along.norm() / 2., std::atan2(along[1], along[0]), 2};
+  StraightCrack crack{(first + last) / 2., along.norm() / 2., std::atan2(along[1], along[0]), 2};
   for (const auto &[end, other] : {std::make_pair(first, last), std::make_pair(last, first)})
     for (unsigned int d = 0; d < 2; ++d)
       if (std::abs(end[d] - input.lower[d]) < small || std::abs(end[d] - input.upper[d]) < small)
@@ -52,16 +51,16 @@ public:
   LineCrackField(const analytical::LineCrack &crack, const bool has_pore_pressure)
     : Field<2>(has_pore_pressure)
     , crack(crack)
-  {}
+  {
+  }
 
 protected:
-  void
-  evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
+  void evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
   {
-    const auto u    = crack.displacement(point[0], point[1]);
+    const auto u = crack.displacement(point[0], point[1]);
     displacement[0] = u[0];
     displacement[1] = u[1];
-    pressure        = 0.;
+    pressure = 0.;
   }
 
 private:
@@ -73,27 +72,25 @@ class LineCrackReference : public ReferenceSolution<2>
 {
 public:
   LineCrackReference(const analytical::LineCrackParameters &parameters,
-                     const unsigned int                     n_wings,
-                     const bool                             has_pore_pressure)
+                     const unsigned int n_wings,
+                     const bool has_pore_pressure)
     : crack(parameters)
     , n_wings(n_wings)
     , solution(std::make_shared<LineCrackField>(crack, has_pore_pressure))
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return "Crack in an infinite body (Sneddon & Elliott 1946)";
   }
 
-  std::shared_ptr<Function<2>>
-  field() const override
+  std::shared_ptr<Function<2>> field() const override
   {
     return solution;
   }
 
-  std::map<std::string, double>
-  values(double) const override
+  std::map<std::string, double> values(double) const override
   {
     const auto intensity = crack.stress_intensity();
     return {{"inlet_aperture", crack.opening(0.)},
@@ -103,8 +100,8 @@ public:
   }
 
 private:
-  analytical::LineCrack           crack;
-  unsigned int                    n_wings;
+  analytical::LineCrack crack;
+  unsigned int n_wings;
   std::shared_ptr<LineCrackField> solution;
 };
 
@@ -112,19 +109,19 @@ private:
 class CrackInBoxReference : public ReferenceSolution<2>
 {
 public:
-  CrackInBoxReference(const analytical::CrackInBoxParameters &parameters, const unsigned int n_wings)
+  CrackInBoxReference(const analytical::CrackInBoxParameters &parameters,
+                      const unsigned int n_wings)
     : crack(parameters)
     , n_wings(n_wings)
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return "Crack in a box with rollers (collinear and mirrored cracks)";
   }
 
-  std::map<std::string, double>
-  values(double) const override
+  std::map<std::string, double> values(double) const override
   {
     return {{"inlet_aperture", crack.opening(0.)},
             {"fracture_volume", 0.5 * n_wings * crack.volume()},
@@ -133,45 +130,34 @@ public:
 
 private:
   analytical::CrackInBox crack;
-  unsigned int           n_wings;
+  unsigned int n_wings;
 };
 } // namespace
 
 
-Made<2>
-make_line_crack(const ParameterHandler &, const ReferenceInput<2> &input)
+Made<2> make_line_crack(const ParameterHandler &, const ReferenceInput<2> &input)
 {
-  const StraightCrack   crack = straight_crack(input);
-  const RockProperties &rock  = input.rock.main();
+  const StraightCrack crack = straight_crack(input);
+  const RockProperties &rock = input.rock.main();
   return std::make_unique<LineCrackReference>(
-    analytical::LineCrackParameters{rock.young_modulus,
-                                    rock.poisson_ratio,
-                                    crack.half_length,
-                                    input.crack_pressure,
-                                    input.crack_shear,
-                                    crack.angle,
-                                    crack.centre[0],
-                                    crack.centre[1]},
-    crack.n_wings,
-    input.has_pore_pressure);
+    analytical::LineCrackParameters{rock.young_modulus, rock.poisson_ratio, crack.half_length,
+                                    input.crack_pressure, input.crack_shear, crack.angle,
+                                    crack.centre[0], crack.centre[1]},
+    crack.n_wings, input.has_pore_pressure);
 }
 
 
-Made<2>
-make_crack_in_box(const ParameterHandler &, const ReferenceInput<2> &input)
+Made<2> make_crack_in_box(const ParameterHandler &, const ReferenceInput<2> &input)
 {
-  const StraightCrack   crack = straight_crack(input);
-  const RockProperties &rock  = input.rock.main();
+  const StraightCrack crack = straight_crack(input);
+  const RockProperties &rock = input.rock.main();
   if (std::abs(std::sin(crack.angle)) > 1e-8)
     throw InputError("The reference solution 'crack in box' is for a crack along the x axis.");
   const double half_width =
     crack.n_wings == 1 ? input.upper[0] - input.lower[0] : 0.5 * (input.upper[0] - input.lower[0]);
   return std::make_unique<CrackInBoxReference>(
-    analytical::CrackInBoxParameters{rock.young_modulus,
-                                     rock.poisson_ratio,
-                                     crack.half_length,
-                                     half_width,
-                                     0.5 * (input.upper[1] - input.lower[1]),
+    analytical::CrackInBoxParameters{rock.young_modulus, rock.poisson_ratio, crack.half_length,
+                                     half_width, 0.5 * (input.upper[1] - input.lower[1]),
                                      input.crack_pressure},
     crack.n_wings);
 }

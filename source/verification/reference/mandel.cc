@@ -18,10 +18,10 @@ public:
     : Field<2>(true)
     , mandel(parameters)
     , now(mandel.at(0.))
-  {}
+  {
+  }
 
-  void
-  set_time(const double time) override
+  void set_time(const double time) override
   {
     if (time != get_time())
       now = mandel.at(time);
@@ -29,16 +29,15 @@ public:
   }
 
 protected:
-  void
-  evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
+  void evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
   {
     displacement[0] = now.displacement_x(point[0]);
     displacement[1] = now.displacement_y(point[1]);
-    pressure        = now.pressure(point[0]);
+    pressure = now.pressure(point[0]);
   }
 
 private:
-  analytical::Mandel       mandel;
+  analytical::Mandel mandel;
   analytical::MandelAtTime now;
 };
 
@@ -48,22 +47,20 @@ class MandelReference : public ReferenceSolution<2>
 public:
   explicit MandelReference(const analytical::MandelParameters &parameters)
     : solution(std::make_shared<MandelField>(parameters))
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return "Mandel (1953)";
   }
 
-  std::shared_ptr<Function<2>>
-  field() const override
+  std::shared_ptr<Function<2>> field() const override
   {
     return solution;
   }
 
-  std::optional<Point<2>>
-  observation_point() const override
+  std::optional<Point<2>> observation_point() const override
   {
     return Point<2>();
   }
@@ -74,13 +71,10 @@ private:
 } // namespace
 
 
-Made<2>
-make_mandel(const ParameterHandler &prm, const ReferenceInput<2> &input)
+Made<2> make_mandel(const ParameterHandler &prm, const ReferenceInput<2> &input)
 {
-  return std::make_unique<MandelReference>(
-    analytical::MandelParameters{medium(input.rock),
-                                 input.upper[0] - input.lower[0],
-                                 input.upper[1] - input.lower[1],
-                                 get_quantity(prm, "Load", dimension::force_per_length)});
+  return std::make_unique<MandelReference>(analytical::MandelParameters{
+    medium(input.rock), input.upper[0] - input.lower[0], input.upper[1] - input.lower[1],
+    get_quantity(prm, "Load", dimension::force_per_length)});
 }
 } // namespace stockwork::reference

@@ -17,20 +17,19 @@ class ParallelCracksReference : public ReferenceSolution<2>
 {
 public:
   ParallelCracksReference(const analytical::ParallelCracksParameters &parameters,
-                          const bool                                  one_wing)
+                          const bool one_wing)
     : cracks(parameters)
     , n_cracks(parameters.n_cracks)
     , fraction(one_wing ? 0.5 : 1.)
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return "Parallel cracks in an infinite body (continuous dislocations)";
   }
 
-  std::map<std::string, double>
-  values(double) const override
+  std::map<std::string, double> values(double) const override
   {
     double volume = 0.;
     for (unsigned int c = 0; c < n_cracks; ++c)
@@ -44,17 +43,17 @@ public:
 
 private:
   analytical::ParallelCracks cracks;
-  unsigned int               n_cracks;
-  double                     fraction;
+  unsigned int n_cracks;
+  double fraction;
 };
 } // namespace
 
 
-Made<2>
-make_parallel_cracks(const ParameterHandler &, const ReferenceInput<2> &input)
+Made<2> make_parallel_cracks(const ParameterHandler &, const ReferenceInput<2> &input)
 {
   if (input.cracks.size() < 2)
-    throw InputError("The reference solution of parallel cracks needs at least two initial cracks.");
+    throw InputError(
+      "The reference solution of parallel cracks needs at least two initial cracks.");
   if (!std::isfinite(input.crack_pressure))
     throw InputError("The reference solution of parallel cracks needs their pressure given, "
                      "'Cracks/Pressure'.");
@@ -69,12 +68,9 @@ make_parallel_cracks(const ParameterHandler &, const ReferenceInput<2> &input)
                          "at equal distances, the lowest first.");
   const RockProperties &rock = input.rock.main();
   return std::make_unique<ParallelCracksReference>(
-    analytical::ParallelCracksParameters{rock.young_modulus,
-                                         rock.poisson_ratio,
-                                         (one_wing ? 1. : 0.5) * (last - first).norm(),
-                                         distance,
-                                         input.crack_pressure,
-                                         static_cast<unsigned int>(input.cracks.size())},
+    analytical::ParallelCracksParameters{
+      rock.young_modulus, rock.poisson_ratio, (one_wing ? 1. : 0.5) * (last - first).norm(),
+      distance, input.crack_pressure, static_cast<unsigned int>(input.cracks.size())},
     one_wing);
 }
 } // namespace stockwork::reference

@@ -15,46 +15,29 @@ template <int dim>
 using Made = std::unique_ptr<ReferenceSolution<dim>>;
 
 template <int dim>
-Made<dim>
-make_column(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
-Made<2>
-make_mandel(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<dim> make_column(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
+Made<2> make_mandel(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 template <int dim>
-Made<dim>
-make_cryer(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
+Made<dim> make_cryer(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
 template <int dim>
-Made<dim>
-make_bar_wave(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
+Made<dim> make_bar_wave(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
 template <int dim>
-Made<dim>
-make_porous_wave(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
-Made<2>
-make_line_crack(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
-Made<2>
-make_crack_in_box(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
-Made<2>
-make_parallel_cracks(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
-Made<2>
-make_kgd(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
-Made<2>
-make_kgd_vertex(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
-Made<2>
-make_kgd_carter(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
-Made<2>
-make_kgd_box(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<dim> make_porous_wave(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
+Made<2> make_line_crack(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2> make_crack_in_box(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2> make_parallel_cracks(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2> make_kgd(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2> make_kgd_vertex(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2> make_kgd_carter(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2> make_kgd_box(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 
 
 /// The rock of the deck in the form of the analytical solutions.
-inline analytical::PoroelasticMedium
-medium(const Rock &rock)
+inline analytical::PoroelasticMedium medium(const Rock &rock)
 {
   const RockProperties &r = rock.main();
-  return {r.young_modulus,
-          r.poisson_ratio,
-          r.biot_coefficient,
-          r.inverse_biot_modulus,
-          r.permeability,
-          rock.fluid().viscosity};
+  return {r.young_modulus,        r.poisson_ratio, r.biot_coefficient,
+          r.inverse_biot_modulus, r.permeability,  rock.fluid().viscosity};
 }
 
 
@@ -65,22 +48,21 @@ class Field : public dealii::Function<dim>
 public:
   explicit Field(const bool has_pore_pressure)
     : dealii::Function<dim>(dim + (has_pore_pressure ? 1 : 0))
-  {}
+  {
+  }
 
-  double
-  value(const dealii::Point<dim> &point, const unsigned int component) const override
+  double value(const dealii::Point<dim> &point, const unsigned int component) const override
   {
     dealii::Tensor<1, dim> displacement;
-    double                 pressure = 0.;
+    double pressure = 0.;
     evaluate(point, displacement, pressure);
     return component < dim ? displacement[component] : pressure;
   }
 
-  void
-  vector_value(const dealii::Point<dim> &point, dealii::Vector<double> &values) const override
+  void vector_value(const dealii::Point<dim> &point, dealii::Vector<double> &values) const override
   {
     dealii::Tensor<1, dim> displacement;
-    double                 pressure = 0.;
+    double pressure = 0.;
     evaluate(point, displacement, pressure);
     for (unsigned int d = 0; d < dim; ++d)
       values(d) = displacement[d];
@@ -90,9 +72,8 @@ public:
 
 protected:
   /// At the function's time.
-  virtual void
-  evaluate(const dealii::Point<dim>   &point,
-           dealii::Tensor<1, dim>     &displacement,
-           double                     &pressure) const = 0;
+  virtual void evaluate(const dealii::Point<dim> &point,
+                        dealii::Tensor<1, dim> &displacement,
+                        double &pressure) const = 0;
 };
 } // namespace stockwork::reference

@@ -19,11 +19,10 @@ namespace
 {
 /// The final load on the top, after a look whether the deck applies it as the solution assumes.
 template <int dim>
-double
-load_on_top(const ReferenceInput<dim>           &input,
-            const double                         rise_time,
-            const std::function<double(double)> &history,
-            const std::string                   &formula)
+double load_on_top(const ReferenceInput<dim> &input,
+                   const double rise_time,
+                   const std::function<double(double)> &history,
+                   const std::string &formula)
 {
   const double load = -input.normal_traction("top", 1e3 * rise_time + 1.);
   for (const double s : {0.1, 0.3, 0.5, 0.8, 1.5, 4.})
@@ -41,23 +40,23 @@ class BarWaveField : public Field<dim>
 {
 public:
   BarWaveField(const analytical::BarWaveParameters &parameters,
-               const double                         top,
-               const bool                           has_pore_pressure)
+               const double top,
+               const bool has_pore_pressure)
     : Field<dim>(has_pore_pressure)
     , wave(parameters)
     , top(top)
-  {}
+  {
+  }
 
 protected:
-  void
-  evaluate(const Point<dim> &point, Tensor<1, dim> &displacement, double &) const override
+  void evaluate(const Point<dim> &point, Tensor<1, dim> &displacement, double &) const override
   {
     displacement[dim - 1] = -wave.displacement(top - point[dim - 1], this->get_time());
   }
 
 private:
   analytical::BarWave wave;
-  double              top;
+  double top;
 };
 
 
@@ -70,16 +69,16 @@ public:
     , wave(parameters)
     , now(wave.at(parameters.rise_time))
     , top(top)
-  {}
+  {
+  }
 
-  void
-  set_time(const double time) override
+  void set_time(const double time) override
   {
     if (time != this->get_time() && time > 0.)
-      {
-        now = wave.at(time);
-        known.clear();
-      }
+    {
+      now = wave.at(time);
+      known.clear();
+    }
     Function<dim>::set_time(time);
   }
 
@@ -91,18 +90,19 @@ protected:
       return;
     // A value is expensive, and many points are at the same depth.
     const double depth = top - point[dim - 1];
-    const auto   key   = std::lround(1e9 * depth);
-    auto         found = known.find(key);
+    const auto key = std::lround(1e9 * depth);
+    auto found = known.find(key);
     if (found == known.end())
-      found = known.emplace(key, std::make_pair(now.displacement(depth), now.pressure(depth))).first;
+      found =
+        known.emplace(key, std::make_pair(now.displacement(depth), now.pressure(depth))).first;
     displacement[dim - 1] = -found->second.first;
-    pressure              = found->second.second;
+    pressure = found->second.second;
   }
 
 private:
-  analytical::PorousWave                           wave;
-  analytical::PorousWaveAtTime                     now;
-  double                                           top;
+  analytical::PorousWave wave;
+  analytical::PorousWaveAtTime now;
+  double top;
   mutable std::map<long, std::pair<double, double>> known; ///< by depth in nanometres
 };
 
@@ -114,35 +114,32 @@ public:
   WaveReference(const std::string &title, std::shared_ptr<Field<dim>> solution)
     : title(title)
     , solution(std::move(solution))
-  {}
+  {
+  }
 
-  std::string
-  name() const override
+  std::string name() const override
   {
     return title;
   }
 
-  std::shared_ptr<Function<dim>>
-  field() const override
+  std::shared_ptr<Function<dim>> field() const override
   {
     return solution;
   }
 
 private:
-  std::string                 title;
+  std::string title;
   std::shared_ptr<Field<dim>> solution;
 };
 } // namespace
 
 
 template <int dim>
-Made<dim>
-make_bar_wave(const ParameterHandler &prm, const ReferenceInput<dim> &input)
+Made<dim> make_bar_wave(const ParameterHandler &prm, const ReferenceInput<dim> &input)
 {
   const double ramp_time = get_quantity(prm, "Rise time", dimension::time);
-  const double load      = load_on_top<dim>(
-    input,
-    ramp_time,
+  const double load = load_on_top<dim>(
+    input, ramp_time,
     [](const double s) { return s < 1. ? std::pow(std::sin(0.5 * numbers::PI * s), 2) : 1.; },
     "sin^2(pi s/2) up to s = 1");
   return std::make_unique<WaveReference<dim>>(
@@ -150,46 +147,32 @@ make_bar_wave(const ParameterHandler &prm, const ReferenceInput<dim> &input)
     std::make_shared<BarWaveField<dim>>(
       analytical::BarWaveParameters{medium(input.rock).uniaxial_modulus(),
                                     input.rock.main().density,
-                                    input.upper[dim - 1] - input.lower[dim - 1],
-                                    load,
-                                    ramp_time},
-      input.upper[dim - 1],
-      input.has_pore_pressure));
+                                    input.upper[dim - 1] - input.lower[dim - 1], load, ramp_time},
+      input.upper[dim - 1], input.has_pore_pressure));
 }
 
 
 template <int dim>
-Made<dim>
-make_porous_wave(const ParameterHandler &prm, const ReferenceInput<dim> &input)
+Made<dim> make_porous_wave(const ParameterHandler &prm, const ReferenceInput<dim> &input)
 {
   const double rise_time = get_quantity(prm, "Rise time", dimension::time);
-  const double load      = load_on_top<dim>(
-    input,
-    rise_time,
-    [](const double s) { return 1. - std::exp(-s) * (1. + s + 0.5 * s * s); },
+  const double load = load_on_top<dim>(
+    input, rise_time, [](const double s) { return 1. - std::exp(-s) * (1. + s + 0.5 * s * s); },
     "1 - exp(-s) (1 + s + s^2/2)");
   const analytical::PoroelasticMedium rock = medium(input.rock);
   return std::make_unique<WaveReference<dim>>(
     "Wave in a saturated column (u-p form, Laplace transform)",
     std::make_shared<PorousWaveField<dim>>(
-      analytical::PorousWaveParameters{rock.uniaxial_modulus(),
-                                       input.rock.main().density,
-                                       rock.biot_coefficient,
-                                       rock.inverse_biot_modulus,
-                                       rock.permeability / rock.viscosity,
-                                       input.upper[dim - 1] - input.lower[dim - 1],
-                                       load,
-                                       rise_time},
+      analytical::PorousWaveParameters{
+        rock.uniaxial_modulus(), input.rock.main().density, rock.biot_coefficient,
+        rock.inverse_biot_modulus, rock.permeability / rock.viscosity,
+        input.upper[dim - 1] - input.lower[dim - 1], load, rise_time},
       input.upper[dim - 1]));
 }
 
 
-template Made<2>
-make_bar_wave<2>(const ParameterHandler &, const ReferenceInput<2> &);
-template Made<3>
-make_bar_wave<3>(const ParameterHandler &, const ReferenceInput<3> &);
-template Made<2>
-make_porous_wave<2>(const ParameterHandler &, const ReferenceInput<2> &);
-template Made<3>
-make_porous_wave<3>(const ParameterHandler &, const ReferenceInput<3> &);
+template Made<2> make_bar_wave<2>(const ParameterHandler &, const ReferenceInput<2> &);
+template Made<3> make_bar_wave<3>(const ParameterHandler &, const ReferenceInput<3> &);
+template Made<2> make_porous_wave<2>(const ParameterHandler &, const ReferenceInput<2> &);
+template Made<3> make_porous_wave<3>(const ParameterHandler &, const ReferenceInput<3> &);
 } // namespace stockwork::reference
