@@ -171,6 +171,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   scene.cracks = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
   scene.domain_size = geometry.diameter();
+  std::vector<std::vector<Point<dim>>> polylines;
+  for (const auto &crack : scene.cracks)
+    polylines.push_back(crack.points);
+  network.check_perforations(polylines);
   scene.crack_pressure = given_crack_pressure(prm);
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");

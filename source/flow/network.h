@@ -111,6 +111,12 @@ public:
     return leak_off == LeakOff::resolved;
   }
 
+  /// @throws InputError when a perforation lies on no crack of the deck
+  void check_perforations(const std::vector<std::vector<dealii::Point<dim>>> &cracks) const
+  {
+    all_wells.check(cracks);
+  }
+
   double rate_of_first_well(double t) const
   {
     return all_wells.first_rate(t);

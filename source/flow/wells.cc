@@ -361,6 +361,33 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
 
 
 template <int dim>
+void Wells<dim>::check(const std::vector<std::vector<dealii::Point<dim>>> &cracks) const
+{
+  for (const Well &well : wells)
+    for (const Perforation &perforation : well.perforations)
+    {
+      bool on_crack = false;
+      for (const auto &corners : cracks)
+        for (unsigned int i = 0; i + 1 < corners.size(); ++i)
+        {
+          const dealii::Tensor<1, dim> edge = corners[i + 1] - corners[i];
+          const double along =
+            std::clamp(((perforation.point - corners[i]) * edge) / edge.norm_square(), 0., 1.);
+          on_crack = on_crack || perforation.point.distance(corners[i] + along * edge) <
+                                   0.1 * corners.front().distance(corners.back());
+        }
+      if (!on_crack)
+      {
+        std::ostringstream message;
+        message << "'Wells/" << section(well.number) << "/Perforations': the point "
+                << perforation.point << " is on no fracture. Give an initial crack there.";
+        throw InputError(message.str());
+      }
+    }
+}
+
+
+template <int dim>
 double Wells<dim>::first_rate(const double t) const
 {
   return wells.empty() || wells[0].pressure_control ? 0. : wells[0].value(t, t);

@@ -57,6 +57,11 @@ public:
   /// @throws InputError naming a point that lies on no segment
   void locate(const std::vector<NetworkSegment<dim>> &segments);
 
+  /// The same from the cracks of the deck, before there is a mesh: a perforation farther from every
+  /// crack than a tenth of its length cannot lie on one.
+  /// @throws InputError naming the point
+  void check(const std::vector<std::vector<dealii::Point<dim>>> &cracks) const;
+
   std::vector<ExtraUnknown> unknowns() const;
 
   /// Index of the first of unknowns().
