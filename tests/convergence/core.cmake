@@ -2,17 +2,18 @@
 
 # -- Goals of the cases, coarse enough to be quick
 stockwork_case_test(NAME convergence/column/rod DECK prm/column/rod/none.prm NEGATIVE LABELS quick
-  SET "Resolution=coarse" "Time/Error tolerance=2e-5"
+  SET "Resolution=coarse"
   EXPECT "errors/pore_pressure/final < 1e-3" "errors/displacement/final < 1e-3"
          "errors/pore_pressure/mean < 1e-3" "errors/displacement/mean < 1e-3")
 foreach(set plane_strain alpha_1 incompressible nu_04)
   stockwork_case_test(NAME convergence/column/${set} DECK prm/column/${set}/none.prm
-    SET "Resolution=coarse" "Time/Error tolerance=2e-5"
+    SET "Resolution=coarse"
     EXPECT "errors/pore_pressure/final < 1e-3" "errors/displacement/final < 1e-3"
            "errors/pore_pressure/mean < 1e-3" "errors/displacement/mean < 1e-3")
 endforeach()
 stockwork_case_test(NAME convergence/column/undrained DECK prm/column/undrained/none.prm NEGATIVE
-  SET "Resolution=coarse" EXPECT "errors/displacement/final < 1e-3")
+  SET "Resolution=coarse"
+  EXPECT "errors/displacement/final < 1e-8" "errors/pore_pressure/final < 1e-8")
 stockwork_case_test(NAME convergence/mandel/classic DECK prm/mandel/none.prm NEGATIVE LABELS quick
   SET "Resolution=medium" EXPECT "errors/peak_pore_pressure/final < 1e-3" "errors/pore_pressure/mean < 2e-3"
          "errors/displacement/mean < 1e-3")
@@ -22,8 +23,8 @@ foreach(set rock soft incompressible)
     EXPECT "errors/peak_pore_pressure/final < 1e-3" "errors/pore_pressure/mean < 2e-3")
 endforeach()
 stockwork_case_test(NAME convergence/deleeuw DECK prm/deleeuw/none.prm NEGATIVE
-  SET "Resolution=medium"
-  EXPECT "errors/peak_pore_pressure/final < 5e-3" "errors/pore_pressure/mean < 5e-3")
+  SET "Resolution=coarse" "Time/Error tolerance=1e-4"
+  EXPECT "errors/peak_pore_pressure/final < 2e-2" "errors/pore_pressure/mean < 2e-2")
 stockwork_case_test(NAME convergence/cryer DECK prm/cryer/none.prm NEGATIVE
   SET "Resolution=coarse" EXPECT "errors/peak_pore_pressure/final < 3e-2")
 stockwork_case_test(NAME convergence/column/inertia DECK prm/column/inertia/none.prm NEGATIVE
@@ -33,34 +34,39 @@ stockwork_case_test(NAME convergence/column/inertia DECK prm/column/inertia/none
 stockwork_case_test(NAME convergence/mandel/discrete DECK prm/benchmark/mandel_2d.prm LABELS quick
   EXPECT "errors/pore_pressure/final = 6.407281e-3 within 2e-6")
 
-# -- Orders
-stockwork_order_test(NAME convergence/order/space DECK prm/mandel/none.prm
-  SET "Verification/Start from reference=true" "Verification/Compare=at the end"
-      "Time/Start time=1000 s" "Time/End time=1040 s" "Time/Initial step=10 s" "Time/Error tolerance=inf"
-  SERIES "Mesh/Box/X spacing=5 cells,Mesh/Box/Y spacing=1 cells"
-         "Mesh/Box/X spacing=10 cells,Mesh/Box/Y spacing=2 cells"
-         "Mesh/Box/X spacing=20 cells,Mesh/Box/Y spacing=4 cells"
+# -- Orders. In space without seepage: where the pore fluid diffuses, the displacement follows the
+# pressure and has its order, two.
+stockwork_order_test(NAME convergence/order/space DECK prm/column/inertia/none.prm
+  SET "Rock/Bulk model=poroelastic" "Rock/Permeability=1e-20 m^2" "Boundary conditions/Drained="
+      "Mesh/Box/Upper corner=0.5 m, 15 m" "Time/End time=0.008 s" "Time/Initial step=4e-5 s"
+      "Output/Fields=false"
+  SERIES "Mesh/Box/Y spacing=30 cells" "Mesh/Box/Y spacing=60 cells"
   ORDER "errors/displacement/final=3" "errors/pore_pressure/final=2")
-stockwork_order_test(NAME convergence/order/BDF2 DECK prm/benchmark/mandel_accuracy.prm
-  SET "Mesh/Box/X spacing=160 cells" "Mesh/Box/Y spacing=1 cells" "Time/Error tolerance=inf"
-  SERIES "Time/Initial step=100 s" "Time/Initial step=50 s" "Time/Initial step=25 s"
+stockwork_order_test(NAME convergence/order/BDF2 DECK prm/benchmark/mandel_accuracy.prm LABELS quick
+  SET "Mesh/Box/X spacing=160 cells" "Mesh/Box/Y spacing=1 cells"
+  SERIES "Time/Initial step=200 s" "Time/Initial step=100 s" "Time/Initial step=50 s"
   ORDER "errors/pore_pressure/final=2")
 stockwork_order_test(NAME convergence/order/backward_euler DECK prm/benchmark/mandel_accuracy.prm
-  SET "Mesh/Box/X spacing=80 cells" "Mesh/Box/Y spacing=1 cells" "Time/Error tolerance=inf"
-      "Time/Scheme=backward Euler"
+  SET "Mesh/Box/X spacing=80 cells" "Mesh/Box/Y spacing=1 cells" "Time/Scheme=backward Euler"
   SERIES "Time/Initial step=100 s" "Time/Initial step=50 s" "Time/Initial step=25 s"
   ORDER "errors/pore_pressure/final=1")
 stockwork_order_test(NAME convergence/order/Newmark DECK prm/bar_wave/none.prm
-  SET "Mesh/Box/Upper corner=0.25 m, 15 m" "Mesh/Box/Y spacing=120 cells" "Time/End time=0.3 s"
-      "Verification/Compare=at the end"
+  SET "Mesh/Box/Upper corner=0.25 m, 15 m" "Mesh/Box/Y spacing=120 cells" "Time/End time=0.1 s"
+      "Verification/Compare=at the end" "Output/Fields=false"
   SERIES "Time/Initial step=2e-3" "Time/Initial step=1e-3" "Time/Initial step=5e-4"
   ORDER "errors/displacement/final=2")
 
-# -- Splits give the monolithic answer, or say why they do not
+# -- Mandel to a pressure error of 6.4e-4 in eight steps (doc/cases/mandel.md)
+stockwork_case_test(NAME convergence/mandel/accuracy DECK prm/benchmark/mandel_accuracy.prm LABELS quick
+  NEGATIVE EXPECT "errors/pore_pressure/final < 6.4e-4" "steps == 8")
+
+# -- Splits give the monolithic answer: columns of errors (1e-4 to 1e-2) agree to 1e-6, hence the
+# fields to better than 1e-8. alpha^2 M / K = 1/2, where every split converges.
 foreach(scheme "fixed stress" "undrained" "drained" "fixed strain")
   string(REPLACE " " "_" name ${scheme})
-  stockwork_same_test(NAME convergence/split/${name} DECK prm/column/plane_strain/none.prm TOLERANCE 1e-8
+  stockwork_same_test(NAME convergence/split/${name} DECK prm/column/plane_strain/none.prm
+    TOLERANCE 1e-6 LABELS quick
     SET "Resolution=coarse" "Time/End time=60 s" "Time/Initial step=10 s" "Time/Error tolerance=inf"
-        "Rock/Biot modulus=133.333 MPa" "Nonlinear solver/Tolerance=1e-11"
+        "Rock/Biot modulus=133.333 MPa" "Nonlinear solver/Tolerance=1e-11" "Output/Fields=false"
     SECOND_SET "Coupling/Scheme=${scheme}")
 endforeach()
