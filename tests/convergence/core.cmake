@@ -7,7 +7,7 @@ stockwork_case_test(NAME convergence/column/rod DECK prm/column/rod/none.prm NEG
          "errors/pore_pressure/mean < 1e-3" "errors/displacement/mean < 1e-3")
 foreach(set plane_strain alpha_1 incompressible nu_04)
   stockwork_case_test(NAME convergence/column/${set} DECK prm/column/${set}/none.prm
-    SET "Resolution=coarse"
+    SET "Resolution=medium"
     EXPECT "errors/pore_pressure/final < 1e-3" "errors/displacement/final < 1e-3"
            "errors/pore_pressure/mean < 1e-3" "errors/displacement/mean < 1e-3")
 endforeach()
