@@ -1,6 +1,7 @@
 #include "solvers/bordered_solver.h"
 
 #include "solvers/bulk_transfer.h"
+#include "stockwork/base/all_gather.h"
 #include "stockwork/base/error.h"
 
 #include <deal.II/base/mpi.h>
@@ -72,14 +73,15 @@ std::vector<BorderedSolver::Border> BorderedSolver::gather_borders(const SystemO
 
   std::vector<Border> borders(op.n_extra());
   for (const bool rows : {false, true})
-    for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, mine[rows]))
-      for (std::size_t i = 0; i < part.size(); i += 3)
-        if (part[i + 2] != 0.)
-        {
-          Border &border = borders[static_cast<unsigned int>(part[i])];
-          (rows ? border.row : border.column)
-            .emplace_back(static_cast<int>(part[i + 1]), part[i + 2]);
-        }
+  {
+    const std::vector<double> all = all_gather(communicator, mine[rows]);
+    for (std::size_t i = 0; i < all.size(); i += 3)
+      if (all[i + 2] != 0.)
+      {
+        Border &border = borders[static_cast<unsigned int>(all[i])];
+        (rows ? border.row : border.column).emplace_back(static_cast<int>(all[i + 1]), all[i + 2]);
+      }
+  }
   return borders;
 }
 

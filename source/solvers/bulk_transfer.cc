@@ -4,6 +4,8 @@
 
 #include <Epetra_CrsMatrix.h>
 
+#include "stockwork/base/all_gather.h"
+
 namespace stockwork
 {
 BulkTransfer::BulkTransfer(const dealii::TrilinosWrappers::MPI::BlockVector &layout,
@@ -15,7 +17,7 @@ BulkTransfer::BulkTransfer(const dealii::TrilinosWrappers::MPI::BlockVector &lay
   for (unsigned int b = 0; b < layout.n_blocks(); ++b)
   {
     const int mine = layout.block(b).trilinos_vector().MyLength();
-    counts.push_back(dealii::Utilities::MPI::all_gather(communicator, mine));
+    counts.push_back(all_gather(communicator, std::vector<int>{mine}));
     starts.emplace_back();
     for (const int count : counts.back())
     {

@@ -12,6 +12,8 @@
 #include <map>
 #include <tuple>
 
+#include "stockwork/base/all_gather.h"
+
 namespace stockwork
 {
 namespace
@@ -70,10 +72,10 @@ Entries send_to_all(const Triplets &triplets, const MPI_Comm communicator)
     packed.insert(packed.end(), {static_cast<double>(triplets.rows[i]),
                                  static_cast<double>(triplets.columns[i]), triplets.values[i]});
   Entries all;
-  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, packed))
-    for (std::size_t i = 0; i < part.size(); i += 3)
-      all.push_back({static_cast<global_dof_index>(part[i]),
-                     static_cast<global_dof_index>(part[i + 1]), part[i + 2]});
+  packed = all_gather(communicator, packed);
+  for (std::size_t i = 0; i < packed.size(); i += 3)
+    all.push_back({static_cast<global_dof_index>(packed[i]),
+                   static_cast<global_dof_index>(packed[i + 1]), packed[i + 2]});
   return all;
 }
 
@@ -88,7 +90,7 @@ public:
     for (unsigned int b = 0; b < vector.n_blocks(); ++b)
     {
       const auto end = offsets[b] + vector.block(b).local_range().second;
-      const auto all = dealii::Utilities::MPI::all_gather(communicator, end);
+      const auto all = all_gather(communicator, std::vector<global_dof_index>{end});
       for (unsigned int rank = 0; rank < all.size(); ++rank)
         ends.emplace_back(all[rank], rank);
     }

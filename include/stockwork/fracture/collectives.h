@@ -1,6 +1,9 @@
 #pragma once
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include "stockwork/base/all_gather.h"
 
 #include <vector>
 
@@ -44,9 +47,20 @@ public:
   template <class T>
   std::vector<T> gather(const std::vector<T> &mine) const
   {
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return mine;
+    std::vector<std::size_t> ends;
+    const std::vector<char> bytes =
+      all_gather(communicator, dealii::Utilities::pack(mine, false), &ends);
     std::vector<T> all;
-    for (auto &part : dealii::Utilities::MPI::all_gather(communicator, mine))
+    auto begin = bytes.begin();
+    for (const std::size_t end : ends)
+    {
+      const auto part =
+        dealii::Utilities::unpack<std::vector<T>>(begin, bytes.begin() + end, false);
       all.insert(all.end(), part.begin(), part.end());
+      begin = bytes.begin() + end;
+    }
     return all;
   }
 
