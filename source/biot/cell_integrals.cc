@@ -70,37 +70,45 @@ CellIntegrals<dim>::CellIntegrals(const Mapping<dim> &mapping,
   unit.pressure_masses.resize(n_p * n_p);
   unit.pressure_means.resize(n_p);
 
-  const QGauss<dim> quadrature(fe.base_element(0).degree + 1);
+  // Shape functions on the unit cell, each evaluated once.
+  const FiniteElement<dim> &element_u = fe.base_element(0);
+  const QGauss<dim> quadrature(element_u.degree + 1);
+  std::vector<double> value_u(n_u), value_p(n_p);
+  std::vector<Tensor<1, dim>> grad_u(n_u), grad_p(n_p);
   for (unsigned int q = 0; q < quadrature.size(); ++q)
   {
     const Point<dim> x = quadrature.point(q);
     const double w = quadrature.weight(q);
     for (unsigned int a = 0; a < n_u; ++a)
+    {
+      value_u[a] = element_u.shape_value(a, x);
+      grad_u[a] = element_u.shape_grad(a, x);
+    }
+    for (unsigned int a = 0; a < n_p; ++a)
+    {
+      value_p[a] = fe.base_element(1).shape_value(a, x);
+      grad_p[a] = fe.base_element(1).shape_grad(a, x);
+    }
+    for (unsigned int a = 0; a < n_u; ++a)
       for (unsigned int b = 0; b < n_u; ++b)
       {
-        const auto &element = fe.base_element(0);
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            unit.gradients[((i * dim + j) * n_u + a) * n_u + b] +=
-              element.shape_grad(a, x)[i] * element.shape_grad(b, x)[j] * w;
+            unit.gradients[((i * dim + j) * n_u + a) * n_u + b] += grad_u[a][i] * grad_u[b][j] * w;
         if (with_masses)
-          unit.masses[a * n_u + b] += element.shape_value(a, x) * element.shape_value(b, x) * w;
+          unit.masses[a * n_u + b] += value_u[a] * value_u[b] * w;
       }
     for (unsigned int a = 0; a < n_p; ++a)
     {
-      const auto &element = fe.base_element(1);
-      const double value = element.shape_value(a, x);
-      unit.pressure_means[a] += value * w;
+      unit.pressure_means[a] += value_p[a] * w;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int b = 0; b < n_u; ++b)
-          unit.divergences[(i * n_p + a) * n_u + b] +=
-            value * fe.base_element(0).shape_grad(b, x)[i] * w;
+          unit.divergences[(i * n_p + a) * n_u + b] += value_p[a] * grad_u[b][i] * w;
       for (unsigned int b = 0; b < n_p; ++b)
       {
-        unit.pressure_masses[a * n_p + b] += value * element.shape_value(b, x) * w;
+        unit.pressure_masses[a * n_p + b] += value_p[a] * value_p[b] * w;
         for (unsigned int i = 0; i < dim; ++i)
-          unit.pressure_gradients[(i * n_p + a) * n_p + b] +=
-            element.shape_grad(a, x)[i] * element.shape_grad(b, x)[i] * w;
+          unit.pressure_gradients[(i * n_p + a) * n_p + b] += grad_p[a][i] * grad_p[b][i] * w;
       }
     }
   }

@@ -25,8 +25,11 @@ endforeach()
 stockwork_case_test(NAME convergence/deleeuw DECK prm/deleeuw/none.prm NEGATIVE
   SET "Resolution=coarse" "Time/Error tolerance=1e-4"
   EXPECT "errors/peak_pore_pressure/final < 2e-2" "errors/pore_pressure/mean < 2e-2")
+# The pressure at the centre is linear over cells of half the radius (coarse) and so off by 5.4 %,
+# hardly any of it from time steps; it falls with the square of the cells.
 stockwork_case_test(NAME convergence/cryer DECK prm/cryer/none.prm NEGATIVE
-  SET "Resolution=coarse" EXPECT "errors/peak_pore_pressure/final < 3e-2")
+  SET "Resolution=coarse" EXPECT "errors/peak_pore_pressure/final < 5.6e-2"
+    "errors/pore_pressure/mean < 2.4e-2" "errors/displacement/final < 1.2e-2")
 stockwork_case_test(NAME convergence/column/inertia DECK prm/column/inertia/none.prm NEGATIVE
   SET "Resolution=coarse" EXPECT "errors/displacement/final < 1e-2" "errors/pore_pressure/final < 1e-2")
 
@@ -55,6 +58,9 @@ stockwork_order_test(NAME convergence/order/Newmark DECK prm/bar_wave/none.prm
       "Verification/Compare=at the end" "Output/Fields=false"
   SERIES "Time/Initial step=2e-3" "Time/Initial step=1e-3" "Time/Initial step=5e-4"
   ORDER "errors/displacement/final=2")
+stockwork_order_test(NAME convergence/order/cryer DECK prm/cryer/none.prm
+  SET "Time/End time=1 s" "Time/Error tolerance=1e-3" "Output/Fields=false"
+  SERIES "Resolution=coarse" "Resolution=medium" ORDER "errors/peak_pore_pressure/final=2")
 
 # -- Mandel to a pressure error of 6.4e-4 in eight steps (doc/cases/mandel.md)
 stockwork_case_test(NAME convergence/mandel/accuracy DECK prm/benchmark/mandel_accuracy.prm LABELS quick
