@@ -174,8 +174,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       if (error > 0. && std::isfinite(control.error_tolerance))
       {
         // A new step costs a new factor of the matrix: it must be worth it.
-        double wanted =
-          0.9 * std::pow(control.error_tolerance / error, 1. / (scheme.order() + 1.));
+        double wanted = 0.9 * std::pow(control.error_tolerance / error, 1. / (scheme.order() + 1.));
         // The estimate is a difference of nearly equal numbers and so carries their rounding
         // errors, enlarged; steps must not depend on these, nor on the number of ranks.
         wanted = std::floor(20. * std::min(wanted, 100.)) / 20.;
