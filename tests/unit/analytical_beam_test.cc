@@ -1,9 +1,10 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/double_cantilever.h"
 
 #include <doctest/doctest.h>
 
+namespace stockwork::analytical_beam_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -41,3 +42,4 @@ TEST_CASE("double cantilever beam: bilinear cohesive layer")
   const BrittleDoubleCantilever limit(beam);
   CHECK(brittle.at(3e-3).force == doctest::Approx(limit.force(3e-3)).epsilon(1e-2));
 }
+} // namespace stockwork::analytical_beam_test

@@ -1,10 +1,11 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/column.h"
 #include "verification/analytical/mandel.h"
 
 #include <doctest/doctest.h>
 
+namespace stockwork::analytical_consolidation_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -175,3 +176,4 @@ TEST_CASE("Mandel: the plate carries the force at all times")
     sum += now.stress_yy((i + 0.5) / n * parameters.half_width) * parameters.half_width / n;
   CHECK(sum == doctest::Approx(-parameters.force).epsilon(1e-7));
 }
+} // namespace stockwork::analytical_consolidation_test

@@ -1,4 +1,3 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/crack_in_box.h"
 #include "verification/analytical/line_crack.h"
@@ -6,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+namespace stockwork::analytical_crack_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -207,3 +208,4 @@ TEST_CASE("parallel cracks")
   const ParallelCracks one({1e10, 0.25, 2., 1., 3e6, 1});
   CHECK(one.opening(0, 1.2) == doctest::Approx(single.opening(1.2)).epsilon(1e-12));
 }
+} // namespace stockwork::analytical_crack_test

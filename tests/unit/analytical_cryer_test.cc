@@ -1,9 +1,10 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/cryer.h"
 
 #include <doctest/doctest.h>
 
+namespace stockwork::analytical_cryer_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -81,3 +82,4 @@ TEST_CASE("sphere: the displacement inside follows from the pressure")
   CHECK(stress(0.2) == doctest::Approx(stress(0.5)).epsilon(1e-6));
   CHECK(stress(0.8) == doctest::Approx(stress(0.5)).epsilon(1e-6));
 }
+} // namespace stockwork::analytical_cryer_test

@@ -1,9 +1,10 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/hydraulic_fracture.h"
 
 #include <doctest/doctest.h>
 
+namespace stockwork::analytical_hydraulic_fracture_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -131,3 +132,4 @@ TEST_CASE("radial fracture: histories near both vertices")
     }
   }
 }
+} // namespace stockwork::analytical_hydraulic_fracture_test

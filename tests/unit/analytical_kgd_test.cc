@@ -1,4 +1,3 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/kgd.h"
 
@@ -6,6 +5,8 @@
 
 #include <map>
 
+namespace stockwork::analytical_kgd_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -123,3 +124,4 @@ TEST_CASE("KGD: the opening holds what was injected, and closes as the toughness
     doctest::Approx(K_prime / fluid.plane_strain_modulus() * std::sqrt(distance)).epsilon(1e-3));
   CHECK(fracture.opening(1.01 * l, t) == 0.);
 }
+} // namespace stockwork::analytical_kgd_test

@@ -1,9 +1,10 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/pkn.h"
 
 #include <doctest/doctest.h>
 
+namespace stockwork::analytical_pkn_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -37,3 +38,4 @@ TEST_CASE("PKN: length, opening and pressure")
   CHECK_COLUMN(table, "p0_Pa", 1e-7, each,
                [&](const auto i) { return fracture(i).inlet_pressure(table(i, "t_s")); });
 }
+} // namespace stockwork::analytical_pkn_test

@@ -1,10 +1,11 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "reference_table.h"
 #include "verification/analytical/bar_wave.h"
 #include "verification/analytical/porous_wave.h"
 
 #include <doctest/doctest.h>
 
+namespace stockwork::analytical_wave_test
+{
 using namespace stockwork::analytical;
 using stockwork::test::ReferenceTable;
 using stockwork::test::RelativeTo;
@@ -74,3 +75,4 @@ TEST_CASE("saturated column: without coupling it is an elastic bar")
   CHECK(column.at(t).displacement(0.) ==
         doctest::Approx(1e4 / (1900. * c) * (t - 3. * rise)).epsilon(1e-7));
 }
+} // namespace stockwork::analytical_wave_test

@@ -1,6 +1,5 @@
 // Runs on one and on two ranks. What two ranks have written is read by one, and the other way
 // round.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,8 +21,9 @@
 #include "output/signals.h"
 #include "stockwork/base/error.h"
 
+namespace stockwork::checkpoint_mpi_test
+{
 using namespace dealii;
-using namespace stockwork;
 
 namespace
 {
@@ -358,10 +358,4 @@ TEST_CASE("a stop signal to one rank is known to all")
     std::raise(SIGTERM);
   CHECK(stop_requested(MPI_COMM_WORLD));
 }
-
-int main(int argc, char **argv)
-{
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  doctest::Context context(argc, argv);
-  return context.run();
-}
+} // namespace stockwork::checkpoint_mpi_test

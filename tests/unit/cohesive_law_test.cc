@@ -1,9 +1,10 @@
 // The bilinear law: dissipation, mixed mode, unloading, and the tangent against differences.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "fracture/cohesive_xfem/law.h"
 
+namespace stockwork::cohesive_law_test
+{
 using namespace stockwork::cohesive_xfem;
 
 namespace
@@ -116,3 +117,4 @@ TEST_CASE("the tangent is the derivative")
       }
   CHECK(softening > 50); // the sweep does reach the branch that matters
 }
+} // namespace stockwork::cohesive_law_test

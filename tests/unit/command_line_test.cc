@@ -1,12 +1,12 @@
 // The command line and the texts the program prints about itself.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "stockwork/base/command_line.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/version.h"
 
 #include <doctest/doctest.h>
 
-using namespace stockwork;
+namespace stockwork::command_line_test
+{
 using Action = CommandLine::Action;
 
 namespace
@@ -80,3 +80,4 @@ TEST_CASE("help and versions")
   CHECK(has(blas_version(), "BLAS"));
   MESSAGE(version_report());
 }
+} // namespace stockwork::command_line_test

@@ -1,5 +1,4 @@
 // Reading decks: syntax, includes, overrides, alternatives by resolution, and error messages.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "stockwork/base/deck.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/nearest.h"
@@ -15,8 +14,8 @@
 
 #include <unistd.h>
 
-using namespace stockwork;
-
+namespace stockwork::deck_test
+{
 namespace
 {
 void declare(dealii::ParameterHandler &prm)
@@ -251,3 +250,4 @@ TEST_CASE("near names")
         std::vector<std::string>{"damage"});
   CHECK(nearest_names("zzz", {"none", "damage"}).empty());
 }
+} // namespace stockwork::deck_test

@@ -1,5 +1,4 @@
 // Cutting cells: geometry, quadrature, numbering, growth, and a body that a crack cuts in two.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_accessor.h>
@@ -15,7 +14,8 @@
 #include "discontinuity/discontinuity.h"
 #include "stockwork/base/error.h"
 
-using namespace stockwork;
+namespace stockwork::discontinuity_test
+{
 using dealii::Point;
 using dealii::Tensor;
 
@@ -263,9 +263,4 @@ TEST_CASE("two cracks in one cell and a crack off the mesh are refused")
                   InputError);
   CHECK_THROWS_AS(cut(square, {{{2., 0.1}, {2.6, 0.1}}}), InputError);
 }
-
-int main(int argc, char **argv)
-{
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  return doctest::Context(argc, argv).run();
-}
+} // namespace stockwork::discontinuity_test

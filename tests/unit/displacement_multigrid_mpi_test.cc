@@ -1,7 +1,6 @@
 // Multigrid for the displacement on locally refined meshes: the interpolation from linear elements,
 // and the number of iterations, which must not grow with the mesh.
 
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -19,14 +18,10 @@
 
 #include "solvers/linear_solver.h"
 
-using namespace dealii;
-using namespace stockwork;
-
-int main(int argc, char **argv)
+namespace stockwork::displacement_multigrid_mpi_test
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  return doctest::Context(argc, argv).run();
-}
+using namespace dealii;
+
 
 namespace
 {
@@ -188,3 +183,4 @@ TEST_CASE_TEMPLATE("multigrid and direct solver agree, in iterations that do not
   CHECK(iterations[1] <= 25);
   CHECK(iterations[1] <= 1.5 * iterations[0]);
 }
+} // namespace stockwork::displacement_multigrid_mpi_test

@@ -1,4 +1,3 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "flow/conductivity.h"
@@ -6,7 +5,8 @@
 #include "flow/time_history.h"
 #include "stockwork/base/error.h"
 
-using namespace stockwork;
+namespace stockwork::flow_laws_test
+{
 using doctest::Approx;
 
 TEST_CASE("the hydraulic aperture is a smooth maximum")
@@ -107,3 +107,4 @@ TEST_CASE("histories in time")
   for (const std::string bad : {"2 MPa", "fast", "0 s: 1; 1", "2 s: 1; 1 s: 0", "f(t) = 2*x", ""})
     CHECK_THROWS_WITH_AS(history(bad), doctest::Contains("Wells/Well 1/Rate"), EntryError);
 }
+} // namespace stockwork::flow_laws_test

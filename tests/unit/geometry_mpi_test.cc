@@ -1,5 +1,4 @@
 // Runs on one and on two ranks.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,8 +13,9 @@
 #include "mesh/refinement.h"
 #include "stockwork/base/error.h"
 
+namespace stockwork::geometry_mpi_test
+{
 using namespace dealii;
-using namespace stockwork;
 
 namespace
 {
@@ -342,10 +342,4 @@ TEST_CASE("errors name the entry and what is allowed")
                        InputError);
   CHECK_THROWS_AS(c.geometry.region("coal"), InputError);
 }
-
-int main(int argc, char **argv)
-{
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  doctest::Context context(argc, argv);
-  return context.run();
-}
+} // namespace stockwork::geometry_mpi_test

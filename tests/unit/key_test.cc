@@ -1,4 +1,3 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <deal.II/grid/grid_generator.h>
@@ -8,8 +7,8 @@
 
 #include "stockwork/mesh/key.h"
 
-using namespace stockwork;
-
+namespace stockwork::key_test
+{
 TEST_CASE("a key is the same on every machine")
 {
   // SplitMix64 from state 0, first output: Vigna's reference implementation.
@@ -45,3 +44,4 @@ TEST_CASE("round-off does not change the key of a place")
     CHECK(std::uint64_t(Key().add(a, 1e-6 * h)) == std::uint64_t(Key().add(b, 1e-6 * h)));
   }
 }
+} // namespace stockwork::key_test

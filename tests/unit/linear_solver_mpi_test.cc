@@ -1,6 +1,5 @@
 // The linear solvers against a dense solve of the same small system, on any number of ranks.
 
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/block_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
@@ -13,14 +12,10 @@
 
 #include <cmath>
 
-using namespace dealii;
-using namespace stockwork;
-
-int main(int argc, char **argv)
+namespace stockwork::linear_solver_mpi_test
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  return doctest::Context(argc, argv).run();
-}
+using namespace dealii;
+
 
 namespace
 {
@@ -449,3 +444,4 @@ TEST_CASE("a singular matrix is an error that helps")
   CHECK_THROWS_WITH_AS(solver->solve(*system, {}, 1e-10, bulk, extra),
                        doctest::Contains("boundary condition"), SolveError);
 }
+} // namespace stockwork::linear_solver_mpi_test

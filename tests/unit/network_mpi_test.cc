@@ -1,5 +1,4 @@
 // The flow in fractures, on a chain of segments over a Winkler foundation (network_fixture.h).
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include "network_fixture.h"
@@ -8,6 +7,8 @@
 
 #include "stockwork/base/error.h"
 
+namespace stockwork::network_mpi_test
+{
 using doctest::Approx;
 
 namespace
@@ -456,9 +457,4 @@ TEST_CASE("decks that make no sense")
   check({{"Fracture flow/Leak-off", "resolved"}}, "the rock has no pore pressure");
   check({{"Fracture flow/Leak-off", "carter"}}, "Carter coefficient");
 }
-
-int main(int argc, char **argv)
-{
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  return doctest::Context(argc, argv).run();
-}
+} // namespace stockwork::network_mpi_test

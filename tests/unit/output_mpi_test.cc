@@ -1,5 +1,4 @@
 // Runs on one and on two ranks.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include <deal.II/base/function_lib.h>
@@ -22,8 +21,9 @@
 #include "output/signals.h"
 #include "stockwork/base/error.h"
 
+namespace stockwork::output_mpi_test
+{
 using namespace dealii;
-using namespace stockwork;
 
 namespace
 {
@@ -332,10 +332,4 @@ TEST_CASE("a disk that fills up: an error, and what was written before is comple
   setting.write(2.);
   CHECK(count(text_of(place + "/fields.pvd"), "<DataSet") == 2);
 }
-
-int main(int argc, char **argv)
-{
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  doctest::Context context(argc, argv);
-  return context.run();
-}
+} // namespace stockwork::output_mpi_test

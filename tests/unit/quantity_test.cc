@@ -1,6 +1,5 @@
 // Quantities with units. Conversion factors are the definitions: NIST SP 811 (2008), appendix B;
 // 1 darcy = 9.869233e-13 m^2.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -10,7 +9,8 @@
 
 #include <cmath>
 
-using namespace stockwork;
+namespace stockwork::quantity_test
+{
 namespace dim = stockwork::dimension;
 
 namespace
@@ -217,3 +217,4 @@ TEST_CASE("entries of a ParameterHandler")
   CHECK(get_quantity(prm, "Modulus", dim::stress) == 3e5);
   CHECK_THROWS(prm.set("Modulus", std::string("3 m")));
 }
+} // namespace stockwork::quantity_test

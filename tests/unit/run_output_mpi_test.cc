@@ -1,5 +1,4 @@
 // What a run says about itself: JSON, summary, timers, warnings, progress, parameter manual.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include "stockwork/base/deck.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/json.h"
@@ -12,7 +11,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 #include <doctest/doctest.h>
@@ -21,8 +19,8 @@
 #include <sstream>
 #include <thread>
 
-using namespace stockwork;
-
+namespace stockwork::run_output_mpi_test
+{
 namespace
 {
 boost::property_tree::ptree read_json(const std::string &text)
@@ -231,10 +229,4 @@ TEST_CASE("the parameter manual names unit, range and meaning")
   CHECK(Deck::read_text(text.str()).peek("Rock/Young modulus").value() == "20 GPa");
   CHECK_THROWS_AS(print_parameters(prm, "xml", text), InputError);
 }
-
-int main(int argc, char **argv)
-{
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  doctest::Context context(argc, argv);
-  return context.run();
-}
+} // namespace stockwork::run_output_mpi_test

@@ -1,4 +1,3 @@
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,8 +6,8 @@
 #include "mesh/spacing.h"
 #include "stockwork/base/error.h"
 
-using namespace stockwork;
-
+namespace stockwork::spacing_test
+{
 namespace
 {
 double worst_ratio(const std::vector<double> &lines)
@@ -153,3 +152,4 @@ TEST_CASE("what cannot be understood is refused")
     CHECK_THROWS_AS(parse_lines(text, 0., 4.), InputError);
   }
 }
+} // namespace stockwork::spacing_test

@@ -1,5 +1,4 @@
 // The statistics table: what the file holds during the run, and after a restart.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "stockwork/base/error.h"
 #include "stockwork/base/statistics.h"
 
@@ -11,8 +10,8 @@
 
 #include <unistd.h>
 
-using namespace stockwork;
-
+namespace stockwork::statistics_test
+{
 namespace
 {
 struct File
@@ -102,3 +101,4 @@ TEST_CASE("infinite and undefined values are left empty")
   table.end_row();
   CHECK(file.content() == "# time [s], ratio\ntime,ratio\n1,\n");
 }
+} // namespace stockwork::statistics_test

@@ -1,0 +1,11 @@
+// The unit tests are one program. With MPI, because some of them run on several ranks.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+#include <deal.II/base/mpi.h>
+
+int main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  return doctest::Context(argc, argv).run();
+}
