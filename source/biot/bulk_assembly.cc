@@ -1,8 +1,9 @@
 #include "biot/bulk_assembly.h"
 
-#include "biot/cell_integrals.h"
-
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
 
 namespace stockwork
 {
@@ -10,153 +11,15 @@ using namespace dealii;
 
 namespace
 {
-/// The cell's matrix from its integrals, in the order of the cell's dofs.
-template <int dim>
-void cell_matrix(const CellIntegrals<dim> &integrals,
-                 const RockProperties &rock,
-                 const double mobility,
-                 const StepContext &context,
-                 const PressureStabilisation stabilisation,
-                 FullMatrix<double> &matrix)
+using BlockVector = TrilinosWrappers::MPI::BlockVector;
+
+/// The owned entries of a vector with ghost values.
+BlockVector owned_part(const BlockVector &ghosted, const std::vector<IndexSet> &owned)
 {
-  const auto &layout = integrals.layout;
-  const unsigned int n_u = layout.n_u, n_p = layout.n_p;
-  const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
-
-  for (unsigned int a = 0; a < n_u; ++a)
-    for (unsigned int b = 0; b < n_u; ++b)
-    {
-      double diagonal = 0.;
-      for (unsigned int i = 0; i < dim; ++i)
-        diagonal += integrals.gradients[((i * dim + i) * n_u + a) * n_u + b];
-      diagonal *= mu;
-      if (context.acceleration > 0.)
-        diagonal += context.acceleration * rock.density * integrals.masses[a * n_u + b];
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          matrix(layout.u[a * dim + i], layout.u[b * dim + j]) =
-            lambda * integrals.gradients[((i * dim + j) * n_u + a) * n_u + b] +
-            mu * integrals.gradients[((j * dim + i) * n_u + a) * n_u + b] +
-            (i == j ? diagonal : 0.);
-    }
-  if (n_p == 0)
-    return;
-
-  for (unsigned int a = 0; a < n_p; ++a)
-    for (unsigned int b = 0; b < n_u; ++b)
-      for (unsigned int i = 0; i < dim; ++i)
-      {
-        const double coupling =
-          -rock.biot_coefficient * integrals.divergences[(i * n_p + a) * n_u + b];
-        matrix(layout.p[a], layout.u[b * dim + i]) = coupling;
-        matrix(layout.u[b * dim + i], layout.p[a]) = coupling;
-      }
-
-  // White & Borja 2008: what the projection onto cell-wise constants leaves of the pressure, times
-  // 1/(2G), added to the storage. It acts on the increment, so it vanishes in the steady state.
-  const double stabilising = stabilisation == PressureStabilisation::projection
-                               ? rock.biot_coefficient * rock.biot_coefficient / (2. * mu)
-                               : 0.;
-  const double ratio = context.pressure_rate / context.rate;
-  for (unsigned int a = 0; a < n_p; ++a)
-    for (unsigned int b = 0; b < n_p; ++b)
-    {
-      const double mass = integrals.pressure_masses[a * n_p + b];
-      const double rest =
-        mass - integrals.pressure_means[a] * integrals.pressure_means[b] / integrals.volume;
-      matrix(layout.p[a], layout.p[b]) =
-        -ratio * (rock.inverse_biot_modulus * mass + stabilising * rest) -
-        context.effective_dt() * mobility * integrals.pressure_gradients[a * n_p + b];
-    }
-}
-
-
-/// What the rate references contribute to the residual: it is matrix * x - history.
-template <int dim>
-void subtract_history(const CellIntegrals<dim> &integrals,
-                      const RockProperties &rock,
-                      const StepContext &context,
-                      const PressureStabilisation stabilisation,
-                      const Vector<double> &rate_reference,
-                      const Vector<double> &acceleration_reference,
-                      Vector<double> &residual)
-{
-  const auto &layout = integrals.layout;
-  const unsigned int n_u = layout.n_u, n_p = layout.n_p;
-  if (context.acceleration > 0.)
-    for (unsigned int a = 0; a < n_u; ++a)
-      for (unsigned int b = 0; b < n_u; ++b)
-        for (unsigned int i = 0; i < dim; ++i)
-          residual(layout.u[a * dim + i]) -= context.acceleration * rock.density *
-                                             integrals.masses[a * n_u + b] *
-                                             acceleration_reference(layout.u[b * dim + i]);
-  const double stabilising =
-    stabilisation == PressureStabilisation::projection
-      ? rock.biot_coefficient * rock.biot_coefficient / (2. * rock.shear_modulus())
-      : 0.;
-  const double ratio = n_p > 0 ? context.pressure_rate / context.rate : 0.;
-  for (unsigned int a = 0; a < n_p; ++a)
-  {
-    double content = 0.;
-    for (unsigned int b = 0; b < n_u; ++b)
-      for (unsigned int i = 0; i < dim; ++i)
-        content += rock.biot_coefficient * integrals.divergences[(i * n_p + a) * n_u + b] *
-                   rate_reference(layout.u[b * dim + i]);
-    for (unsigned int b = 0; b < n_p; ++b)
-    {
-      const double mass = integrals.pressure_masses[a * n_p + b];
-      const double rest =
-        mass - integrals.pressure_means[a] * integrals.pressure_means[b] / integrals.volume;
-      content += ratio * (rock.inverse_biot_modulus * mass + stabilising * rest) *
-                 rate_reference(layout.p[b]);
-    }
-    residual(layout.p[a]) += content;
-  }
-}
-
-
-/// Work of the boundary loads on one cell.
-template <int dim>
-void subtract_loads(const Loads<dim> &loads,
-                    const typename DoFHandler<dim>::active_cell_iterator &cell,
-                    const StepContext &context,
-                    FEFaceValues<dim> &fe_values,
-                    const BulkLayout<dim> &layout,
-                    Vector<double> &residual)
-{
-  for (const unsigned int f : cell->face_indices())
-    if (cell->face(f)->at_boundary())
-    {
-      const auto id = cell->face(f)->boundary_id();
-      const auto traction = loads.traction.find(id);
-      const auto normal = loads.normal_traction.find(id);
-      const auto flux = loads.flux.find(id);
-      if (traction == loads.traction.end() && normal == loads.normal_traction.end() &&
-          (flux == loads.flux.end() || layout.n_p == 0))
-        continue;
-      fe_values.reinit(cell, f);
-      for (const unsigned int q : fe_values.quadrature_point_indices())
-      {
-        const Point<dim> &x = fe_values.quadrature_point(q);
-        Tensor<1, dim> t;
-        if (traction != loads.traction.end())
-          for (unsigned int d = 0; d < dim; ++d)
-            t[d] += traction->second[d].value(x, context.time);
-        if (normal != loads.normal_traction.end())
-          t += normal->second.value(x, context.time) * fe_values.normal_vector(q);
-        for (unsigned int a = 0; a < layout.n_u; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            residual(layout.u[a * dim + d]) -=
-              t[d] * fe_values.shape_value(layout.u[a * dim + d], q) * fe_values.JxW(q);
-        if (layout.n_p > 0 && flux != loads.flux.end())
-        {
-          const double volume =
-            context.effective_dt() * flux->second.value(x, context.time) * fe_values.JxW(q);
-          for (unsigned int a = 0; a < layout.n_p; ++a)
-            residual(layout.p[a]) += volume * fe_values.shape_value(layout.p[a], q);
-        }
-      }
-    }
+  BlockVector result;
+  result.reinit(owned, ghosted.block(0).get_mpi_communicator());
+  result = ghosted;
+  return result;
 }
 } // namespace
 
@@ -168,63 +31,138 @@ BulkAssembly<dim>::BulkAssembly(const Rock &rock,
                                 const Discretization<dim> discretization)
   : rock(rock)
   , loads(loads)
-  , stabilisation(stabilisation)
   , discretization(discretization)
+  , matrices(discretization.mapping, discretization.dof_handler.get_fe(), rock, stabilisation)
+  , face_values(discretization.mapping,
+                discretization.dof_handler.get_fe(),
+                QGauss<dim - 1>(discretization.dof_handler.get_fe().base_element(0).degree + 1),
+                update_values | update_quadrature_points | update_normal_vectors |
+                  update_JxW_values)
 {
+  set_up();
+}
+
+
+template <int dim>
+void BulkAssembly<dim>::set_up()
+{
+  const auto &dof_handler = discretization.dof_handler;
+  const auto &constraints = discretization.constraints;
+  const auto &layout = matrices.layout();
+
+  std::vector<unsigned int> blocks(dof_handler.get_fe().n_components(), 0);
+  if (layout.n_p > 0)
+    blocks[dim] = 1;
+  const auto sizes = DoFTools::count_dofs_per_fe_block(dof_handler, blocks);
+  IndexSet all_relevant;
+  DoFTools::extract_locally_relevant_dofs(dof_handler, all_relevant);
+  owned = dof_handler.locally_owned_dofs().split_by_block(sizes);
+  relevant = all_relevant.split_by_block(sizes);
+
+  if (layout.n_p > 0)
+  {
+    const types::global_dof_index first = sizes[0];
+    pressure_constraints.reinit(relevant[1]);
+    for (const auto &line : constraints.get_lines())
+      if (line.index >= first && relevant[1].is_element(line.index - first))
+      {
+        pressure_constraints.add_line(line.index - first);
+        for (const auto &[master, weight] : line.entries)
+          pressure_constraints.add_entry(line.index - first, master - first, weight);
+      }
+    pressure_constraints.close();
+  }
+
+  std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      const auto constrained = [&](const auto i) { return constraints.is_constrained(i); };
+      if ((!loads.empty() && cell->at_boundary()) ||
+          std::any_of(dofs.begin(), dofs.end(), constrained))
+        edge_cells.push_back(cell);
+      const auto drained = [&](const unsigned int i)
+      { return constrained(dofs[i]) && constraints.get_constraint_entries(dofs[i])->empty(); };
+      if (std::any_of(layout.p.begin(), layout.p.end(), drained))
+        drained_cells.push_back(cell);
+    }
 }
 
 
 template <int dim>
 void BulkAssembly<dim>::matrix(const StepContext &context,
-                               const Role &,
+                               const bool anew,
                                TrilinosWrappers::BlockSparseMatrix &matrix,
-                               TrilinosWrappers::SparseMatrix *fixed_stress_mass) const
+                               TrilinosWrappers::SparseMatrix *fixed_stress_mass)
 {
   const auto &fe = discretization.dof_handler.get_fe();
-  CellIntegrals<dim> integrals(discretization.mapping, fe, context.acceleration > 0.);
-  FullMatrix<double> local(fe.n_dofs_per_cell());
-  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-  const unsigned int n_p = integrals.layout.n_p;
-  FullMatrix<double> local_mass(n_p);
-  std::vector<types::global_dof_index> pressure_dofs(n_p);
-  const bool with_mass = fixed_stress_mass != nullptr && n_p > 0;
-  const auto first_pressure = with_mass ? matrix.block(0, 0).m() : 0;
-  // The fixed-stress mass lives on the pressure block alone, so its constraints are resolved here
-  // by dropping constrained rows (they carry a unit diagonal in the block itself).
+  const auto &layout = matrices.layout();
+  const unsigned int n_p = layout.n_p;
 
-  const RockProperties *properties_of_local = nullptr;
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
+  if (anew || context.acceleration != acceleration)
+  {
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), pressure_dofs(n_p);
+    LocalVector local_content(fe.n_dofs_per_cell());
+    matrix = 0.;
+    if (n_p > 0)
     {
-      const RockProperties &properties = rock(cell->material_id());
-      if (integrals.reinit(cell) || &properties != properties_of_local)
-        cell_matrix(integrals, properties, properties.permeability / rock.fluid().viscosity,
-                    context, stabilisation, local);
-      properties_of_local = &properties;
-      cell->get_dof_indices(dofs);
-      discretization.constraints.distribute_local_to_global(local, dofs, matrix);
-      if (with_mass)
+      storage.reinit(matrix.block(1, 1));
+      diffusion.reinit(matrix.block(1, 1));
+      storage = 0.;
+      diffusion = 0.;
+      if (fixed_stress_mass != nullptr)
+        *fixed_stress_mass = 0.;
+      content.reinit(owned, relevant, matrix.block(0, 0).get_mpi_communicator(), true);
+    }
+    for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
       {
-        const double compliance =
-          properties.biot_coefficient * properties.biot_coefficient /
-          (properties.lame_lambda() + 2. * properties.shear_modulus() / dim);
+        matrices.reinit(cell, context);
+        cell->get_dof_indices(dofs);
+        discretization.constraints.distribute_local_to_global(matrices.whole, dofs, matrix);
+        if (n_p == 0)
+          continue;
+        for (unsigned int a = 0; a < n_p; ++a)
+          pressure_dofs[a] = dofs[layout.p[a]] - owned[0].size();
+        pressure_constraints.distribute_local_to_global(matrices.storage, pressure_dofs, storage);
+        pressure_constraints.distribute_local_to_global(matrices.diffusion, pressure_dofs,
+                                                        diffusion);
+        if (fixed_stress_mass != nullptr)
+          pressure_constraints.distribute_local_to_global(matrices.fixed_stress, pressure_dofs,
+                                                          *fixed_stress_mass);
+        const auto &integrals = matrices.integrals;
+        local_content = 0.;
         for (unsigned int a = 0; a < n_p; ++a)
         {
-          pressure_dofs[a] = dofs[integrals.layout.p[a]];
-          for (unsigned int b = 0; b < n_p; ++b)
-            local_mass(a, b) = compliance * integrals.pressure_masses[a * n_p + b];
+          local_content(layout.p[a]) =
+            matrices.properties().inverse_biot_modulus * integrals.pressure_means[a];
+          for (unsigned int b = 0; b < layout.n_u; ++b)
+            for (unsigned int i = 0; i < dim; ++i)
+              local_content(layout.u[b * dim + i]) +=
+                matrices.properties().biot_coefficient *
+                integrals.divergences[(i * n_p + a) * layout.n_u + b];
         }
-        for (unsigned int a = 0; a < n_p; ++a)
-          for (unsigned int b = 0; b < n_p; ++b)
-            if (!discretization.constraints.is_constrained(pressure_dofs[a]) &&
-                !discretization.constraints.is_constrained(pressure_dofs[b]))
-              fixed_stress_mass->add(pressure_dofs[a] - first_pressure,
-                                     pressure_dofs[b] - first_pressure, local_mass(a, b));
+        content.add(dofs, local_content);
       }
+    matrix.compress(VectorOperation::add);
+    if (n_p > 0)
+    {
+      storage.compress(VectorOperation::add);
+      diffusion.compress(VectorOperation::add);
+      content.compress(VectorOperation::add);
+      if (fixed_stress_mass != nullptr)
+        fixed_stress_mass->compress(VectorOperation::add);
     }
-  matrix.compress(VectorOperation::add);
-  if (with_mass)
-    fixed_stress_mass->compress(VectorOperation::add);
+    acceleration = context.acceleration;
+  }
+  if (n_p > 0)
+  {
+    auto &pressure = matrix.block(1, 1);
+    pressure = 0.;
+    pressure.add(-context.pressure_rate / context.rate, storage);
+    pressure.add(-context.effective_dt(), diffusion);
+  }
 }
 
 
@@ -232,7 +170,7 @@ template <int dim>
 void BulkAssembly<dim>::undrained_term(TrilinosWrappers::SparseMatrix &matrix) const
 {
   const auto &fe = discretization.dof_handler.get_fe();
-  CellIntegrals<dim> integrals(discretization.mapping, fe, false);
+  CellIntegrals<dim> integrals(discretization.mapping, fe);
   const auto &layout = integrals.layout;
   const unsigned int n_u = layout.n_u, n = n_u * dim;
   FullMatrix<double> local(n);
@@ -260,45 +198,102 @@ void BulkAssembly<dim>::undrained_term(TrilinosWrappers::SparseMatrix &matrix) c
 
 
 template <int dim>
-template <class Function>
-void BulkAssembly<dim>::for_each_residual(const StepContext &context,
-                                          const State &state,
-                                          const Function &use) const
+double BulkAssembly<dim>::prescribed(const types::global_dof_index dof,
+                                     const BlockVector &values) const
 {
-  const auto &fe = discretization.dof_handler.get_fe();
-  const unsigned int n = fe.n_dofs_per_cell();
-  CellIntegrals<dim> integrals(discretization.mapping, fe, context.acceleration > 0.);
-  FullMatrix<double> local(n);
-  Vector<double> local_residual(n), x(n), rate_reference(n), acceleration_reference(n);
-  std::vector<types::global_dof_index> dofs(n);
-  FEFaceValues<dim> face_values(
-    discretization.mapping, fe, QGauss<dim - 1>(fe.base_element(0).degree + 1),
-    update_values | update_quadrature_points | update_normal_vectors | update_JxW_values);
+  if (!discretization.constraints.is_constrained(dof))
+    return 0.;
+  double value = values(dof);
+  for (const auto &[master, weight] : *discretization.constraints.get_constraint_entries(dof))
+    value -= weight * values(master);
+  return value;
+}
 
-  const RockProperties *properties_of_local = nullptr;
+
+template <int dim>
+void BulkAssembly<dim>::subtract_history(const StepContext &context,
+                                         const LocalVector &rate_reference,
+                                         LocalVector &residual) const
+{
+  const auto &layout = matrices.layout();
+  for (unsigned int a = 0; a < layout.n_p; ++a)
+  {
+    double history = 0.;
+    for (const unsigned int i : layout.u)
+      history += matrices.whole(layout.p[a], i) * rate_reference(i);
+    for (unsigned int b = 0; b < layout.n_p; ++b)
+      history -=
+        context.pressure_rate / context.rate * matrices.storage(a, b) * rate_reference(layout.p[b]);
+    residual(layout.p[a]) -= history;
+  }
+}
+
+
+template <int dim>
+void BulkAssembly<dim>::subtract_loads(const StepContext &context,
+                                       const CellIterator &cell,
+                                       LocalVector &residual) const
+{
+  const auto &layout = matrices.layout();
+  for (const unsigned int f : cell->face_indices())
+    if (cell->face(f)->at_boundary())
+    {
+      const auto id = cell->face(f)->boundary_id();
+      const auto traction = loads.traction.find(id);
+      const auto normal = loads.normal_traction.find(id);
+      const auto flux = loads.flux.find(id);
+      if (traction == loads.traction.end() && normal == loads.normal_traction.end() &&
+          (flux == loads.flux.end() || layout.n_p == 0))
+        continue;
+      face_values.reinit(cell, f);
+      for (const unsigned int q : face_values.quadrature_point_indices())
+      {
+        const Point<dim> &x = face_values.quadrature_point(q);
+        Tensor<1, dim> t;
+        if (traction != loads.traction.end())
+          for (unsigned int d = 0; d < dim; ++d)
+            t[d] += traction->second[d].value(x, context.time);
+        if (normal != loads.normal_traction.end())
+          t += normal->second.value(x, context.time) * face_values.normal_vector(q);
+        for (unsigned int a = 0; a < layout.n_u; ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            residual(layout.u[a * dim + d]) -=
+              t[d] * face_values.shape_value(layout.u[a * dim + d], q) * face_values.JxW(q);
+        if (layout.n_p > 0 && flux != loads.flux.end())
+        {
+          const double volume =
+            context.effective_dt() * flux->second.value(x, context.time) * face_values.JxW(q);
+          for (unsigned int a = 0; a < layout.n_p; ++a)
+            residual(layout.p[a]) += volume * face_values.shape_value(layout.p[a], q);
+        }
+      }
+    }
+}
+
+template <int dim>
+void BulkAssembly<dim>::add_inertia(const StepContext &context,
+                                    const State &state,
+                                    BlockVector &residual) const
+{
+  const auto &layout = matrices.layout();
+  std::vector<types::global_dof_index> dofs(discretization.dof_handler.get_fe().n_dofs_per_cell());
+  Vector<double> local(dofs.size()), reference(dofs.size());
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const RockProperties &properties = rock(cell->material_id());
-      if (integrals.reinit(cell) || &properties != properties_of_local)
-        cell_matrix(integrals, properties, properties.permeability / rock.fluid().viscosity,
-                    context, stabilisation, local);
-      properties_of_local = &properties;
+      matrices.reinit(cell, context);
       cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        x(i) = state.current.bulk(dofs[i]);
-        if (integrals.layout.n_p > 0)
-          rate_reference(i) = state.rate_reference.bulk(dofs[i]);
-        if (context.acceleration > 0.)
-          acceleration_reference(i) = state.acceleration_reference.bulk(dofs[i]);
-      }
-      local.vmult(local_residual, x);
-      subtract_history(integrals, properties, context, stabilisation, rate_reference,
-                       acceleration_reference, local_residual);
-      if (!loads.empty() && cell->at_boundary())
-        subtract_loads(loads, cell, context, face_values, integrals.layout, local_residual);
-      use(integrals.layout, dofs, local_residual);
+      for (const unsigned int i : layout.u)
+        reference(i) = state.acceleration_reference.bulk(dofs[i]);
+      local = 0.;
+      const double inertia = context.acceleration * matrices.properties().density;
+      for (unsigned int a = 0; a < layout.n_u; ++a)
+        for (unsigned int b = 0; b < layout.n_u; ++b)
+          for (unsigned int i = 0; i < dim; ++i)
+            local(layout.u[a * dim + i]) -= inertia *
+                                            matrices.integrals.masses[a * layout.n_u + b] *
+                                            reference(layout.u[b * dim + i]);
+      discretization.constraints.distribute_local_to_global(local, dofs, residual);
     }
 }
 
@@ -306,13 +301,53 @@ void BulkAssembly<dim>::for_each_residual(const StepContext &context,
 template <int dim>
 void BulkAssembly<dim>::residual(const StepContext &context,
                                  const State &state,
-                                 const Role &,
-                                 TrilinosWrappers::MPI::BlockVector &residual) const
+                                 const TrilinosWrappers::BlockSparseMatrix &matrix,
+                                 BlockVector &residual) const
 {
-  for_each_residual(context, state,
-                    [&](const auto &, const auto &dofs, const Vector<double> &local) {
-                      discretization.constraints.distribute_local_to_global(local, dofs, residual);
-                    });
+  const auto &layout = matrices.layout();
+
+  // What the free dofs do to one another. The matrix knows neither rows nor columns of constrained
+  // ones, apart from their diagonal.
+  {
+    BlockVector x = owned_part(state.current.bulk, owned);
+    matrix.block(0, 0).vmult(residual.block(0), x.block(0));
+    if (layout.n_p > 0)
+    {
+      const BlockVector reference = owned_part(state.rate_reference.bulk, owned);
+      matrix.block(0, 1).vmult_add(residual.block(0), x.block(1));
+      x.block(0) -= reference.block(0);
+      matrix.block(1, 0).vmult(residual.block(1), x.block(0));
+      matrix.block(1, 1).vmult_add(residual.block(1), x.block(1));
+      storage.vmult(x.block(1), reference.block(1));
+      residual.block(1).add(context.pressure_rate / context.rate, x.block(1));
+    }
+    discretization.constraints.set_zero(residual);
+    residual.compress(VectorOperation::insert);
+  }
+
+  // What prescribed values and loads do to them.
+  std::vector<types::global_dof_index> dofs(discretization.dof_handler.get_fe().n_dofs_per_cell());
+  Vector<double> local(dofs.size()), x(dofs.size()), reference(dofs.size());
+  for (const CellIterator &cell : edge_cells)
+  {
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+    {
+      x(i) = prescribed(dofs[i], state.current.bulk);
+      reference(i) = layout.n_p > 0 ? prescribed(dofs[i], state.rate_reference.bulk) : 0.;
+    }
+    local = 0.;
+    if (!x.all_zero() || !reference.all_zero())
+    {
+      matrices.reinit(cell, context);
+      matrices.whole.vmult(local, x);
+      subtract_history(context, reference, local);
+    }
+    subtract_loads(context, cell, local);
+    discretization.constraints.distribute_local_to_global(local, dofs, residual);
+  }
+  if (context.acceleration > 0.)
+    add_inertia(context, state, residual);
   residual.compress(VectorOperation::add);
 }
 
@@ -466,36 +501,26 @@ double BulkAssembly<dim>::stored_fluid(const StepContext &context,
                                        const State &state,
                                        const Role &role) const
 {
-  const auto &fe = discretization.dof_handler.get_fe();
-  CellIntegrals<dim> integrals(discretization.mapping, fe, false);
-  const auto &layout = integrals.layout;
-  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-  const double ratio = context.pressure_rate / context.rate;
   double stored = 0.;
+  BlockVector gain = owned_part(state.current.bulk, owned);
+  gain -= owned_part(state.rate_reference.bulk, owned);
+  for (unsigned int b = 0; b < gain.n_blocks(); ++b)
+  {
+    const auto &change = gain.block(b).trilinos_vector();
+    const double *per_unknown = content.block(b).trilinos_vector()[0];
+    const double weight = b == 0 ? 1. : context.pressure_rate / context.rate;
+    for (int i = 0; i < change.MyLength(); ++i)
+      stored += weight * per_unknown[i] * change[0][i];
+  }
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const RockProperties &properties = rock(cell->material_id());
-      integrals.reinit(cell);
-      cell->get_dof_indices(dofs);
-      const auto change = [&](const unsigned int i)
-      { return state.current.bulk(dofs[i]) - state.rate_reference.bulk(dofs[i]); };
-      for (unsigned int a = 0; a < layout.n_p; ++a)
-      {
-        stored += ratio * properties.inverse_biot_modulus * integrals.pressure_means[a] *
-                  change(layout.p[a]);
-        for (unsigned int b = 0; b < layout.n_u; ++b)
-          for (unsigned int i = 0; i < dim; ++i)
-            stored += properties.biot_coefficient *
-                      integrals.divergences[(i * layout.n_p + a) * layout.n_u + b] *
-                      change(layout.u[b * dim + i]);
-      }
       if (const CutCell<dim> *cut = role(cell).cut)
         for (unsigned int q = 0; q < cut->points.size(); ++q)
           for (unsigned int c = 0; c < cut->n_columns(); ++c)
           {
             const unsigned int k = cut->extra[c];
-            stored += properties.biot_coefficient * cut->weights[q] *
+            stored += rock(cell->material_id()).biot_coefficient * cut->weights[q] *
                       cut->gradients[q * cut->n_columns() + c][cut->component[c]] *
                       (state.current.extra[k] - state.rate_reference.extra[k]);
           }
@@ -508,20 +533,27 @@ template <int dim>
 double BulkAssembly<dim>::outflow(const StepContext &context, const State &state) const
 {
   const auto &constraints = discretization.constraints;
+  const auto &layout = matrices.layout();
+  std::vector<types::global_dof_index> dofs(discretization.dof_handler.get_fe().n_dofs_per_cell());
+  Vector<double> local(dofs.size()), x(dofs.size()), reference(dofs.size());
   double volume = 0.;
-  for_each_residual(context, state,
-                    [&](const BulkLayout<dim> &layout,
-                        const std::vector<types::global_dof_index> &dofs,
-                        const Vector<double> &residual)
-                    {
-                      for (const unsigned int i : layout.p)
-                        if (constraints.is_constrained(dofs[i]))
-                        {
-                          const auto *masters = constraints.get_constraint_entries(dofs[i]);
-                          if (masters == nullptr || masters->empty())
-                            volume += residual(i);
-                        }
-                    });
+  for (const CellIterator &cell : drained_cells)
+  {
+    matrices.reinit(cell, context);
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+    {
+      x(i) = state.current.bulk(dofs[i]);
+      reference(i) = state.rate_reference.bulk(dofs[i]);
+    }
+    matrices.whole.vmult(local, x);
+    subtract_history(context, reference, local);
+    subtract_loads(context, cell, local);
+    for (const unsigned int i : layout.p)
+      if (constraints.is_constrained(dofs[i]) &&
+          constraints.get_constraint_entries(dofs[i])->empty())
+        volume += local(i);
+  }
   if (!loads.flux.empty())
   {
     const auto &fe = discretization.dof_handler.get_fe();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 
 #include "stockwork/biot/rock.h"
@@ -10,18 +10,13 @@
 #include "stockwork/mesh/discretization.h"
 
 #include "biot/boundary_conditions.h"
+#include "biot/cell_matrices.h"
 
 #include <functional>
+#include <vector>
 
 namespace stockwork
 {
-/// Which stabilisation the pressure of an equal-order element gets.
-enum class PressureStabilisation
-{
-  none,
-  projection ///< polynomial pressure projection, on the increment (White & Borja 2008)
-};
-
 /// Assembles Biot's equations for isotropic rock:
 ///
 ///   R_u(v) = int (C : eps(u) - alpha p I) : eps(v) + rho u'' . v - loads
@@ -29,7 +24,9 @@ enum class PressureStabilisation
 ///
 /// where p is the pore pressure over its in-situ value, u is measured from the in-situ state and
 /// the signs are those of Sink. The rock is linear, so the matrix depends on the time scheme's
-/// coefficients and the mesh only.
+/// coefficients and the mesh only, and most of the residual is a product with it.
+///
+/// Valid for one mesh.
 template <int dim>
 class BulkAssembly
 {
@@ -42,20 +39,22 @@ public:
                PressureStabilisation stabilisation,
                const Discretization<dim> discretization);
 
-  /// Add the matrix of the bulk; `fixed_stress_mass` may be null.
+  /// Fill the matrix of the bulk and, unless null, the fixed-stress mass. Cells are visited when
+  /// `anew` or where inertia has changed; otherwise the step's length alone has, and with it the
+  /// pressure block, a linear combination of two matrices.
   void matrix(const StepContext &context,
-              const Role &role,
+              bool anew,
               dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
-              dealii::TrilinosWrappers::SparseMatrix *fixed_stress_mass) const;
+              dealii::TrilinosWrappers::SparseMatrix *fixed_stress_mass);
 
   /// Add int alpha^2 M div u div v, which turns the drained stiffness into the undrained one, to a
   /// matrix of the displacement block.
   void undrained_term(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
-  /// Add the residual of the bulk.
+  /// The residual of the bulk; `matrix` is the one of this step.
   void residual(const StepContext &context,
                 const State &state,
-                const Role &role,
+                const dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
                 dealii::TrilinosWrappers::MPI::BlockVector &residual) const;
 
   /// Add what cut cells have beyond an ordinary cell: matrix and residual of the extra columns.
@@ -70,13 +69,47 @@ public:
   double outflow(const StepContext &context, const State &state) const;
 
 private:
-  /// Call use(layout, dofs, residual) with the unconstrained residual of every owned cell.
-  template <class Function>
-  void for_each_residual(const StepContext &context, const State &state, const Function &use) const;
+  using LocalVector = dealii::Vector<double>;
+
+  /// Numbers of the pressure dofs and of the cells that need more than a product.
+  void set_up();
+
+  /// What the rate references contribute to the residual of a cell.
+  void subtract_history(const StepContext &context,
+                        const LocalVector &rate_reference,
+                        LocalVector &residual) const;
+
+  /// Work and volume of the boundary loads on a cell.
+  void
+  subtract_loads(const StepContext &context, const CellIterator &cell, LocalVector &residual) const;
+
+  /// Inertia of the reference state.
+  void add_inertia(const StepContext &context,
+                   const State &state,
+                   dealii::TrilinosWrappers::MPI::BlockVector &residual) const;
+
+  /// Part of the value of a dof that constraints prescribe; zero where it is free.
+  double prescribed(dealii::types::global_dof_index dof,
+                    const dealii::TrilinosWrappers::MPI::BlockVector &values) const;
 
   const Rock &rock;
   const Loads<dim> &loads;
-  PressureStabilisation stabilisation;
   const Discretization<dim> discretization;
+
+  std::vector<dealii::IndexSet> owned, relevant; ///< by block
+  /// Of the pressures, numbered from zero.
+  dealii::AffineConstraints<double> pressure_constraints;
+  std::vector<CellIterator> edge_cells;    ///< with loads or constrained dofs
+  std::vector<CellIterator> drained_cells; ///< with prescribed pressures
+
+  // Of the pressure block, both positive semi-definite.
+  dealii::TrilinosWrappers::SparseMatrix storage, diffusion;
+  double acceleration = 0.; ///< with which the matrix was assembled
+
+  /// d(fluid in the pores)/d(unknowns), the pressures' part at the rate of the displacement's.
+  dealii::TrilinosWrappers::MPI::BlockVector content;
+
+  mutable CellMatrices<dim> matrices;
+  mutable dealii::FEFaceValues<dim> face_values;
 };
 } // namespace stockwork

@@ -44,11 +44,8 @@ bool is_axis_parallel_box(const typename Triangulation<dim>::cell_iterator &cell
 
 
 template <int dim>
-CellIntegrals<dim>::CellIntegrals(const Mapping<dim> &mapping,
-                                  const FiniteElement<dim> &fe,
-                                  const bool with_masses)
+CellIntegrals<dim>::CellIntegrals(const Mapping<dim> &mapping, const FiniteElement<dim> &fe)
   : layout(fe)
-  , with_masses(with_masses)
   , fe_values(mapping,
               fe,
               QGauss<dim>(fe.base_element(0).degree + 1),
@@ -56,12 +53,13 @@ CellIntegrals<dim>::CellIntegrals(const Mapping<dim> &mapping,
 {
   const unsigned int n_u = layout.n_u, n_p = layout.n_p;
   gradients.resize(dim * dim * n_u * n_u);
-  masses.resize(with_masses ? n_u * n_u : 0);
+  masses.resize(n_u * n_u);
   divergences.resize(dim * n_p * n_u);
   pressure_gradients.resize(n_p * n_p);
   pressure_masses.resize(n_p * n_p);
   pressure_means.resize(n_p);
   shape_gradients.resize(dim * n_u);
+  shape_values.resize(n_u);
 
   unit.gradients.resize(gradients.size());
   unit.masses.resize(masses.size());
@@ -70,45 +68,45 @@ CellIntegrals<dim>::CellIntegrals(const Mapping<dim> &mapping,
   unit.pressure_masses.resize(n_p * n_p);
   unit.pressure_means.resize(n_p);
 
-  // Shape functions on the unit cell, each evaluated once.
-  const FiniteElement<dim> &element_u = fe.base_element(0);
-  const QGauss<dim> quadrature(element_u.degree + 1);
-  std::vector<double> value_u(n_u), value_p(n_p);
-  std::vector<Tensor<1, dim>> grad_u(n_u), grad_p(n_p);
+  const QGauss<dim> quadrature(fe.base_element(0).degree + 1);
+  std::vector<double> value(n_u), pressure(n_p);
+  std::vector<Tensor<1, dim>> gradient(n_u), pressure_gradient(n_p);
   for (unsigned int q = 0; q < quadrature.size(); ++q)
   {
     const Point<dim> x = quadrature.point(q);
     const double w = quadrature.weight(q);
     for (unsigned int a = 0; a < n_u; ++a)
     {
-      value_u[a] = element_u.shape_value(a, x);
-      grad_u[a] = element_u.shape_grad(a, x);
+      value[a] = fe.base_element(0).shape_value(a, x);
+      gradient[a] = fe.base_element(0).shape_grad(a, x);
     }
     for (unsigned int a = 0; a < n_p; ++a)
     {
-      value_p[a] = fe.base_element(1).shape_value(a, x);
-      grad_p[a] = fe.base_element(1).shape_grad(a, x);
+      pressure[a] = fe.base_element(1).shape_value(a, x);
+      pressure_gradient[a] = fe.base_element(1).shape_grad(a, x);
     }
+
     for (unsigned int a = 0; a < n_u; ++a)
       for (unsigned int b = 0; b < n_u; ++b)
       {
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            unit.gradients[((i * dim + j) * n_u + a) * n_u + b] += grad_u[a][i] * grad_u[b][j] * w;
-        if (with_masses)
-          unit.masses[a * n_u + b] += value_u[a] * value_u[b] * w;
+            unit.gradients[((i * dim + j) * n_u + a) * n_u + b] +=
+              gradient[a][i] * gradient[b][j] * w;
+        unit.masses[a * n_u + b] += value[a] * value[b] * w;
       }
     for (unsigned int a = 0; a < n_p; ++a)
     {
-      unit.pressure_means[a] += value_p[a] * w;
+      unit.pressure_means[a] += pressure[a] * w;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int b = 0; b < n_u; ++b)
-          unit.divergences[(i * n_p + a) * n_u + b] += value_p[a] * grad_u[b][i] * w;
+          unit.divergences[(i * n_p + a) * n_u + b] += pressure[a] * gradient[b][i] * w;
       for (unsigned int b = 0; b < n_p; ++b)
       {
-        unit.pressure_masses[a * n_p + b] += value_p[a] * value_p[b] * w;
+        unit.pressure_masses[a * n_p + b] += pressure[a] * pressure[b] * w;
         for (unsigned int i = 0; i < dim; ++i)
-          unit.pressure_gradients[(i * n_p + a) * n_p + b] += grad_p[a][i] * grad_p[b][i] * w;
+          unit.pressure_gradients[(i * n_p + a) * n_p + b] +=
+            pressure_gradient[a][i] * pressure_gradient[b][i] * w;
       }
     }
   }
@@ -154,8 +152,7 @@ void CellIntegrals<dim>::by_scaling(const Tensor<1, dim> &extents)
     for (unsigned int j = 0; j < dim; ++j)
       scale(&gradients[(i * dim + j) * n_u * n_u], &unit.gradients[(i * dim + j) * n_u * n_u],
             n_u * n_u, volume / (extents[i] * extents[j]));
-  if (with_masses)
-    scale(masses.data(), unit.masses.data(), masses.size(), volume);
+  scale(masses.data(), unit.masses.data(), masses.size(), volume);
   if (n_p == 0)
     return;
   for (unsigned int i = 0; i < dim; ++i)
@@ -191,6 +188,7 @@ void CellIntegrals<dim>::by_quadrature()
       const Tensor<1, dim> &gradient = fe_values.shape_grad(layout.u[a * dim], q);
       for (unsigned int d = 0; d < dim; ++d)
         shape_gradients[d * n_u + a] = gradient[d];
+      shape_values[a] = fe_values.shape_value(layout.u[a * dim], q);
     }
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
@@ -202,11 +200,12 @@ void CellIntegrals<dim>::by_quadrature()
           for (unsigned int b = 0; b < n_u; ++b)
             out[b] += left * right[b];
         }
-    if (with_masses)
-      for (unsigned int a = 0; a < n_u; ++a)
-        for (unsigned int b = 0; b < n_u; ++b)
-          masses[a * n_u + b] += fe_values.shape_value(layout.u[a * dim], q) *
-                                 fe_values.shape_value(layout.u[b * dim], q) * w;
+    for (unsigned int a = 0; a < n_u; ++a)
+    {
+      const double left = shape_values[a] * w;
+      for (unsigned int b = 0; b < n_u; ++b)
+        masses[a * n_u + b] += left * shape_values[b];
+    }
     for (unsigned int a = 0; a < n_p; ++a)
     {
       const double value = fe_values.shape_value(layout.p[a], q) * w;

@@ -37,9 +37,7 @@ template <int dim>
 class CellIntegrals
 {
 public:
-  CellIntegrals(const dealii::Mapping<dim> &mapping,
-                const dealii::FiniteElement<dim> &fe,
-                bool with_masses);
+  CellIntegrals(const dealii::Mapping<dim> &mapping, const dealii::FiniteElement<dim> &fe);
 
   /// Returns whether the integrals have changed: boxes of equal size have equal integrals.
   bool reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
@@ -66,11 +64,11 @@ private:
 
   void by_quadrature();
 
-  bool with_masses;
   dealii::Tensor<1, dim> box; ///< edge lengths of the last cell, zero if it was no box
   dealii::FEValues<dim> fe_values;
   UnitCell unit;
   std::vector<double> shape_gradients; ///< scratch, [d * n_u + a]
+  std::vector<double> shape_values;    ///< scratch, [a]
 };
 
 /// Is the cell a box parallel to the axes? If so, `extents` are its edge lengths.

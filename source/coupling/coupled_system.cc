@@ -231,12 +231,8 @@ template <int dim>
 void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
 {
   const auto scope = run.timers.scope("assembly");
-  system.bulk = 0.;
-  if (discretisation.has_pore_pressure)
-    system.fixed_stress_mass = 0.;
-  bulk->matrix(
-    context, [this](const auto &cell) { return model.role(cell); }, system.bulk,
-    discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr);
+  bulk->matrix(context, !matrix_is_current || bulk_was_touched, system.bulk,
+               discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr);
   system.definite = !discretisation.has_pore_pressure;
   matrix_context = context;
   matrix_is_current = true;
@@ -257,8 +253,7 @@ void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State
 
   const auto scope = run.timers.scope("assembly");
   const auto role = [this](const auto &cell) { return model.role(cell); };
-  system.residual_bulk = 0.;
-  bulk->residual(context, state, role, system.residual_bulk);
+  bulk->residual(context, state, system.bulk, system.residual_bulk);
 
   system.bulk_extra.clear();
   system.extra_bulk.clear();
