@@ -1,23 +1,27 @@
 #!/usr/bin/env python3
-"""Time Stockwork on three jobs, beside peers if their programs are at hand.
+"""Time Stockwork beside other programs that solve the same discrete problems; make doc/performance.md.
 
-    contrib/benchmark/run.py [--program build/source/stockwork] [--cases mandel2d/33 footing3d/12 ...]
-                             [--ranks 1 2] [--repeat 3]
-                             [--dolfinx SCRIPT] [--dealii PROGRAM]
+    contrib/benchmark/run.py [--dolfinx SCRIPT] [--dealii PROGRAM] [--repeat 3] [--write FILE]
+                             [--jobs step/mandel2d/33 memory ...] [--nice -18]
 
-MANDEL2D(n)   [0,100] x [0,10] m, 10 n x n squares, Q2-Q1, plate displacement prescribed, dt 10 s
-FOOTING3D(n)  [0,10]^3 m, n^3 hexahedra, Q2-Q1, load on a quarter of the top, dt 1 s
-kgd           prm/kgd/toughness and viscosity, coarse: the whole run
+Jobs: step/CASE/N    a time step, direct and iterative, with everything made anew and with the
+                     factor (or preconditioner) kept
+      iterations     of the preconditioned Krylov method from the smallest to the largest case
+      memory         of iterative runs, per unknown
+      ranks/CASE/N   a time step on one and two ranks
+      accuracy       Mandel's problem to a pressure error of 6.4e-4
+      kgd/NAME       the whole run, coarse
+Cases: mandel2d      [0,100] x [0,10] m, 10 N x N squares, Q2-Q1, plate displacement prescribed
+       footing3d     [0,10]^3 m, N^3 hexahedra, Q2-Q1, load on a quarter of the top
 
-A *step* is assembly + preconditioner (or factor) + solve, as the peers count it: the difference
-of a run of many steps and one of few, per step, so that start-up, the first factorisation and
-output do not count. `full`: every step has another length, so matrix and factor are made anew.
-`reused`: steps of one length, the factor stays. Runs alternate with the peers', pinned to one core
-per rank, BLAS and OpenMP with one thread; the median counts. Quote the machine's load with it: on a
-busy machine compare ratios, not seconds.
+A *step* is assembly, preconditioner or factor, and solve to 1e-8: the difference of a run of many
+steps and one of few, so that start-up, the ordering of the unknowns, verification and output do not
+count; *anew* adds what Stockwork does once per mesh and the peers in every step. Own runs and the peers' take turns, pinned to one core per rank, BLAS with one thread; ratios
+are medians of pairs. On a busy machine give --nice (as root) and look at the spread.
 
-Peers print one line of JSON with the entries `step` and `ndof` (Biot: `SCRIPT perf CASE N --solver
-mumps|fs-hypre --steps K`; `PROGRAM CASE N K`). They are not part of this repository.
+Peers are not part of this repository. They print one line of JSON: `SCRIPT perf CASE N --solver
+mumps|fs-hypre --steps K [--reuse]` and `PROGRAM CASE N K` with `step`, `asm_mat`, `its`, `rss_MB`;
+`SCRIPT mandel N STEPS --solver mumps --reuse` with `run` and `errp`.
 """
 import argparse
 import json
@@ -39,148 +43,222 @@ ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
 # Number of steps of the short and the long run.
 SHORT, LONG = 3, 9
 
-
-def mandel(n):
-    return ["mandel_2d.prm", "Mesh/Box/X spacing=%d cells" % (10 * n),
-            "Mesh/Box/Y spacing=%d cells" % n], 10.
-
-
-def footing(n):
-    return ["footing_3d.prm", *("Mesh/Box/%s spacing=%d cells" % (axis, n) for axis in "XYZ")], 1.
+# Of each case: deck, extents of the mesh in cells, length of a step [s].
+CASES = {
+    "mandel2d": ("mandel_2d.prm", {"X": 10, "Y": 1}, 10.),
+    "footing3d": ("footing_3d.prm", {"X": 1, "Y": 1, "Z": 1}, 1.),
+}
 
 
-BIOT = {"mandel2d": mandel, "footing3d": footing}
+class Bench:
+    def __init__(self, options):
+        self.options = options
+        self.rows = []
 
+    def row(self, job, own, peer="", ratio=None, required="", great=""):
+        """One line of the table; `ratio` is what is compared with the goals."""
+        text = "" if ratio is None else f"{ratio:.2f}"
+        self.rows.append((job, own, peer, text, required, great))
+        print("| " + " | ".join(self.rows[-1]) + " |", flush=True)
 
-def run(command, ranks):
-    """Standard output of a command on so many ranks, one core each."""
-    if ranks > 1:
-        command = ["mpirun", "--allow-run-as-root", "--bind-to", "core", "-np", str(ranks), *command]
-    elif shutil.which("taskset"):
-        command = ["taskset", "-c", str(max(os.sched_getaffinity(0))), *command]
-    done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"{' '.join(command)}\nexit status {done.returncode}\n{done.stdout[-2000:]}"
-                 f"{done.stderr[-2000:]}")
-    return done.stdout
+    def run(self, command, ranks):
+        """Standard output of a command on so many ranks, one core each."""
+        if ranks > 1:
+            command = ["mpirun", "--allow-run-as-root", "--bind-to", "core", "-np", str(ranks), *command]
+        elif shutil.which("taskset"):
+            command = ["taskset", "-c", str(max(os.sched_getaffinity(0))), *command]
+        if self.options.nice:
+            command = ["nice", "-n", str(self.options.nice), *command]
+        done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(f"{' '.join(command)}\nexit status {done.returncode}\n{done.stdout[-2000:]}"
+                     f"{done.stderr[-2000:]}")
+        return done.stdout
 
+    def stockwork(self, deck, settings, ranks=1):
+        """summary.json of one run."""
+        with tempfile.TemporaryDirectory() as output:
+            command = [self.options.program, os.path.join(ROOT, "prm", deck), "--output", output]
+            for setting in settings:
+                command += ["--set", setting]
+            self.run(command, ranks)
+            return read_summary(output)
 
-def stockwork(options, deck, settings, ranks):
-    """summary.json of one run."""
-    with tempfile.TemporaryDirectory() as output:
-        command = [options.program, deck, "--output", output]
-        for setting in settings:
-            command += ["--set", setting]
-        run(command, ranks)
-        return read_summary(output)
+    def own_run(self, case, n, solver, steps, reuse=False, ranks=1):
+        """`full`: every step has another length, so nothing that depends on it can be kept."""
+        deck, extents, dt = CASES[case]
+        growth = 1. if reuse else 1.02
+        end = dt * (steps if reuse else (growth**steps - 1) / (growth - 1))
+        return self.stockwork("benchmark/" + deck, [
+            *(f"Mesh/Box/{axis} spacing={per * n} cells" for axis, per in extents.items()),
+            f"Linear solver/Type={solver}", "Time/Scheme=backward Euler", "Time/Error tolerance=inf",
+            f"Time/Initial step={dt}", f"Time/Step growth={growth}",
+            f"Time/End time={end * (1 + 1e-12)!r}", "Output/Fields=false",
+            "Verification/Compare=at the end"], ranks)
 
+    def own_step(self, case, n, solver, reuse=False, ranks=1):
+        """Seconds of a step, of its assembly, of the assembly and of the set-up that are done once;
+        long run's summary."""
+        short, long = (self.own_run(case, n, solver, steps, reuse, ranks) for steps in (SHORT, LONG))
+        count = long["steps"] - short["steps"]
 
-def own_step(options, case, n, solver, reuse, ranks):
-    """(seconds of one step, summary of the long run)."""
-    (deck, *settings), dt = BIOT[case](n)
-    growth = 1. if reuse else 1.0001
-    summaries = []
-    for steps in (SHORT, LONG):
-        end = dt * (steps if growth == 1. else (growth**steps - 1) / (growth - 1))
-        summaries.append(stockwork(options, os.path.join(ROOT, "prm", "benchmark", deck), [
-            *settings, f"Linear solver/Type={solver}", f"Time/Initial step={dt}",
-            f"Time/Step growth={growth}",
-            "Time/Scheme=backward Euler", "Time/Error tolerance=inf", f"Time/End time={end * (1 + 1e-12)!r}"], ranks))
-    seconds = [sum(s["wall_seconds"].get(phase, 0.)
-                   for phase in ("assembly", "preconditioner", "solve")) for s in summaries]
-    steps = [s["steps"] for s in summaries]
-    return (seconds[1] - seconds[0]) / (steps[1] - steps[0]), summaries[1]
+        def seconds(summary, *phases):
+            return sum(summary["wall_seconds"].get(phase, 0.) for phase in phases)
+        step, assembly, setup = (
+            (seconds(long, *phases) - seconds(short, *phases)) / count
+            for phases in (("assembly", "preconditioner", "solve"), ("assembly",), ("preconditioner",)))
+        return (step, assembly, seconds(short, "assembly") - short["steps"] * assembly,
+                seconds(short, "preconditioner") - short["steps"] * setup, long)
 
+    def peer(self, arguments, ranks=1):
+        if not self.options.dolfinx:
+            return None
+        lines = self.run([self.options.python, self.options.dolfinx, *arguments], ranks).splitlines()
+        return json.loads([line for line in lines if line.startswith("{")][-1])
 
-def peer_step(command, ranks):
-    lines = [line for line in run(command, ranks).splitlines() if line.startswith("{")]
-    return json.loads(lines[-1])
+    def dolfinx(self, case, n, solver, reuse=False, ranks=1):
+        return self.peer(["perf", case, str(n), "--steps", "4", "--solver", solver,
+                          *(["--reuse"] if reuse else [])], ranks)
 
+    def dealii(self, case, n):
+        if not self.options.dealii:
+            return None
+        lines = self.run([self.options.dealii, case, str(n), "4"], 1).splitlines()
+        return json.loads([line for line in lines if line.startswith("{")][-1])
 
-def median_row(label, attempts, peer=None):
-    """One line of the table; the median of the attempts, and its ratio to the peer's."""
-    seconds = statistics.median(attempts)
-    spread = (max(attempts) - min(attempts)) / seconds
-    ratio = f"{seconds / peer:8.2f}" if peer else " " * 8
-    print(f"  {label:34s} {seconds:9.4f} s   spread {100 * spread:3.0f} %  {ratio}", flush=True)
-    return seconds
+    def compare_steps(self, case, n):
+        """Rows of one size: every kind of step, assembly per cell."""
+        kinds = [("iterative, all anew", "iterative", False, "dolfinx + hypre",
+                  lambda: self.dolfinx(case, n, "fs-hypre"), "1.0", "0.5")]
+        if case == "mandel2d":
+            kinds = [("direct, all anew", "direct", False, "dolfinx + MUMPS",
+                      lambda: self.dolfinx(case, n, "mumps"), "1.0", "0.7"),
+                     ("direct, factor kept", "direct", True, "dolfinx + MUMPS",
+                      lambda: self.dolfinx(case, n, "mumps", True), "1.0", "0.4")] + kinds
+        elif self.options.dealii:
+            kinds.append(("iterative, all anew", "iterative", False, "deal.II + ML",
+                          lambda: self.dealii(case, n), "1.0", "0.5"))
+        for label, solver, reuse, name, rival, required, great in kinds:
+            own, bare, other, ratios, per_cell, peer_per_cell = [], [], [], [], [], []
+            for _ in range(self.options.repeat):
+                step, each, once, setup, summary = self.own_step(case, n, solver, reuse)
+                # What the peers do in each step and Stockwork once per mesh. Orderings of direct
+                # solvers are kept by all.
+                extra = 0. if reuse else once + (setup if solver == "iterative" else 0.)
+                bare.append(step)
+                own.append(step + extra)
+                per_cell.append((once / summary["cells"], each / summary["cells"]))
+                result = rival()
+                if result:
+                    other.append(result["step"])
+                    ratios.append(own[-1] / result["step"])
+                    peer_per_cell.append(result["asm_mat"] / summary["cells"])
+            spread = (max(ratios) - min(ratios)) / statistics.median(ratios) if ratios else 0.
+            iterations = summary["linear_iterations"] / summary["steps"]
+            notes = [f"{iterations:.0f} iterations"] if solver == "iterative" else []
+            if not reuse:
+                notes.append(f"{statistics.median(bare):.3g} s as it runs")
+            self.row(f"{case.upper()}({n}), {summary['unknowns']} unknowns: step, {label}",
+                     f"{statistics.median(own):.3g} s" + (f" ({', '.join(notes)})" if notes else ""),
+                     f"{name} {statistics.median(other):.3g} s" if other else "",
+                     statistics.median(ratios) if ratios else None, required,
+                     great + (f" (spread {100 * spread:.0f} %)" if len(ratios) > 1 else ""))
+        once, each = (statistics.median(values) * 1e6 for values in zip(*per_cell))
+        peer_us = statistics.median(peer_per_cell) * 1e6 if peer_per_cell else None
+        self.row(f"{case.upper()}({n}): matrices, per cell",
+                 f"{once:.3g} µs, once per mesh",
+                 f"{kinds[-1][3]} {peer_us:.3g} µs" if peer_us else "",
+                 once / peer_us if peer_us else None,
+                 "1.0" if case == "mandel2d" else "0.6", "0.7" if case == "mandel2d" else "0.3")
 
+    def iterations(self):
+        for case, sizes in (("mandel2d", (11, 33, 75)), ("footing3d", (5, 12, 20))):
+            counts = []
+            for n in sizes:
+                summary = self.own_run(case, n, "iterative", SHORT)
+                counts.append(summary["linear_iterations"] / summary["steps"])
+            self.row(f"{case.upper()}, N = {', '.join(map(str, sizes))}: iterations",
+                     ", ".join(f"{count:.1f}" for count in counts), "",
+                     max(counts) / counts[0], "1.3", "")
 
-def biot(options, case, n, ranks):
-    direct = case == "mandel2d"
-    kinds = [("direct, full", "direct", False), ("direct, reused", "direct", True)] if direct else []
-    kinds += [("iterative, full", "iterative", False), ("iterative, reused", "iterative", True)]
-    peers = []
-    if options.dolfinx:
-        base = [options.python, options.dolfinx, "perf", case, str(n), "--steps", "5"]
-        if direct:
-            peers += [("dolfinx+MUMPS, full", [*base, "--solver", "mumps"], "direct, full"),
-                      ("dolfinx+MUMPS, reused", [*base, "--solver", "mumps", "--reuse"],
-                       "direct, reused")]
-        peers.append(("dolfinx+hypre, full", [*base, "--solver", "fs-hypre"], "iterative, full"))
-    if options.dealii:
-        peers.append(("deal.II+ML, full", [options.dealii, case, str(n), "5"], "iterative, full"))
+    def memory(self):
+        for case, n, required, great in (("mandel2d", 75, 2., 1.5), ("footing3d", 20, 5., 4.)):
+            base = self.own_run(case, 1, "iterative", 1)["peak_memory_bytes"]
+            summary = self.own_run(case, n, "iterative", SHORT)
+            used = (summary["peak_memory_bytes"] - base) / summary["unknowns"] / 1e3
+            rival = self.dolfinx(case, n, "fs-hypre")
+            text = ""
+            if rival:
+                theirs = (rival["rss_MB"] - rival["rss0_MB"]) * 2**20 / summary["unknowns"] / 1e3
+                text = f"dolfinx + hypre {theirs:.2f} kB"
+            self.row(f"{case.upper()}({n}), iterative: memory per unknown, above {base / 1e6:.0f} MB",
+                     f"{used:.2f} kB", text, None, f"{required:g} kB", f"{great:g} kB")
 
-    own, other, last = {k[0]: [] for k in kinds}, {p[0]: [] for p in peers}, {}
-    for _ in range(options.repeat):
-        for label, solver, reuse in kinds:
-            seconds, last[label] = own_step(options, case, n, solver, reuse, ranks)
-            own[label].append(seconds)
-        for label, command, _ in peers:
-            other[label].append(peer_step(command, ranks)["step"])
+    def ranks(self, case, n):
+        speed_ups = []
+        for _ in range(self.options.repeat):
+            one, two = (self.own_step(case, n, "iterative", ranks=k)[0] for k in (1, 2))
+            speed_ups.append(one / two)
+        rivals = [self.dolfinx(case, n, "fs-hypre", ranks=k) for k in (1, 2)]
+        text = f"dolfinx + hypre {rivals[0]['step'] / rivals[1]['step']:.2f}" if rivals[0] else ""
+        self.row(f"{case.upper()}({n}), iterative: speed-up on 2 ranks",
+                 f"{statistics.median(speed_ups):.2f} (from {one:.3g} s)", text, None, "1.75", "1.9")
 
-    unknowns = last[kinds[0][0]]["unknowns"]
-    print(f"\n{case.upper()}({n}), {unknowns} unknowns, {ranks} rank(s)"
-          f"{'':20s}{'ours/peer':>38s}" if peers else
-          f"\n{case.upper()}({n}), {unknowns} unknowns, {ranks} rank(s)")
-    medians = {label: median_row(label, attempts) for label, attempts in other.items()}
-    for label, _, _ in kinds:
-        rivals = [(name, medians[name]) for name, _, against in peers if against == label]
-        if not rivals:
-            median_row("stockwork " + label, own[label])
-        for name, seconds in rivals:
-            median_row(f"stockwork {label}", own[label], seconds)
-        summary = last[label]
-        print(f"    {summary['linear_iterations'] / summary['steps']:.1f} linear iterations a step, "
-              f"{summary['peak_memory_bytes'] / summary['unknowns'] / 1e3:.2f} kB an unknown, "
-              + ", ".join(f"{k} {v:.2f}" for k, v in summary["wall_seconds"].items()) + " s")
+    def accuracy(self):
+        ratios, own, other = [], [], []
+        for _ in range(max(3, self.options.repeat)):
+            summary = self.stockwork("benchmark/mandel_accuracy.prm", [])
+            own.append(sum(summary["wall_seconds"][phase] for phase in ("assembly", "preconditioner", "solve")))
+            rival = self.peer(["mandel", "8", "128", "--solver", "mumps", "--reuse"])
+            if rival:
+                other.append(rival["run"])
+                ratios.append(own[-1] / other[-1])
+        error = summary["errors"]["pore_pressure"]["final"]
+        self.row("Mandel to a pressure error of 6.4e-4: all steps",
+                 f"{statistics.median(own):.3g} s, {summary['steps']} steps of BDF2, error {error:.1e}",
+                 f"dolfinx + MUMPS {statistics.median(other):.3g} s, 128 steps, "
+                 f"error {rival['errp']:.1e}" if other else "",
+                 statistics.median(ratios) if ratios else None, "1.0", "0.15")
 
-
-def kgd(options, name, ranks):
-    deck = os.path.join(ROOT, "prm", "kgd", name, "cohesive_xfem.prm")
-    summaries = [stockwork(options, deck, ["Resolution=coarse"], ranks)
-                 for _ in range(options.repeat)]
-    summary = sorted(summaries, key=lambda s: s["wall_seconds"]["total"])[len(summaries) // 2]
-    print(f"\nkgd/{name}, {summary['unknowns']} unknowns, {summary['steps']} steps, {ranks} rank(s)")
-    median_row("whole run", [s["wall_seconds"]["total"] for s in summaries])
-    print("    " + ", ".join(f"{k} {v:.2f}" for k, v in summary["wall_seconds"].items()) + " s")
-    print("    " + ", ".join(f"{k} {100 * v['final']:.2f} % ({100 * v['mean']:.2f} %)"
-                             for k, v in summary["errors"].items()) + "   error: final (mean)")
+    def kgd(self, name):
+        summaries = [self.stockwork(f"kgd/{name}/cohesive_xfem.prm", ["Resolution=coarse"])
+                     for _ in range(self.options.repeat)]
+        summary = sorted(summaries, key=lambda s: s["wall_seconds"]["total"])[len(summaries) // 2]
+        seconds = summary["wall_seconds"]
+        self.row(f"kgd/{name}, coarse, {summary['unknowns']} unknowns: whole run",
+                 f"{seconds['total']:.3g} s: " + ", ".join(
+                     f"{phase} {value:.2g}" for phase, value in
+                     sorted(seconds.items(), key=lambda item: -item[1])
+                     if phase != "total" and value > 0.02 * seconds["total"]), "", None, "60 s", "")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=os.path.join(ROOT, "build", "source", "stockwork"))
-    parser.add_argument("--cases", nargs="+", metavar="CASE/N", default=[
-        "mandel2d/33", "mandel2d/75", "footing3d/12", "footing3d/20", "kgd/toughness",
-        "kgd/viscosity"])
-    parser.add_argument("--ranks", nargs="+", type=int, default=[1])
+    parser.add_argument("--jobs", nargs="+", default=[
+        "step/mandel2d/33", "step/mandel2d/75", "step/footing3d/12", "step/footing3d/20", "iterations",
+        "memory", "ranks/mandel2d/75", "ranks/footing3d/20", "accuracy", "kgd/toughness", "kgd/viscosity"])
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--dolfinx", metavar="SCRIPT", help="peer: script for dolfinx + PETSc")
     parser.add_argument("--python", default="/usr/bin/python3", help="interpreter of that script")
     parser.add_argument("--dealii", metavar="PROGRAM", help="peer: textbook deal.II program")
+    parser.add_argument("--nice", type=int, default=0, help="priority of all runs, e.g. -18")
+    parser.add_argument("--write", metavar="FILE", help="append the table to a file")
     options = parser.parse_args()
     options.program = os.path.abspath(options.program)
-    print(run([options.program, "--version"], 1).strip())
+    bench = Bench(options)
+    print(bench.run([options.program, "--version"], 1).strip())
     print("load of the machine:", " ".join(f"{x:.1f}" for x in os.getloadavg()))
-    for ranks in options.ranks:
-        for case in options.cases:
-            name, what = case.split("/")
-            if name == "kgd":
-                kgd(options, what, ranks)
-            else:
-                biot(options, name, int(what), ranks)
+    kinds = {"step": bench.compare_steps, "iterations": bench.iterations, "memory": bench.memory,
+             "ranks": bench.ranks, "accuracy": bench.accuracy, "kgd": bench.kgd}
+    for job in options.jobs:
+        kind, *arguments = job.split("/")
+        kinds[kind](*(int(a) if a.isdigit() else a for a in arguments))
+        if options.write:
+            with open(options.write, "a", encoding="utf-8") as file:
+                while bench.rows:
+                    file.write("| " + " | ".join(bench.rows.pop(0)) + " |\n")
 
 
 if __name__ == "__main__":

@@ -62,6 +62,13 @@ void PhaseTimers::charge()
   last = now;
 }
 
+void PhaseTimers::move(const std::string &from, const std::string &to, const double seconds)
+{
+  phases[from].seconds -= seconds;
+  phases[to].seconds += seconds;
+  ++phases[to].calls;
+}
+
 double PhaseTimers::total() const
 {
   return std::chrono::duration<double>(Clock::now() - start).count();

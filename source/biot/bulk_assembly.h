@@ -41,8 +41,9 @@ public:
 
   /// Fill the matrix of the bulk and, unless null, the fixed-stress mass. Cells are visited when
   /// `anew` or where inertia has changed; otherwise the step's length alone has, and with it the
-  /// pressure block, a linear combination of two matrices.
-  void matrix(const StepContext &context,
+  /// pressure block, a linear combination of two matrices. Returns whether the displacement's rows
+  /// have changed.
+  bool matrix(const StepContext &context,
               bool anew,
               dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
               dealii::TrilinosWrappers::SparseMatrix *fixed_stress_mass);

@@ -231,8 +231,9 @@ template <int dim>
 void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
 {
   const auto scope = run.timers.scope("assembly");
-  bulk->matrix(context, !matrix_is_current || bulk_was_touched, system.bulk,
-               discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr);
+  if (bulk->matrix(context, !matrix_is_current || bulk_was_touched, system.bulk,
+                   discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
+    ++stamps.displacement_values;
   system.definite = !discretisation.has_pore_pressure;
   matrix_context = context;
   matrix_is_current = true;
@@ -299,6 +300,7 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
   {
     system.bulk.compress(VectorOperation::add);
     ++stamps.bulk_values;
+    ++stamps.displacement_values;
   }
   for (unsigned int b = 0; b < owned.size(); ++b)
     system.residual_bulk.block(b) += linear_residual_bulk.block(b);
@@ -440,6 +442,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       const LinearReport linear_report =
         solver->solve(system, stamps, linear ? tolerance : 1e-6, dx_bulk, dx_extra);
       report.linear_iterations += linear_report.iterations;
+      run.timers.move("solve", "preconditioner", linear_report.setup_seconds);
       // Newton's method forgives an inexact direction; a linear problem is checked below.
       if (!linear_report.converged && linear_report.relative_residual > 1e-4)
       {

@@ -103,9 +103,9 @@ SplitScheme::SplitScheme(const CouplingParameters &parameters,
 }
 
 
-void SplitScheme::Block::correct(const TrilinosWrappers::MPI::Vector &residual,
-                                 const double tolerance,
-                                 TrilinosWrappers::MPI::Vector &x)
+double SplitScheme::Block::correct(const TrilinosWrappers::MPI::Vector &residual,
+                                   const double tolerance,
+                                   TrilinosWrappers::MPI::Vector &x)
 {
   system.residual_bulk.block(0) = residual;
   TrilinosWrappers::MPI::BlockVector dx(1);
@@ -116,6 +116,7 @@ void SplitScheme::Block::correct(const TrilinosWrappers::MPI::Vector &residual,
   if (!report.converged)
     throw SolveError("a block of the split scheme was not solved");
   x += dx.block(0);
+  return report.setup_seconds;
 }
 
 
@@ -127,7 +128,8 @@ void SplitScheme::update_blocks(const LinearSystem &system, const SystemStamps &
   {
     Block &block = k == 0 ? mechanics : flow;
     block.stamps.mesh = stamps.mesh;
-    block.stamps.bulk_values = stamps.bulk_values;
+    block.stamps.bulk_values = k == 0 ? stamps.displacement_values : stamps.bulk_values;
+    block.stamps.displacement_values = block.stamps.bulk_values;
     if (new_mesh)
     {
       block.system.bulk.reinit(1, 1);
@@ -181,7 +183,8 @@ LinearReport SplitScheme::solve(const LinearSystem &system,
   {
     for (const unsigned int k : {flow_first ? 1u : 0u, flow_first ? 0u : 1u})
     {
-      (k == 0 ? mechanics : flow).correct(r.bulk.block(k), block_tolerance, x.bulk.block(k));
+      report.setup_seconds +=
+        (k == 0 ? mechanics : flow).correct(r.bulk.block(k), block_tolerance, x.bulk.block(k));
       system_operator.residual(r, x);
     }
     before = norm;

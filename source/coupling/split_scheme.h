@@ -78,10 +78,10 @@ private:
     SystemStamps stamps;
     std::unique_ptr<LinearSolver> solver;
 
-    /// x += A^-1 (-residual)
-    void correct(const dealii::TrilinosWrappers::MPI::Vector &residual,
-                 double tolerance,
-                 dealii::TrilinosWrappers::MPI::Vector &x);
+    /// x += A^-1 (-residual); returns the seconds that the factor took.
+    double correct(const dealii::TrilinosWrappers::MPI::Vector &residual,
+                   double tolerance,
+                   dealii::TrilinosWrappers::MPI::Vector &x);
   };
 
   void update_blocks(const LinearSystem &system, const SystemStamps &stamps);

@@ -3,18 +3,23 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include "solvers/displacement_multigrid.h"
+#include "solvers/extra_schur.h"
 #include "solvers/linear_solver.h"
 
 namespace stockwork
 {
-/// Krylov iteration with algebraic multigrid, for the bulk alone. Elastic rock: conjugate
-/// gradients. With pore pressure: FGMRES, preconditioned with the upper block triangle of
+/// Krylov iteration with multigrid. Elastic rock alone: conjugate gradients. Else FGMRES,
+/// preconditioned with the upper block triangle of
 ///
-///   [ K      -Q ]
-///   [ 0      -S ],   S = storage + flow + alpha^2 / (lambda + 2 G / dim) M_p,
+///   [ K   B     -Q   ]   displacement
+///   [ 0   S_a   C_p  ]   extra unknowns,  S_a = D - C K^-1 B
+///   [ 0   0     -S_p ]   pore pressure,   S_p = storage + flow + alpha^2 / (lambda + 2 G / dim)
+///   M_p
 ///
-/// one multigrid cycle each for K (smoothed aggregation with the rigid body modes) and for S, the
-/// fixed-stress approximation of the Schur complement (White, Castelletto & Tchelepi 2016).
+/// with one multigrid cycle each for K and for S_p, the fixed-stress approximation of the Schur
+/// complement (White, Castelletto & Tchelepi 2016), and S_a dense (ExtraSchur). The products with
+/// K^-1 in it are Krylov solutions of their own, computed once for each extra unknown, for K is the
+/// same in all steps.
 class BlockAmgSolver : public LinearSolver
 {
 public:
@@ -32,7 +37,11 @@ public:
                      std::vector<double> &dx_extra) override;
 
 private:
-  void build(const LinearSystem &, bool with_displacement);
+  void build(const LinearSystem &, const SystemStamps &, bool with_displacement);
+
+  /// See ExtraSchur; A is the displacement block.
+  std::vector<double> multiply(const ExtraSchur::SparseVectors &left,
+                               const ExtraSchur::SparseVectors &right) const;
 
   LinearSolverParameters parameters;
   MPI_Comm communicator;
@@ -41,7 +50,10 @@ private:
   dealii::TrilinosWrappers::PreconditionAMG pressure;
   dealii::TrilinosWrappers::SparseMatrix schur; ///< positive, in units of its largest entry
   double schur_unit = 1.;
+  ExtraSchur extra;
+  const dealii::TrilinosWrappers::SparseMatrix *stiffness = nullptr; ///< during solve()
   SystemStamps built_for;
+  unsigned int multigrid_values = 0; ///< displacement_values that the multigrid was built for
   bool is_built = false;
   unsigned int first_iterations = 0; ///< with it newly built
   unsigned int last_iterations = 0;

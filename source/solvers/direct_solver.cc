@@ -1,6 +1,7 @@
 #include "solvers/direct_solver.h"
 
 #include "solvers/bulk_transfer.h"
+#include "solvers/stopwatch.h"
 #include "stockwork/base/error.h"
 
 #include <deal.II/base/mpi.h>
@@ -52,7 +53,7 @@ bool DirectSolver::same_pattern(const SystemOperator &op, const SystemStamps &st
   const auto &system = op.system();
   return everywhere(factor && stamps.mesh == seen.stamps.mesh && op.n_extra() == seen.n_extra &&
                       op.n_bulk() + op.n_extra() == static_cast<unsigned int>(factor->size()) &&
-                      system.symmetric == seen.symmetric &&
+                      system.symmetric == seen.symmetric && system.definite == seen.definite &&
                       same_indices(op.bulk_extra(), seen.bulk_extra) &&
                       same_indices(op.extra_bulk(), seen.extra_bulk) &&
                       same_indices(op.extra_extra(), seen.extra_extra),
@@ -133,8 +134,11 @@ LinearReport DirectSolver::solve(const LinearSystem &system,
                                  dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                                  std::vector<double> &dx_extra)
 {
-  const SystemOperator op(system, communicator);
+  const bool same_bulk =
+    has_factor && stamps.mesh == seen.stamps.mesh && stamps.bulk_values == seen.stamps.bulk_values;
+  const SystemOperator op(system, communicator, same_bulk ? &factor_scaling.bulk : nullptr);
   LinearReport report;
+  const Stopwatch stopwatch;
   if (!same_pattern(op, stamps))
     analyse(op);
   if (!same_values(op, stamps))
@@ -142,6 +146,7 @@ LinearReport DirectSolver::solve(const LinearSystem &system,
     factorise(op);
     report.factorised = true;
   }
+  report.setup_seconds = stopwatch.seconds();
   seen = {stamps,       op.bulk_extra(),  op.extra_bulk(), op.extra_extra(),
           op.n_extra(), system.symmetric, system.definite};
 

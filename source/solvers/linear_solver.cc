@@ -16,12 +16,13 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
 {
   using namespace dealii::Patterns;
   prm.enter_subsection(section);
-  prm.declare_entry("Type", "auto", Selection("auto|direct|bordered|iterative"),
-                    "direct: one sparse factor of everything. bordered: a lasting factor of the "
-                    "rock and a small dense system for the fracture; for elastic rock. iterative: "
-                    "Krylov method with algebraic multigrid; for large three-dimensional problems "
-                    "without fracture unknowns. auto: bordered in elastic rock with a fracture, "
-                    "iterative above a size in 3-D, else direct.");
+  prm.declare_entry(
+    "Type", "auto", Selection("auto|direct|bordered|iterative"),
+    "direct: one sparse factor of everything. bordered: a lasting factor of the "
+    "rock and a small dense system for the fracture; for elastic rock. iterative: "
+    "Krylov method with multigrid, and such a system for the fracture; for large "
+    "three-dimensional problems. auto: iterative above a size in 3-D, else bordered "
+    "in elastic rock and direct in porous rock.");
   prm.declare_entry("Direct below", "30000", Integer(0),
                     "Number of bulk unknowns in 3-D up to which auto chooses the direct solver.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
@@ -69,9 +70,8 @@ public:
                      dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                      std::vector<double> &dx_extra) override
   {
-    const bool large = wants_hierarchy(system.residual_bulk.size());
     auto &solver =
-      large && system.symmetric && system.residual_extra.empty()
+      wants_hierarchy(system.residual_bulk.size())
         ? get<BlockAmgSolver>(iterative, parameters, communicator)
         :
         // Without a fracture as well: one may come, and the factor of the rock will serve.

@@ -17,7 +17,8 @@ struct LinearReport
   unsigned int iterations = 0; ///< of the iterative solver, or of iterative refinement
   bool converged = false;
   double relative_residual = 0.;
-  bool factorised = false; ///< a factor or preconditioner was built anew
+  bool factorised = false;   ///< a factor or preconditioner was built anew
+  double setup_seconds = 0.; ///< wall time of that and what else was prepared
 };
 
 /// What decides between solvers.

@@ -68,8 +68,9 @@ struct LinearSystem
 /// What has changed since a solver last looked. A number grows when the thing it names changes.
 struct SystemStamps
 {
-  unsigned int mesh = 0;         ///< size and sparsity of the bulk block
-  unsigned int bulk_values = 0;  ///< values of the bulk block
+  unsigned int mesh = 0;                ///< size and sparsity of the bulk block
+  unsigned int bulk_values = 0;         ///< values of the bulk block
+  unsigned int displacement_values = 0; ///< values of its displacement block
   unsigned int extra = 0;        ///< number or meaning of the extra unknowns, or their bulk columns
   unsigned int extra_values = 0; ///< values of extra_extra
 };

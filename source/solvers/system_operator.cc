@@ -108,7 +108,9 @@ private:
 };
 } // namespace
 
-SystemOperator::SystemOperator(const LinearSystem &system, const MPI_Comm communicator)
+SystemOperator::SystemOperator(const LinearSystem &system,
+                               const MPI_Comm communicator,
+                               const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
   : linear_system(&system)
   , communicator(communicator)
 {
@@ -130,7 +132,12 @@ SystemOperator::SystemOperator(const LinearSystem &system, const MPI_Comm commun
     sort_and_sum(lower, false);
     sort_and_sum(corner, false);
   }
-  set_up_scaling();
+  if (bulk_scaling != nullptr)
+    scale.bulk = *bulk_scaling;
+  else
+    scale_bulk();
+  if (n_extra() > 0)
+    scale_extra();
 }
 
 double &SystemOperator::entry(dealii::TrilinosWrappers::MPI::BlockVector &vector,
@@ -167,7 +174,7 @@ std::vector<double> SystemOperator::at_columns(const Epetra_CrsMatrix &matrix,
   return std::vector<double>(target[0], target[0] + target.MyLength());
 }
 
-void SystemOperator::set_up_scaling()
+void SystemOperator::scale_bulk()
 {
   const auto &bulk = linear_system->bulk;
   for (unsigned int b = 0; b < bulk.n_block_rows(); ++b)
@@ -198,9 +205,10 @@ void SystemOperator::set_up_scaling()
     for (int i = 0; i < n; ++i)
       d[i] = d[i] > 0. ? 1. / d[i] : 1.;
   }
+}
 
-  if (n_extra() == 0)
-    return;
+void SystemOperator::scale_extra()
+{
   std::vector<double> size(n_extra(), 0.);
   for (const Entry &e : lower)
   {

@@ -33,7 +33,10 @@ public:
     double value;
   };
 
-  SystemOperator(const LinearSystem &, MPI_Comm);
+  /// `bulk_scaling`: of an earlier system with the same bulk, or null.
+  SystemOperator(const LinearSystem &,
+                 MPI_Comm,
+                 const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling = nullptr);
 
   /// dst = J src. The vectors must not be the same.
   void vmult(SystemVector &dst, const SystemVector &src) const;
@@ -104,7 +107,9 @@ public:
   }
 
 private:
-  void set_up_scaling();
+  void scale_bulk();
+
+  void scale_extra();
 
   const LinearSystem *linear_system;
   MPI_Comm communicator;

@@ -36,6 +36,9 @@ public:
 
   [[nodiscard]] Scope scope(const std::string &phase);
 
+  /// Charge seconds that one phase has taken to another, of which they were a part.
+  void move(const std::string &from, const std::string &to, double seconds);
+
   /// Seconds since construction on this rank.
   double total() const;
 

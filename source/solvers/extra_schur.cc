@@ -1,0 +1,243 @@
+#include "solvers/extra_schur.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "stockwork/base/all_gather.h"
+#include "stockwork/base/error.h"
+
+namespace stockwork
+{
+namespace
+{
+constexpr unsigned int no_place = -1;
+/// Right-hand sides solved for at once: a dense solution each.
+constexpr unsigned int batch = 32;
+
+} // namespace
+
+void ExtraSchur::throw_singular()
+{
+  throw SolveError("The linear system is singular. Usual causes: a body that no boundary condition "
+                   "holds, a fracture that cuts a piece off, a fracture pressure without storage, "
+                   "flow or well.");
+}
+ExtraSchur::ExtraSchur(const MPI_Comm communicator, Multiply multiply)
+  : communicator(communicator)
+  , multiply(std::move(multiply))
+{
+}
+
+void ExtraSchur::forget()
+{
+  known.clear();
+  products.clear();
+  has_factor = false;
+}
+
+std::vector<ExtraSchur::Border>
+ExtraSchur::gather_borders(const SystemOperator &op,
+                           const dealii::types::global_dof_index end,
+                           const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling) const
+{
+  // Pack what this rank holds as (extra, bulk, value), columns and rows apart.
+  std::vector<double> mine[2];
+  const auto add = [&](std::vector<double> &to, const auto extra, const auto i, const double value)
+  {
+    if (i >= end)
+      return;
+    const auto [block, local] = op.locate(i);
+    const double factor =
+      bulk_scaling != nullptr ? SystemOperator::entry(*bulk_scaling, block, local) : 1.;
+    to.insert(to.end(), {double(extra), double(i), factor * value});
+  };
+  for (const auto &e : op.bulk_extra())
+    add(mine[0], e.column, e.row, e.value);
+  for (const auto &e : op.extra_bulk())
+    add(mine[1], e.row, e.column, e.value);
+
+  std::vector<Border> borders(op.n_extra());
+  for (const bool rows : {false, true})
+  {
+    const std::vector<double> all = all_gather(communicator, mine[rows]);
+    for (std::size_t i = 0; i < all.size(); i += 3)
+      if (all[i + 2] != 0.)
+      {
+        Border &border = borders[static_cast<unsigned int>(all[i])];
+        (rows ? border.row : border.column).emplace_back(static_cast<int>(all[i + 1]), all[i + 2]);
+      }
+  }
+  return borders;
+}
+
+void ExtraSchur::forget_unused()
+{
+  std::vector<unsigned int> kept(place);
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  if (!kept.empty() && kept.back() == no_place)
+    kept.pop_back();
+  std::vector<Border> few;
+  std::vector<std::vector<double>> few_products;
+  for (const unsigned int i : kept)
+  {
+    few.push_back(std::move(known[i]));
+    few_products.emplace_back();
+    for (const unsigned int j : kept)
+      few_products.back().push_back(products[i][j]);
+  }
+  for (unsigned int &p : place)
+    if (p != no_place)
+      p = std::lower_bound(kept.begin(), kept.end(), p) - kept.begin();
+  known = std::move(few);
+  products = std::move(few_products);
+}
+
+void ExtraSchur::update_products(const std::vector<Border> &borders)
+{
+  // Known borders by their first entry and size: few candidates to compare in full.
+  const auto key = [](const Border &b)
+  {
+    return std::make_tuple(b.column.size(), b.column.empty() ? -1 : b.column.front().first,
+                           b.column.empty() ? 0. : b.column.front().second);
+  };
+  std::multimap<decltype(key(Border())), unsigned int> candidates;
+  for (unsigned int i = 0; i < known.size(); ++i)
+    candidates.emplace(key(known[i]), i);
+
+  const unsigned int n_old = known.size();
+  place.assign(borders.size(), no_place);
+  for (unsigned int e = 0; e < borders.size(); ++e)
+    if (!borders[e].empty())
+    {
+      const auto [begin, end] = candidates.equal_range(key(borders[e]));
+      const auto match = std::find_if(
+        begin, end, [&](const auto &candidate) { return known[candidate.second] == borders[e]; });
+      if (match != end)
+        place[e] = match->second;
+      else
+      {
+        place[e] = known.size();
+        candidates.emplace(key(borders[e]), known.size());
+        known.push_back(borders[e]);
+      }
+    }
+
+  // A is symmetric: rows of the product are solves with rows of the border as right-hand sides,
+  // and where the border is symmetric, they are the columns.
+  const bool symmetric = std::all_of(
+    known.begin(), known.end(), [](const Border &border) { return border.row == border.column; });
+  const unsigned int n = known.size();
+  for (auto &row : products)
+    row.resize(n);
+  products.resize(n, std::vector<double>(n));
+  for (unsigned int begin = n_old; begin < n; begin += batch)
+  {
+    const unsigned int end = std::min(begin + batch, n);
+    SparseVectors all_rows, all_columns, new_rows, new_columns;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      all_rows.push_back(&known[i].row);
+      all_columns.push_back(&known[i].column);
+      if (i >= begin && i < end)
+      {
+        new_rows.push_back(&known[i].row);
+        new_columns.push_back(&known[i].column);
+      }
+    }
+    const auto columns = multiply(all_rows, new_columns);
+    const auto rows = symmetric ? columns : multiply(all_columns, new_rows);
+    for (unsigned int e = begin; e < end; ++e)
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        products[i][e] = columns[(e - begin) * n + i];
+        products[e][i] = rows[(e - begin) * n + i];
+      }
+  }
+  if (known.size() > 2 * borders.size() + 100)
+    forget_unused();
+}
+
+void ExtraSchur::factorise(const SystemOperator &op)
+{
+  const unsigned int n = op.n_extra();
+  corner_of_factor = op.extra_extra();
+  place_of_factor = place;
+  has_factor = false;
+
+  dealii::FullMatrix<double> s(n, n);
+  for (const auto &e : op.extra_extra())
+    s(e.row, e.column) += e.value;
+  for (unsigned int i = 0; i < n; ++i)
+    if (place[i] != no_place)
+      for (unsigned int j = 0; j < n; ++j)
+        if (place[j] != no_place)
+          s(i, j) -= products[place[i]][place[j]];
+
+  // Equilibrate rows and columns alike (Ruiz 2001), so that pivoting compares like with like.
+  scaling.assign(n, 1.);
+  for (unsigned int sweep = 0; sweep < 3; ++sweep)
+  {
+    std::vector<double> size(n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        const double entry = std::abs(s(i, j));
+        size[i] = std::max(size[i], entry * scaling[j]);
+        size[j] = std::max(size[j], entry * scaling[i]);
+      }
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      if (!(size[i] > 0.) || !std::isfinite(size[i]))
+        throw_singular();
+      scaling[i] = std::sqrt(scaling[i] / size[i]);
+    }
+  }
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      s(i, j) *= scaling[i] * scaling[j];
+
+  schur.reinit(n, n);
+  schur = s;
+  try
+  {
+    schur.compute_lu_factorization();
+  }
+  catch (const dealii::ExceptionBase &)
+  {
+    throw_singular();
+  }
+  has_factor = true;
+}
+
+void ExtraSchur::update(const SystemOperator &op,
+                        const dealii::types::global_dof_index end,
+                        const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
+{
+  update_products(gather_borders(op, end, bulk_scaling));
+  const auto &corner = op.extra_extra();
+  const bool same =
+    has_factor && place == place_of_factor &&
+    std::equal(corner.begin(), corner.end(), corner_of_factor.begin(), corner_of_factor.end(),
+               [](const auto &a, const auto &b)
+               { return a.row == b.row && a.column == b.column && a.value == b.value; });
+  if (!same)
+    factorise(op);
+}
+
+void ExtraSchur::solve(std::vector<double> &x) const
+{
+  dealii::Vector<double> right(x.size());
+  for (unsigned int i = 0; i < x.size(); ++i)
+    right(i) = scaling[i] * x[i];
+  schur.solve(right);
+  for (unsigned int i = 0; i < x.size(); ++i)
+    x[i] = scaling[i] * right(i);
+}
+} // namespace stockwork

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "solvers/system_operator.h"
+
+namespace stockwork
+{
+/// The Schur complement of the extra unknowns,
+///
+///   [ A  B ]
+///   [ C  D ],   S = D - C A^-1 B,   A symmetric,
+///
+/// dense, on every rank. Of C A^-1 B only the rows and columns of new extra unknowns are computed;
+/// an unknown is known by the contents of its row and column, so renumbering costs nothing, and
+/// S follows a growing fracture and Newton's iterations at the price of a dense factorisation.
+class ExtraSchur
+{
+public:
+  /// Entries of one row or column of the border: global index in the bulk and value, on every rank.
+  using SparseVector = std::vector<std::pair<int, double>>;
+  using SparseVectors = std::vector<const SparseVector *>;
+
+  /// left_i . A^-1 right_j of all pairs, on every rank, [j * left.size() + i].
+  using Multiply =
+    std::function<std::vector<double>(const SparseVectors &left, const SparseVectors &right)>;
+
+  ExtraSchur(MPI_Comm communicator, Multiply multiply);
+
+  /// A is another one.
+  void forget();
+
+  /// Compute what is new and factorise. Borders are taken between A's unknowns below `end`, scaled
+  /// if a scaling is given. Throws SolveError when S is singular. Collective.
+  void update(const SystemOperator &op,
+              dealii::types::global_dof_index end,
+              const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
+
+  /// x <- S^-1 x
+  void solve(std::vector<double> &x) const;
+
+  /// SolveError with the usual causes.
+  [[noreturn]] static void throw_singular();
+
+private:
+  /// The border of one extra unknown.
+  struct Border
+  {
+    SparseVector column; ///< of B
+    SparseVector row;    ///< of C
+    bool operator==(const Border &other) const
+    {
+      return column == other.column && row == other.row;
+    }
+    bool empty() const
+    {
+      return column.empty() && row.empty();
+    }
+  };
+
+  std::vector<Border> gather_borders(const SystemOperator &,
+                                     dealii::types::global_dof_index end,
+                                     const dealii::TrilinosWrappers::MPI::BlockVector *) const;
+
+  /// Find each border among the known ones, computing what is new. Unknowns without a border get
+  /// no place (unsigned -1).
+  void update_products(const std::vector<Border> &borders);
+
+  /// Drop known borders that are no longer in use.
+  void forget_unused();
+
+  void factorise(const SystemOperator &);
+
+  MPI_Comm communicator;
+  Multiply multiply;
+
+  std::vector<Border> known;
+  std::vector<std::vector<double>> products; ///< [i][j] = row_i A^-1 column_j of known borders
+  std::vector<unsigned int> place;           ///< of each extra unknown among the known borders
+
+  dealii::LAPACKFullMatrix<double> schur; ///< its factor
+  std::vector<double> scaling;
+  std::vector<SystemOperator::Entry> corner_of_factor; ///< D
+  std::vector<unsigned int> place_of_factor;
+  bool has_factor = false;
+};
+} // namespace stockwork
