@@ -138,21 +138,23 @@ class Bench:
         elif self.options.dealii:
             kinds.append(("iterative, all anew", "iterative", False, "deal.II + ML",
                           lambda: self.dealii(case, n), "1.0", "0.5"))
+        per_cell, peer_per_cell = [], []
         for label, solver, reuse, name, rival, required, great in kinds:
-            own, bare, other, ratios, per_cell, peer_per_cell = [], [], [], [], [], []
+            own, bare, other, ratios = [], [], [], []
             for _ in range(self.options.repeat):
-                step, each, once, setup, summary = self.own_step(case, n, solver, reuse)
+                step, _, once, setup, summary = self.own_step(case, n, solver, reuse)
                 # What the peers do in each step and Stockwork once per mesh. Orderings of direct
                 # solvers are kept by all.
                 extra = 0. if reuse else once + (setup if solver == "iterative" else 0.)
                 bare.append(step)
                 own.append(step + extra)
-                per_cell.append((once / summary["cells"], each / summary["cells"]))
+                per_cell.append(once / summary["cells"])
                 result = rival()
                 if result:
                     other.append(result["step"])
                     ratios.append(own[-1] / result["step"])
-                    peer_per_cell.append(result["asm_mat"] / summary["cells"])
+                    if name.startswith("dolfinx"):
+                        peer_per_cell.append(result["asm_mat"] / summary["cells"])
             spread = (max(ratios) - min(ratios)) / statistics.median(ratios) if ratios else 0.
             iterations = summary["linear_iterations"] / summary["steps"]
             notes = [f"{iterations:.0f} iterations"] if solver == "iterative" else []
@@ -163,11 +165,11 @@ class Bench:
                      f"{name} {statistics.median(other):.3g} s" if other else "",
                      statistics.median(ratios) if ratios else None, required,
                      great + (f" (spread {100 * spread:.0f} %)" if len(ratios) > 1 else ""))
-        once, each = (statistics.median(values) * 1e6 for values in zip(*per_cell))
+        once = statistics.median(per_cell) * 1e6
         peer_us = statistics.median(peer_per_cell) * 1e6 if peer_per_cell else None
         self.row(f"{case.upper()}({n}): matrices, per cell",
                  f"{once:.3g} µs, once per mesh",
-                 f"{kinds[-1][3]} {peer_us:.3g} µs" if peer_us else "",
+                 f"dolfinx {peer_us:.3g} µs" if peer_us else "",
                  once / peer_us if peer_us else None,
                  "1.0" if case == "mandel2d" else "0.6", "0.7" if case == "mandel2d" else "0.3")
 
