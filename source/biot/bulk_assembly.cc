@@ -31,11 +31,13 @@ template <int dim>
 BulkAssembly<dim>::BulkAssembly(const Rock &rock,
                                 const Loads<dim> &loads,
                                 const PressureStabilisation stabilisation,
-                                const Discretization<dim> discretization)
+                                const Discretization<dim> discretization,
+                                const BulkChanges<dim> &changes)
   : rock(rock)
   , loads(loads)
   , discretization(discretization)
-  , matrices(discretization.mapping, discretization.dof_handler.get_fe(), rock, stabilisation)
+  , matrices(
+      discretization.mapping, discretization.dof_handler.get_fe(), rock, stabilisation, changes)
   , face_values(discretization.mapping,
                 discretization.dof_handler.get_fe(),
                 QGauss<dim - 1>(discretization.dof_handler.get_fe().base_element(0).degree + 1),
@@ -111,7 +113,6 @@ bool BulkAssembly<dim>::matrix(const StepContext &context,
     std::vector<unsigned int> pressure_nodes(n_p);
     std::iota(pressure_nodes.begin(), pressure_nodes.end(), 0u);
     RowWriter writer, pressure_writer;
-    LocalVector local_content(fe.n_dofs_per_cell());
     matrix = 0.;
     if (n_p > 0)
     {
@@ -166,19 +167,7 @@ bool BulkAssembly<dim>::matrix(const StepContext &context,
             pressure_constraints.distribute_local_to_global(matrices.fixed_stress, pressure_dofs,
                                                             *fixed_stress_mass);
         }
-        const auto &integrals = matrices.integrals;
-        local_content = 0.;
-        for (unsigned int a = 0; a < n_p; ++a)
-        {
-          local_content(layout.p[a]) =
-            matrices.properties().inverse_biot_modulus * integrals.pressure_means[a];
-          for (unsigned int b = 0; b < layout.n_u; ++b)
-            for (unsigned int i = 0; i < dim; ++i)
-              local_content(layout.u[b * dim + i]) +=
-                matrices.properties().biot_coefficient *
-                integrals.divergences[(i * n_p + a) * layout.n_u + b];
-        }
-        content.add(dofs, local_content);
+        content.add(dofs, matrices.content);
       }
     matrix.compress(VectorOperation::add);
     if (n_p > 0)
@@ -324,7 +313,7 @@ void BulkAssembly<dim>::add_inertia(const StepContext &context,
       local = 0.;
       const double inertia = context.acceleration * matrices.properties().density;
       for (unsigned int a = 0; a < layout.n_u; ++a)
-        for (unsigned int b = 0; b < layout.n_u; ++b)
+        for (unsigned int b = 0; b < layout.n_u && !matrices.skips(a); ++b)
           for (unsigned int i = 0; i < dim; ++i)
             local(layout.u[a * dim + i]) -= inertia *
                                             matrices.integrals.masses[a * layout.n_u + b] *

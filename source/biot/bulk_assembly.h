@@ -24,7 +24,8 @@ namespace stockwork
 ///
 /// where p is the pore pressure over its in-situ value, u is measured from the in-situ state and
 /// the signs are those of Sink. The rock is linear, so the matrix depends on the time scheme's
-/// coefficients and the mesh only, and most of the residual is a product with it.
+/// coefficients, the mesh and what a fracture model does to the rock, and most of the residual is
+/// a product with it.
 ///
 /// Valid for one mesh.
 template <int dim>
@@ -37,7 +38,8 @@ public:
   BulkAssembly(const Rock &rock,
                const Loads<dim> &loads,
                PressureStabilisation stabilisation,
-               const Discretization<dim> discretization);
+               const Discretization<dim> discretization,
+               const BulkChanges<dim> &changes = {});
 
   /// Fill the matrix of the bulk and, unless null, the fixed-stress mass. Cells are visited when
   /// `anew` or where inertia has changed; otherwise the step's length alone has, and with it the

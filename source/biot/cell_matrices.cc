@@ -1,5 +1,7 @@
 #include "biot/cell_matrices.h"
 
+#include <deal.II/base/quadrature_lib.h>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -8,14 +10,21 @@ template <int dim>
 CellMatrices<dim>::CellMatrices(const Mapping<dim> &mapping,
                                 const FiniteElement<dim> &fe,
                                 const Rock &rock,
-                                const PressureStabilisation stabilisation)
+                                const PressureStabilisation stabilisation,
+                                const BulkChanges<dim> &changes)
   : integrals(mapping, fe)
   , whole(fe.n_dofs_per_cell())
   , storage(integrals.layout.n_p)
   , diffusion(integrals.layout.n_p)
   , fixed_stress(integrals.layout.n_p)
+  , content(fe.n_dofs_per_cell())
   , rock(rock)
   , stabilisation(stabilisation)
+  , changes(changes)
+  , fe_values(mapping,
+              fe,
+              QGauss<dim>(fe.base_element(0).degree + 1),
+              update_values | update_gradients | update_quadrature_points | update_JxW_values)
 {
 }
 
@@ -27,11 +36,25 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
   const RockProperties *const before = rock_of_cell;
   rock_of_cell = &rock(cell->material_id());
   const bool new_cell = integrals.reinit(cell) || rock_of_cell != before;
-  if (new_cell)
-    pressure_matrices();
-  if (new_cell || rate != context.rate || pressure_rate != context.pressure_rate ||
-      acceleration != context.acceleration)
-    whole_matrix(context);
+  if (changes.coefficients)
+    changed_matrices(cell, context);
+  else
+  {
+    if (new_cell)
+      pressure_matrices();
+    if (new_cell || rate != context.rate || pressure_rate != context.pressure_rate ||
+        acceleration != context.acceleration)
+      whole_matrix(context);
+  }
+  skipped = changes.role ? changes.role(cell).skip_stiffness : nullptr;
+  if (skipped == nullptr)
+    return;
+  for (unsigned int a = 0; a < layout().n_u; ++a)
+    if (skips(a))
+      for (unsigned int i = 0; i < dim; ++i)
+        for (const unsigned int j : layout().u)
+          whole(layout().u[a * dim + i], j) = 0.;
+  rate = -1.; // no matrix for the next cell
 }
 
 
@@ -59,6 +82,16 @@ void CellMatrices<dim>::pressure_matrices()
       diffusion(a, b) = mobility * integrals.pressure_gradients[a * n_p + b];
       fixed_stress(a, b) = compliance * mass;
     }
+  const unsigned int n_u = layout().n_u;
+  content = 0.;
+  for (unsigned int a = 0; a < n_p; ++a)
+  {
+    content(layout().p[a]) = properties.inverse_biot_modulus * integrals.pressure_means[a];
+    for (unsigned int b = 0; b < n_u; ++b)
+      for (unsigned int i = 0; i < dim; ++i)
+        content(layout().u[b * dim + i]) +=
+          properties.biot_coefficient * integrals.divergences[(i * n_p + a) * n_u + b];
+  }
 }
 
 
@@ -103,6 +136,83 @@ void CellMatrices<dim>::whole_matrix(const StepContext &context)
   rate = context.rate;
   pressure_rate = context.pressure_rate;
   acceleration = context.acceleration;
+}
+
+
+template <int dim>
+void CellMatrices<dim>::changed_matrices(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                         const StepContext &context)
+{
+  const FEValuesExtractors::Vector displacement(0);
+  const auto &layout = integrals.layout;
+  const unsigned int n_p = layout.n_p;
+  const auto identity = unit_symmetric_tensor<dim>();
+  const double inertia = context.acceleration * rock_of_cell->density;
+
+  BulkCoefficients<dim> intact;
+  intact.stiffness = rock_of_cell->lame_lambda() * outer_product(identity, identity) +
+                     2. * rock_of_cell->shear_modulus() * identity_tensor<dim>();
+  intact.biot = rock_of_cell->biot_coefficient * identity;
+  intact.storage = rock_of_cell->inverse_biot_modulus;
+  intact.mobility = rock_of_cell->permeability / rock.fluid().viscosity * identity;
+  fe_values.reinit(cell);
+  coefficients.assign(fe_values.n_quadrature_points, intact);
+  changes.coefficients(cell, fe_values.get_quadrature_points(), coefficients);
+
+  for (FullMatrix<double> *matrix : {&whole, &storage, &diffusion, &fixed_stress})
+    *matrix = 0.;
+  content = 0.;
+  for (const unsigned int q : fe_values.quadrature_point_indices())
+  {
+    const BulkCoefficients<dim> &c = coefficients[q];
+    const double w = fe_values.JxW(q);
+    for (const unsigned int j : layout.u)
+    {
+      const auto strain = fe_values[displacement].symmetric_gradient(j, q);
+      const auto stress = c.stiffness * strain;
+      const double content_here = c.biot * strain * w;
+      for (const unsigned int i : layout.u)
+        whole(i, j) += fe_values[displacement].symmetric_gradient(i, q) * stress * w;
+      for (const unsigned int i : layout.p)
+      {
+        whole(i, j) -= fe_values.shape_value(i, q) * content_here;
+        whole(j, i) -= fe_values.shape_value(i, q) * content_here;
+      }
+      content(j) += content_here;
+    }
+    // As in rock of its own: alpha, G and the bulk modulus are read from the tensors.
+    const double alpha = trace(c.biot) / dim;
+    const double stabilising = stabilisation == PressureStabilisation::projection
+                                 ? alpha * alpha / (2. * c.stiffness[0][1][0][1])
+                                 : 0.;
+    const double bulk_modulus = trace(c.stiffness * identity) / (dim * dim);
+    for (unsigned int a = 0; a < n_p; ++a)
+    {
+      const double value = fe_values.shape_value(layout.p[a], q),
+                   mean = integrals.pressure_means[a] / integrals.volume;
+      const Tensor<1, dim> flux = c.mobility * fe_values.shape_grad(layout.p[a], q) * w;
+      content(layout.p[a]) += c.storage * value * w;
+      for (unsigned int b = 0; b < n_p; ++b)
+      {
+        const double other = fe_values.shape_value(layout.p[b], q),
+                     other_mean = integrals.pressure_means[b] / integrals.volume;
+        storage(a, b) +=
+          (c.storage * value * other + stabilising * (value - mean) * (other - other_mean)) * w;
+        diffusion(a, b) += flux * fe_values.shape_grad(layout.p[b], q);
+        fixed_stress(a, b) += alpha * alpha / bulk_modulus * value * other * w;
+      }
+    }
+  }
+  if (inertia > 0.)
+    for (unsigned int a = 0; a < layout.n_u; ++a)
+      for (unsigned int b = 0; b < layout.n_u; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          whole(layout.u[a * dim + i], layout.u[b * dim + i]) +=
+            inertia * integrals.masses[a * layout.n_u + b];
+  for (unsigned int a = 0; a < n_p; ++a)
+    for (unsigned int b = 0; b < n_p; ++b)
+      whole(layout.p[a], layout.p[b]) = -context.pressure_rate / context.rate * storage(a, b) -
+                                        context.effective_dt() * diffusion(a, b);
 }
 
 

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include "stockwork/biot/rock.h"
+#include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/state.h"
 
 #include "biot/cell_integrals.h"
+
+#include <functional>
+#include <vector>
 
 namespace stockwork
 {
@@ -16,8 +22,21 @@ enum class PressureStabilisation
   projection ///< polynomial pressure projection, on the increment (White & Borja 2008)
 };
 
-/// The matrices of one ordinary cell of homogeneous rock. They are those of the last cell where
-/// that has the same shape, rock and time step.
+/// What a fracture model does to the rock, see FractureModel; either may be empty.
+template <int dim>
+struct BulkChanges
+{
+  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  std::function<void(const CellIterator &,
+                     const std::vector<dealii::Point<dim>> &,
+                     std::vector<BulkCoefficients<dim>> &)>
+    coefficients;
+  std::function<CellRole<dim>(const CellIterator &)> role; ///< of which skip_stiffness counts here
+};
+
+/// The matrices of one cell. In homogeneous rock that no fracture model changes they are those of
+/// the last cell where that has the same shape, rock and time step.
 template <int dim>
 class CellMatrices
 {
@@ -25,7 +44,8 @@ public:
   CellMatrices(const dealii::Mapping<dim> &mapping,
                const dealii::FiniteElement<dim> &fe,
                const Rock &rock,
-               PressureStabilisation stabilisation);
+               PressureStabilisation stabilisation,
+               const BulkChanges<dim> &changes = {});
 
   void reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
               const StepContext &context);
@@ -40,6 +60,12 @@ public:
     return *rock_of_cell;
   }
 
+  /// Whether somebody else provides stiffness and inertia of the node's momentum rows.
+  bool skips(const unsigned int node) const
+  {
+    return skipped != nullptr && node < skipped->size() && (*skipped)[node];
+  }
+
   CellIntegrals<dim> integrals;
 
   /// Derivative of the residual of BulkAssembly, in the order of the cell's dofs.
@@ -50,13 +76,22 @@ public:
   dealii::FullMatrix<double> diffusion;    ///< outflow per pressure
   dealii::FullMatrix<double> fixed_stress; ///< alpha^2 / (lambda + 2 G / dim) times the mass
 
+  /// d(fluid in the pores of the cell)/d(unknowns), stabilisation aside.
+  dealii::Vector<double> content;
+
 private:
   void pressure_matrices();
+  void changed_matrices(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+                        const StepContext &context);
   void whole_matrix(const StepContext &context);
 
   const Rock &rock;
   PressureStabilisation stabilisation;
+  const BulkChanges<dim> changes;
+  dealii::FEValues<dim> fe_values;                 ///< for changed cells
+  std::vector<BulkCoefficients<dim>> coefficients; ///< at the quadrature points of a changed cell
   const RockProperties *rock_of_cell = nullptr;
+  const std::vector<bool> *skipped = nullptr; ///< vertices, which are a cell's first nodes
   double rate = -1., pressure_rate = -1., acceleration = -1.; ///< of `whole`
 };
 } // namespace stockwork

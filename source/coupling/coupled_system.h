@@ -135,6 +135,10 @@ private:
   };
   Norms residual_norms() const;
 
+  /// Bounds of what rounding leaves of the bulk's residuals: a solve that starts in equilibrium
+  /// gets no further.
+  Norms rounding_errors(const dealii::TrilinosWrappers::MPI::BlockVector &values) const;
+
   RunContext &run;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const dealii::Mapping<dim> &mapping;

@@ -13,7 +13,7 @@ namespace stockwork
 {
 namespace
 {
-constexpr unsigned int max_refinements = 6;
+constexpr unsigned int max_direct_refinements = 6;
 
 bool same_indices(const std::vector<SystemOperator::Entry> &a,
                   const std::vector<SystemOperator::Entry> &b)
@@ -159,7 +159,7 @@ LinearReport DirectSolver::solve(const LinearSystem &system,
   const double size = op.scaled_norm(r);
   double last = size;
   if (size > 0.)
-    for (unsigned int k = 0; k <= max_refinements; ++k)
+    for (unsigned int k = 0; k <= max_direct_refinements; ++k)
     {
       transfer.to_root(r.bulk, factor_scaling.bulk, x.data());
       if (root)

@@ -9,8 +9,8 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr int n_roots = 2000;
-constexpr double negligible = 40.; // exp(-40) = 4e-18
+constexpr int n_mandel_roots = 2000;
+constexpr double negligible_exponent = 40.; // exp(-40) = 4e-18
 constexpr double undrained_limit = 1e-12;
 } // namespace
 
@@ -57,8 +57,8 @@ Mandel::Mandel(const MandelParameters &parameters)
     return;
 
   const double ratio = (1. - nu) / (nu_u - nu);
-  roots.reserve(n_roots);
-  for (int i = 0; i < n_roots; ++i)
+  roots.reserve(n_mandel_roots);
+  for (int i = 0; i < n_mandel_roots; ++i)
   {
     // f has one root between i pi and (i + 1/2) pi; for i = 0 it is away from the trivial
     // root x = 0 because ratio > 1.
@@ -101,7 +101,7 @@ MandelAtTime Mandel::at(const double t) const
   for (const double root : roots)
   {
     const double decay = root * root * time;
-    if (decay > negligible)
+    if (decay > negligible_exponent)
       break;
     const double sine = std::sin(root);
     const double cosine = std::cos(root);

@@ -8,7 +8,7 @@ namespace stockwork::analytical
 namespace
 {
 constexpr double near = 0.05; // where series replace differences of large numbers
-constexpr double negligible = 20.;
+constexpr double negligible_decay = 20.;
 
 // Derivatives of cot(u) - 1/u.
 double cot_excess_1(const double u)
@@ -53,7 +53,7 @@ double RollerWalls::uniaxial_ratio(const double poisson_ratio)
 
 unsigned int RollerWalls::n_waves() const
 {
-  return static_cast<unsigned int>(negligible * half_width / (pi * half_height));
+  return static_cast<unsigned int>(negligible_decay * half_width / (pi * half_height));
 }
 
 
