@@ -11,15 +11,25 @@ string(REPLACE "-funroll-all-loops" "" DEAL_II_CXX_FLAGS_RELEASE "${DEAL_II_CXX_
 string(REPLACE "-funroll-loops" "" DEAL_II_CXX_FLAGS_RELEASE "${DEAL_II_CXX_FLAGS_RELEASE}")
 
 add_library(stockwork_options INTERFACE)
-target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-g0>)
+target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-g0> $<$<CONFIG:Debug>:-g1>)
 if(STOCKWORK_NATIVE)
   target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-O3 -march=native>)
 endif()
 
 find_program(STOCKWORK_CCACHE ccache)
-if(STOCKWORK_CCACHE)
+if(STOCKWORK_CCACHE AND NOT STOCKWORK_PCH)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${STOCKWORK_CCACHE})
 endif()
+
+# The library's precompiled headers for a program: that takes the same compiler flags, down to the
+# kind of position-independent code.
+function(stockwork_reuse_headers target)
+  if(STOCKWORK_PCH)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIC)
+    target_precompile_headers(${target} REUSE_FROM stockwork)
+  endif()
+endfunction()
 
 # An installed program finds its library beside it, and deal.II where it was found.
 file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
