@@ -53,6 +53,8 @@ parse_initial_cracks(ParameterHandler &prm, const Point<dim> &lower, const Point
         continue;
       InitialCrack<dim> crack;
       crack.kind = kind;
+      crack.entry = std::string("Cracks/") + entry;
+      crack.text = text;
       for (const std::string &corner : Utilities::split_string_list(text, "->"))
       {
         const auto numbers = Utilities::split_string_list(corner, ',');

@@ -194,6 +194,7 @@ CrackPiece<dim> reversed(const CrackPiece<dim> &piece)
   std::swap(r.ends[0], r.ends[1]);
   std::swap(r.unit_ends[0], r.unit_ends[1]);
   std::swap(r.at_boundary[0], r.at_boundary[1]);
+  std::swap(r.inside[0], r.inside[1]);
   return r;
 }
 
@@ -229,7 +230,8 @@ template <int dim>
 CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
                             const std::vector<Point<dim>> &polyline,
                             const double domain_size,
-                            const Collectives &collectives)
+                            const Collectives &collectives,
+                            const bool exact_ends)
 {
   if (polyline.size() < 2)
     throw InputError("A crack needs at least two points.");
@@ -248,8 +250,12 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
                 [](const Crossing &a, const Crossing &b) { return a.arc < b.arc; });
       for (unsigned int i = 0; i + 1 < crossings.size(); i += 2)
       {
-        const double middle = 0.5 * (crossings[i].arc + crossings[i + 1].arc);
-        if (middle < 0. || middle > line.length || crossings[i].face == crossings[i + 1].face)
+        const double arcs[2] = {crossings[i].arc, crossings[i + 1].arc};
+        const double middle = 0.5 * (arcs[0] + arcs[1]);
+        // A tip this close to an edge is taken to be on it.
+        const double sliver = exact_ends ? 0.02 * (arcs[1] - arcs[0]) : 0.5 * (arcs[1] - arcs[0]);
+        if (arcs[1] < sliver || arcs[0] > line.length - sliver ||
+            crossings[i].face == crossings[i + 1].face)
           continue;
         Found f;
         f.arc = middle;
@@ -260,6 +266,20 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
         {
           place_end(f.piece, e, crossings[i + e].face, crossings[i + e].share);
           f.piece.at_boundary[e] = cell->face(crossings[i + e].face)->at_boundary();
+        }
+        if (exact_ends)
+        {
+          const auto end_inside = [&](const unsigned int e, const Point<dim> &tip)
+          {
+            f.piece.inside[e] = true;
+            f.piece.at_boundary[e] = false;
+            f.piece.ends[e] = tip;
+            f.piece.unit_ends[e] = discretization.mapping.transform_real_to_unit_cell(cell, tip);
+          };
+          if (arcs[0] < -sliver)
+            end_inside(0, polyline.front());
+          if (arcs[1] > line.length + sliver)
+            end_inside(1, polyline.back());
         }
         f.piece.held = held_components(discretization, cell);
         found.push_back(f);
@@ -275,6 +295,9 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
   CrackPath<dim> path;
   for (const Found &f : found)
   {
+    if (f.piece.inside[0] && f.piece.inside[1])
+      throw InputError("The crack from " + text(polyline.front()) + " to " + text(polyline.back()) +
+                       " lies inside one cell. Refine the mesh around it.");
     if (!path.pieces.empty() &&
         path.pieces.back().ends[1].distance(f.piece.ends[0]) > 1e-8 * domain_size)
       throw InputError(
@@ -356,7 +379,8 @@ held_components(const Discretization<2> &, const dealii::DoFHandler<2>::active_c
 template CrackPath<2> cut_polyline(const Discretization<2> &,
                                    const std::vector<Point<2>> &,
                                    const double,
-                                   const Collectives &);
+                                   const Collectives &,
+                                   const bool);
 template CrackPiece<2> continue_into<2>(const dealii::DoFHandler<2>::active_cell_iterator &,
                                         const unsigned int,
                                         const Point<2> &,

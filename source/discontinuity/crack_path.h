@@ -34,6 +34,7 @@ struct CrackPiece
   std::array<dealii::Point<dim>, 2> ends;            ///< where it enters and leaves
   std::array<dealii::Point<dim>, 2> unit_ends;       ///< the same in unit-cell coordinates
   std::array<bool, 2> at_boundary{{false, false}};   ///< the face is on the domain's boundary
+  std::array<bool, 2> inside{{false, false}}; ///< ends in the cell: a tip; its face means nothing
 
   /// Components of displacement that a boundary condition holds at each corner, one bit each.
   std::array<unsigned char, n_corners> held{};
@@ -69,7 +70,7 @@ struct CrackPiece
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &cell &corners &faces &ends &unit_ends &at_boundary &held;
+    ar &cell &corners &faces &ends &unit_ends &at_boundary &inside &held;
   }
 };
 
@@ -119,15 +120,17 @@ constexpr double corner_clearance = 1e-3;
 
 /// Cut the mesh along a polyline: the chain of pieces, the same on all ranks.
 ///
-/// A crack consists of whole cells: an end inside a cell moves along the crack to the nearest edge,
-/// and a kink inside a cell is cut short. A vertex on the polyline counts as being on the plus
-/// side, so a crack along a mesh line runs `corner_clearance` of an edge beside it.
+/// Without @p exact_ends a crack consists of whole cells: an end inside a cell moves along the
+/// crack to the nearest edge. A kink inside a cell is cut short. A vertex on the polyline counts as
+/// being on the plus side, so a crack along a mesh line runs `corner_clearance` of an edge beside
+/// it.
 /// @throws InputError if the crack lies outside the mesh or passes cells of different size
 template <int dim>
 CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
                             const std::vector<dealii::Point<dim>> &polyline,
                             const double domain_size,
-                            const Collectives &collectives);
+                            const Collectives &collectives,
+                            const bool exact_ends = false);
 
 /// The piece that continues a crack from @p tip on face @p face of @p cell along @p direction. The
 /// direction keeps a component of at least 0.01 into the cell.

@@ -85,6 +85,37 @@ dealii::Quadrature<2> split_quadrature(const CrackPiece<2> &piece, const unsigne
   return dealii::Quadrature<2>(points, weights);
 }
 
+dealii::Quadrature<2> fan_quadrature(const Point<2> &tip,
+                                     const std::optional<std::pair<Point<2>, unsigned int>> &mouth,
+                                     const unsigned int n_points_per_direction)
+{
+  std::vector<Point<2>> polygon{{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}};
+  if (mouth)
+  {
+    const int corner = static_cast<int>(around(mouth->first, mouth->second)) % 4;
+    polygon.insert(polygon.begin() + corner + 1, mouth->first);
+  }
+  const dealii::QGauss<1> line(n_points_per_direction);
+  std::vector<Point<2>> points;
+  std::vector<double> weights;
+  for (unsigned int i = 0; i < polygon.size(); ++i)
+  {
+    const dealii::Tensor<1, 2> a = polygon[i] - tip, b = polygon[(i + 1) % polygon.size()] - tip;
+    const double determinant = std::abs(a[0] * b[1] - a[1] * b[0]);
+    if (determinant < 1e-12)
+      continue; // the tip is on this edge
+    // The distance is s^2 along every ray, so that roots of it become polynomials.
+    for (unsigned int q = 0; q < line.size(); ++q)
+      for (unsigned int k = 0; k < line.size(); ++k)
+      {
+        const double s = line.point(q)[0], v = line.point(k)[0];
+        points.push_back(tip + s * s * (a + v * (b - a)));
+        weights.push_back(line.weight(q) * line.weight(k) * 2. * s * s * s * determinant);
+      }
+  }
+  return dealii::Quadrature<2>(points, weights);
+}
+
 template <int dim>
 std::array<double, CrackPiece<dim>::n_corners> corner_functions(const Point<dim> &unit_point)
 {
@@ -101,27 +132,38 @@ make_cut_geometry(const dealii::Mapping<dim> &mapping,
                   const CrackPiece<dim> &piece,
                   const unsigned int degree)
 {
+  return make_cut_geometry(mapping, cell, &piece, split_quadrature(piece, degree));
+}
+
+template <int dim>
+CutGeometry<dim>
+make_cut_geometry(const dealii::Mapping<dim> &mapping,
+                  const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
+                  const CrackPiece<dim> *piece,
+                  const dealii::Quadrature<dim> &rule)
+{
   constexpr unsigned int n_corners = CutGeometry<dim>::n_corners;
 
-  const dealii::Quadrature<dim> rule = split_quadrature(piece, degree);
   const dealii::FE_Q<dim> q1(1);
   dealii::FEValues<dim> fe_values(mapping, q1, rule,
                                   dealii::update_values | dealii::update_gradients |
                                     dealii::update_JxW_values);
   fe_values.reinit(cell);
 
-  std::array<bool, n_corners> plus;
-  for (unsigned int v = 0; v < n_corners; ++v)
-    plus[v] = piece.plus_side(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
-
   CutGeometry<dim> geometry;
   geometry.points = rule.get_points();
   geometry.weights = fe_values.get_JxW_values();
   geometry.values.resize(rule.size() * n_corners, 0.);
   geometry.gradients.resize(rule.size() * n_corners);
+  if (piece == nullptr)
+    return geometry;
+
+  std::array<bool, n_corners> plus;
+  for (unsigned int v = 0; v < n_corners; ++v)
+    plus[v] = piece->plus_side(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
   for (unsigned int q = 0; q < rule.size(); ++q)
   {
-    const int here = piece.plus_side(rule.point(q));
+    const int here = piece->plus_side(rule.point(q));
     for (unsigned int v = 0; v < n_corners; ++v)
       if (const int jump = here - int(plus[v]); jump != 0)
       {
@@ -134,26 +176,38 @@ make_cut_geometry(const dealii::Mapping<dim> &mapping,
 
 template <int dim>
 CutCell<dim> make_cut_cell(const CutGeometry<dim> &geometry,
-                           const std::vector<EnrichedColumn> &columns)
+                           const std::vector<EnrichedColumn> &columns,
+                           const TabulatedColumns<dim> &more)
 {
   constexpr unsigned int n_corners = CutGeometry<dim>::n_corners;
 
   CutCell<dim> cut;
   cut.points = geometry.points;
   cut.weights = geometry.weights;
-  cut.values.reserve(geometry.points.size() * columns.size());
-  cut.gradients.reserve(geometry.points.size() * columns.size());
+  const unsigned int n_more = more.extra.size();
+  const std::size_t size = geometry.points.size() * (columns.size() + n_more);
+  cut.values.reserve(size);
+  cut.gradients.reserve(size);
   for (const EnrichedColumn &column : columns)
   {
     cut.extra.push_back(column.extra);
     cut.component.push_back(column.component);
   }
+  cut.extra.insert(cut.extra.end(), more.extra.begin(), more.extra.end());
+  cut.component.insert(cut.component.end(), more.component.begin(), more.component.end());
   for (unsigned int q = 0; q < geometry.points.size(); ++q)
+  {
     for (const EnrichedColumn &column : columns)
     {
       cut.values.push_back(geometry.values[q * n_corners + column.corner]);
       cut.gradients.push_back(geometry.gradients[q * n_corners + column.corner]);
     }
+    for (unsigned int c = q * n_more; c < (q + 1) * n_more; ++c)
+    {
+      cut.values.push_back(more.values[c]);
+      cut.gradients.push_back(more.gradients[c]);
+    }
+  }
   return cut;
 }
 
@@ -162,5 +216,11 @@ template CutGeometry<2> make_cut_geometry(const dealii::Mapping<2> &,
                                           const dealii::Triangulation<2>::active_cell_iterator &,
                                           const CrackPiece<2> &,
                                           const unsigned int);
-template CutCell<2> make_cut_cell(const CutGeometry<2> &, const std::vector<EnrichedColumn> &);
+template CutGeometry<2> make_cut_geometry(const dealii::Mapping<2> &,
+                                          const dealii::Triangulation<2>::active_cell_iterator &,
+                                          const CrackPiece<2> *,
+                                          const dealii::Quadrature<2> &);
+template CutCell<2> make_cut_cell(const CutGeometry<2> &,
+                                  const std::vector<EnrichedColumn> &,
+                                  const TabulatedColumns<2> &);
 } // namespace stockwork

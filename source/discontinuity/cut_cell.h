@@ -7,6 +7,8 @@
 #include "discontinuity/crack_path.h"
 #include "stockwork/fracture/cell_role.h"
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace stockwork
@@ -40,6 +42,15 @@ struct EnrichedColumn
 /// to 1.
 dealii::Quadrature<2> split_quadrature(const CrackPiece<2> &piece, const unsigned int degree);
 
+/// A rule on the unit cell for functions that behave as the root of the distance to @p tip, a point
+/// of the cell or of its boundary, and their derivatives: a fan of triangles around it.
+/// @param mouth where a crack that ends at the tip enters the cell, with its face; the triangles
+/// are aligned with it
+dealii::Quadrature<2>
+fan_quadrature(const dealii::Point<2> &tip,
+               const std::optional<std::pair<dealii::Point<2>, unsigned int>> &mouth,
+               const unsigned int n_points_per_direction);
+
 /// Geometry of a cut cell for bulk displacements of polynomial degree @p degree.
 template <int dim>
 CutGeometry<dim>
@@ -48,10 +59,29 @@ make_cut_geometry(const dealii::Mapping<dim> &mapping,
                   const CrackPiece<dim> &piece,
                   const unsigned int degree);
 
+/// The same for any rule; the functions of the corners jump where there is a piece.
+template <int dim>
+CutGeometry<dim>
+make_cut_geometry(const dealii::Mapping<dim> &mapping,
+                  const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
+                  const CrackPiece<dim> *piece,
+                  const dealii::Quadrature<dim> &rule);
+
+/// Columns that are tabulated and not made from the functions of corners.
+template <int dim>
+struct TabulatedColumns
+{
+  std::vector<unsigned int> extra;
+  std::vector<unsigned int> component;
+  std::vector<double> values;                    ///< [q * n_columns + c]
+  std::vector<dealii::Tensor<1, dim>> gradients; ///< real space, [q * n_columns + c]
+};
+
 /// The cut cell as the bulk sees it.
 template <int dim>
 CutCell<dim> make_cut_cell(const CutGeometry<dim> &geometry,
-                           const std::vector<EnrichedColumn> &columns);
+                           const std::vector<EnrichedColumn> &columns,
+                           const TabulatedColumns<dim> &more = {});
 
 /// Q1 functions of the corners at a point of the unit cell.
 template <int dim>

@@ -1,5 +1,7 @@
 #include "discontinuity/discontinuity.h"
 
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_accessor.h>
 #include <deal.II/fe/fe.h>
 
@@ -29,6 +31,31 @@ struct Finding
     ar &advance &outcome &owner &piece;
   }
 };
+
+template <int dim, class CellIterator>
+bool reaches(const CrackTip<dim> &tip, const CellIterator &cell)
+{
+  return tip.point.distance(cell->center()) < tip.radius + 0.5 * cell->diameter();
+}
+
+template <int dim>
+double longest_edge(const CrackPiece<dim> &piece)
+{
+  double longest = 0.;
+  for (const auto &edge : face_vertices)
+    longest = std::max(longest, piece.corners[edge[0]].distance(piece.corners[edge[1]]));
+  return longest;
+}
+
+/// Which end of a piece lies at a point of the unit cell; -1: none.
+template <int dim>
+int end_at(const CrackPiece<dim> &piece, const Point<dim> &unit_point)
+{
+  for (int e = 0; e < 2; ++e)
+    if (piece.unit_ends[e].distance(unit_point) < 0.03)
+      return e;
+  return -1;
+}
 } // namespace
 
 template <int dim>
@@ -77,14 +104,45 @@ void Discontinuity<dim>::setup(const Discretization<dim> &d, const Collectives &
 
 
 template <int dim>
-void Discontinuity<dim>::cut(const std::vector<std::vector<Point<dim>>> &polylines,
-                             const Collectives &collectives)
+void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
+                             const Collectives &collectives,
+                             const std::optional<double> kolosov)
 {
   cracks.clear();
+  tips.clear();
   entries.clear();
   entry_of_cell.assign(entry_of_cell.size(), -1);
-  for (const auto &polyline : polylines)
-    cracks.push_back(cut_polyline(*discretization, polyline, domain_size, collectives));
+  const auto refuse = [](const InitialCrack<dim> &crack, const std::string &reason)
+  { throw EntryError(crack.entry, crack.text, "a crack that fits the mesh. " + reason); };
+  for (const InitialCrack<dim> &crack : given)
+  {
+    const std::vector<Point<dim>> &polyline = crack.points;
+    try
+    {
+      cracks.push_back(
+        cut_polyline(*discretization, polyline, domain_size, collectives, kolosov.has_value()));
+    }
+    catch (const InputError &error)
+    {
+      refuse(crack, error.what());
+    }
+    if (kolosov)
+      for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+        if (cracks.back().is_tip[static_cast<int>(end)])
+        {
+          CrackTip<dim> tip;
+          tip.crack = cracks.size() - 1;
+          tip.end = end;
+          const bool first = end == CrackEnd::first;
+          tip.point = first ? polyline.front() : polyline.back();
+          const auto out = tip.point - (first ? polyline[1] : polyline[polyline.size() - 2]);
+          tip.along = out / out.norm();
+          tip.kolosov = *kolosov;
+          tip.radius =
+            greatest_tip_radius(discretization->triangulation, polyline, end, collectives);
+          tips.push_back(tip);
+        }
+  }
 
   std::map<dealii::CellId, unsigned int> seen;
   for (unsigned int c = 0; c < cracks.size(); ++c)
@@ -93,8 +151,8 @@ void Discontinuity<dim>::cut(const std::vector<std::vector<Point<dim>>> &polylin
       {
         std::ostringstream where;
         where << '(' << piece.centre() << ')';
-        throw InputError("Cracks meet in the cell at " + where.str() +
-                         "; a cell can hold one crack only. Refine the mesh or keep them apart.");
+        refuse(given[c], "Cracks meet in the cell at " + where.str() +
+                           "; a cell can hold one crack only. Refine the mesh or keep them apart.");
       }
   renumber();
   collect_entries();
@@ -110,7 +168,7 @@ void Discontinuity<dim>::restore(std::vector<CrackPath<dim>> earlier)
   // Cells that are not cut any more.
   std::vector<Entry> kept;
   for (Entry &entry : entries)
-    if (is_cut(entry.cell->id()))
+    if (is_cut(entry.cell->id()) || !entry.tips.empty())
       kept.push_back(std::move(entry));
   entries = std::move(kept);
   entry_of_cell.assign(entry_of_cell.size(), -1);
@@ -139,48 +197,149 @@ void Discontinuity<dim>::collect_entries()
 {
   for (const auto &cell : discretization->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-      if (const auto found = piece_of_cell.find(cell->id()); found != piece_of_cell.end())
-        add_entry(cell, cracks[found->second.first].pieces[found->second.second]);
+    {
+      const auto found = piece_of_cell.find(cell->id());
+      if (found != piece_of_cell.end())
+        add_entry(cell, &cracks[found->second.first].pieces[found->second.second],
+                  found->second.first);
+      else if (std::any_of(tips.begin(), tips.end(),
+                           [&cell](const CrackTip<dim> &tip) { return reaches(tip, cell); }))
+        add_entry(cell, nullptr);
+    }
 }
 
 
 template <int dim>
-typename Discontinuity<dim>::Entry &Discontinuity<dim>::add_entry(const CellIterator &cell,
-                                                                  const CrackPiece<dim> &piece)
+void Discontinuity<dim>::add_entry(const CellIterator &cell,
+                                   const CrackPiece<dim> *piece,
+                                   const unsigned int crack)
 {
+  const auto &mapping = discretization->mapping;
   const unsigned int degree = cell->get_fe().base_element(0).degree;
-  entries.push_back(
-    {cell, make_cut_geometry<dim>(discretization->mapping, cell, piece, degree), {}, {}});
-  entry_of_cell[cell->active_cell_index()] = entries.size() - 1;
-  return entries.back();
+  Entry entry;
+  entry.cell = cell;
+  std::optional<Point<dim>> tip_in_cell;
+  for (unsigned int t = 0; t < tips.size(); ++t)
+    if (reaches(tips[t], cell))
+    {
+      entry.tips.push_back(t);
+      if (tips[t].point.distance(cell->center()) < cell->diameter())
+        if (const auto unit = mapping.transform_real_to_unit_cell(cell, tips[t].point);
+            dealii::GeometryInfo<dim>::is_inside_unit_cell(unit, 1e-8))
+          tip_in_cell = dealii::GeometryInfo<dim>::project_to_unit_cell(unit);
+    }
+
+  if (tip_in_cell && piece == nullptr)
+    entry.geometry =
+      make_cut_geometry<dim>(mapping, cell, nullptr, fan_quadrature(*tip_in_cell, {}, degree + 4));
+  else if (const int end = tip_in_cell ? end_at(*piece, *tip_in_cell) : -1; end >= 0)
+    // Around the piece's own end, which may be moved off a corner by a hair.
+    entry.geometry = make_cut_geometry<dim>(
+      mapping, cell, piece,
+      fan_quadrature(piece->unit_ends[end],
+                     std::make_pair(piece->unit_ends[1 - end], piece->faces[1 - end]), degree + 4));
+  else if (piece != nullptr)
+    entry.geometry = make_cut_geometry<dim>(
+      mapping, cell, piece, split_quadrature(*piece, entry.tips.empty() ? degree : degree + 2));
+  else
+    entry.geometry =
+      make_cut_geometry<dim>(mapping, cell, nullptr, dealii::QGauss<dim>(degree + 3));
+
+  const unsigned int n_points = entry.geometry.points.size();
+  const unsigned int n_columns = 2 * dim * entry.tips.size();
+  auto &table = entry.tip_columns;
+  table.values.resize(n_points * n_columns);
+  table.gradients.resize(n_points * n_columns);
+  for (unsigned int k = 0; k < entry.tips.size(); ++k)
+  {
+    const CrackTip<dim> &tip = tips[entry.tips[k]];
+    const auto functions = shifted_tip_functions<dim>(tip, mapping, cell, entry.geometry.points,
+                                                      degree, tip.crack == crack ? piece : nullptr);
+    for (unsigned int mode = 0; mode < 2; ++mode)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const unsigned int c = table.extra.size();
+        table.extra.push_back(tip.extra[mode]);
+        table.component.push_back(d);
+        for (unsigned int q = 0; q < n_points; ++q)
+        {
+          table.values[q * n_columns + c] = functions[2 * q + mode].value[d];
+          table.gradients[q * n_columns + c] = functions[2 * q + mode].gradient[d];
+        }
+      }
+  }
+  entry_of_cell[cell->active_cell_index()] = entries.size();
+  entries.push_back(std::move(entry));
 }
 
 
 template <int dim>
 void Discontinuity<dim>::renumber()
 {
-  unknowns.rebuild(cracks, domain_size, scale);
+  unknowns.rebuild(cracks, tips, domain_size, scale);
   piece_of_cell.clear();
   for (unsigned int c = 0; c < cracks.size(); ++c)
     for (unsigned int i = 0; i < cracks[c].pieces.size(); ++i)
       piece_of_cell[cracks[c].pieces[i].cell] = {c, i};
 
   for (Entry &entry : entries)
-    if (const auto found = piece_of_cell.find(entry.cell->id()); found != piece_of_cell.end())
+  {
+    const auto found = piece_of_cell.find(entry.cell->id());
+    if (found == piece_of_cell.end() && entry.tips.empty())
+      continue;
+    const std::vector<EnrichedColumn> columns =
+      found == piece_of_cell.end() ? std::vector<EnrichedColumn>()
+                                   : unknowns.columns(found->second.first, found->second.second);
+    for (unsigned int c = 0; c < entry.tip_columns.extra.size(); ++c)
+      entry.tip_columns.extra[c] = tips[entry.tips[c / (2 * dim)]].extra[c / dim % 2];
+    const bool same_set = columns.size() == entry.columns.size() &&
+                          std::equal(columns.begin(), columns.end(), entry.columns.begin(),
+                                     [](const EnrichedColumn &a, const EnrichedColumn &b) {
+                                       return a.corner == b.corner && a.component == b.component;
+                                     });
+    if (same_set && !entry.cut.points.empty())
     {
-      const auto &columns = unknowns.columns(found->second.first, found->second.second);
-      const bool same_set = columns.size() == entry.columns.size() &&
-                            std::equal(columns.begin(), columns.end(), entry.columns.begin(),
-                                       [](const EnrichedColumn &a, const EnrichedColumn &b) {
-                                         return a.corner == b.corner && a.component == b.component;
-                                       });
-      if (same_set && !entry.cut.points.empty())
-        for (unsigned int c = 0; c < columns.size(); ++c)
-          entry.cut.extra[c] = columns[c].extra;
-      else
-        entry.cut = make_cut_cell(entry.geometry, columns);
-      entry.columns = columns;
+      for (unsigned int c = 0; c < columns.size(); ++c)
+        entry.cut.extra[c] = columns[c].extra;
+      std::copy(entry.tip_columns.extra.begin(), entry.tip_columns.extra.end(),
+                entry.cut.extra.begin() + columns.size());
     }
+    else
+      entry.cut = make_cut_cell(entry.geometry, columns, entry.tip_columns);
+    entry.columns = columns;
+  }
+}
+
+
+template <int dim>
+const CrackTip<dim> *Discontinuity<dim>::tip(const unsigned int crack, const CrackEnd end) const
+{
+  for (const CrackTip<dim> &tip : tips)
+    if (tip.crack == crack && tip.end == end)
+      return &tip;
+  return nullptr;
+}
+
+
+template <int dim>
+std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>
+Discontinuity<dim>::mean_jumps(const unsigned int crack, const unsigned int index) const
+{
+  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> jumps;
+  const CrackPiece<dim> &piece = cracks[crack].pieces[index];
+  const JumpShapes<dim> shapes(piece);
+  for (const EnrichedColumn &column : unknowns.columns(crack, index))
+  {
+    dealii::Tensor<1, dim> jump;
+    jump[column.component] = shapes.mean(column.corner);
+    jumps.emplace_back(column.extra, jump);
+  }
+  for (const CrackTip<dim> &tip : tips)
+    if (tip.crack == crack)
+      for (unsigned int mode = 0; mode < 2; ++mode)
+        if (const auto jump = tip.mean_jump(mode, piece); jump.norm_square() > 0.)
+          jumps.emplace_back(tip.extra[mode], jump);
+  return jumps;
 }
 
 
@@ -263,7 +422,7 @@ Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives
       const auto &place = piece_of_cell.at(id);
       add_entry(
         CellIterator(&triangulation, cell->level(), cell->index(), &discretization->dof_handler),
-        cracks[place.first].pieces[place.second]);
+        &cracks[place.first].pieces[place.second], place.first);
     }
   if (!new_cells.empty())
     renumber();
@@ -276,10 +435,8 @@ std::vector<typename Discontinuity<dim>::OwnedPiece> Discontinuity<dim>::owned_p
 {
   std::vector<OwnedPiece> owned;
   for (const Entry &entry : entries)
-  {
-    const auto &[crack, piece] = piece_of_cell.at(entry.cell->id());
-    owned.push_back({crack, piece, entry.cell});
-  }
+    if (const auto found = piece_of_cell.find(entry.cell->id()); found != piece_of_cell.end())
+      owned.push_back({found->second.first, found->second.second, entry.cell});
   std::sort(owned.begin(), owned.end(),
             [](const OwnedPiece &a, const OwnedPiece &b)
             { return std::make_pair(a.crack, a.piece) < std::make_pair(b.crack, b.piece); });
@@ -309,12 +466,10 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
       segment.neighbours.push_back(
         {pieces[owned.piece + 1].key(domain_size), 0.5 * piece.length(), 1.});
 
-    const JumpShapes<dim> shapes(piece);
-    for (const EnrichedColumn &column : unknowns.columns(owned.crack, owned.piece))
+    for (const auto &[extra, jump] : mean_jumps(owned.crack, owned.piece))
     {
-      segment.opening.extra.push_back(column.extra);
-      segment.opening.extra_coefficients.push_back(shapes.mean(column.corner) *
-                                                   segment.normal[column.component]);
+      segment.opening.extra.push_back(extra);
+      segment.opening.extra_coefficients.push_back(jump * segment.normal);
     }
 
     segment.pore_pressure.constant = in_situ_pore_pressure(segment.centre);
@@ -354,7 +509,7 @@ void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &
         for (unsigned int i = 0; i < path.pieces.size(); ++i)
         {
           const CrackPiece<dim> &piece = path.pieces[i];
-          const double h = wanted > 0. ? wanted : piece.cell_size();
+          const double h = wanted > 0. ? wanted : longest_edge(piece);
           const bool at_tip =
             (i == 0 && path.is_tip[0]) || (i + 1 == path.pieces.size() && path.is_tip[1]);
           const double margin = (at_tip ? rings_ahead : 1.5) * h;

@@ -5,11 +5,14 @@
 #include "discontinuity/crack_path.h"
 #include "discontinuity/cut_cell.h"
 #include "discontinuity/enrichment.h"
+#include "discontinuity/tip_functions.h"
+#include "stockwork/fracture/scene.h"
 #include "stockwork/fracture/segment.h"
 
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace stockwork
@@ -30,9 +33,14 @@ public:
   /// @throws SolveError if a cut cell is not in the mesh any more
   void setup(const Discretization<dim> &discretization, const Collectives &collectives);
 
-  /// Replace all cracks by those along the polylines. After setup().
-  void cut(const std::vector<std::vector<dealii::Point<dim>>> &polylines,
-           const Collectives &collectives);
+  /// Replace all cracks by those of the case. After setup().
+  /// @param kolosov kappa = (lambda + 3 mu)/(lambda + mu) of the rock: the tips lie exactly where
+  /// the polylines end and have functions of their own, and the cracks must not grow. Without:
+  /// cracks of whole cells.
+  /// @throws EntryError if the mesh cannot hold a crack
+  void cut(const std::vector<InitialCrack<dim>> &given,
+           const Collectives &collectives,
+           const std::optional<double> kolosov = {});
 
   /// Put back cracks that were taken from paths() on this mesh.
   void restore(std::vector<CrackPath<dim>> earlier);
@@ -75,7 +83,24 @@ public:
     return unknowns;
   }
 
-  /// The cut cell with this active cell index, if this rank owns it and it is cut.
+  /// A tip that has functions of its own, or null.
+  const CrackTip<dim> *tip(const unsigned int crack, const CrackEnd end) const;
+
+  /// The piece that cuts a cell, if it belongs to the crack; else null.
+  const CrackPiece<dim> *piece_in(const dealii::CellId &cell, const unsigned int crack) const
+  {
+    const auto found = piece_of_cell.find(cell);
+    return found != piece_of_cell.end() && found->second.first == crack
+             ? &cracks[crack].pieces[found->second.second]
+             : nullptr;
+  }
+
+  /// What opens a piece: unknowns, and the mean along the piece of the jump that one of each makes.
+  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>
+  mean_jumps(const unsigned int crack, const unsigned int piece) const;
+
+  /// The cell with this active cell index as the bulk sees it, if this rank owns it and a crack
+  /// cuts it or functions of a tip reach into it.
   const CutCell<dim> *cut_cell(const unsigned int active_cell_index) const
   {
     return active_cell_index < entry_of_cell.size() && entry_of_cell[active_cell_index] >= 0
@@ -114,6 +139,8 @@ private:
   {
     CellIterator cell;
     CutGeometry<dim> geometry;
+    std::vector<unsigned int> tips; ///< whose functions reach into the cell
+    TabulatedColumns<dim> tip_columns;
     std::vector<EnrichedColumn> columns; ///< those that `cut` was made for
     CutCell<dim> cut;
   };
@@ -121,7 +148,9 @@ private:
   /// Number the unknowns and bring `piece_of_cell` and the columns of the cut cells up to date.
   void renumber();
 
-  Entry &add_entry(const CellIterator &cell, const CrackPiece<dim> &piece);
+  void add_entry(const CellIterator &cell,
+                 const CrackPiece<dim> *piece,
+                 const unsigned int crack = dealii::numbers::invalid_unsigned_int);
 
   void collect_entries();
 
@@ -129,6 +158,7 @@ private:
   double scale;
   std::unique_ptr<Discretization<dim>> discretization;
   std::vector<CrackPath<dim>> cracks;
+  std::vector<CrackTip<dim>> tips;
   Enrichment<dim> unknowns;
   std::map<dealii::CellId, std::pair<unsigned, unsigned>> piece_of_cell; ///< crack, piece
   std::vector<Entry> entries;

@@ -1,5 +1,7 @@
 #include "discontinuity/enrichment.h"
 
+#include "discontinuity/tip_functions.h"
+
 #include <unordered_map>
 #include <unordered_set>
 
@@ -7,6 +9,7 @@ namespace stockwork
 {
 template <int dim>
 void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
+                              std::vector<CrackTip<dim>> &tips,
                               const double domain_size,
                               const double scale)
 {
@@ -23,7 +26,10 @@ void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
     {
       const CrackPiece<dim> &piece = cracks[c].piece_at(end);
       const unsigned int e = static_cast<unsigned int>(end);
-      if (!piece.at_boundary[e])
+      if (piece.inside[e])
+        for (unsigned int corner = 0; corner < CrackPiece<dim>::n_corners; ++corner)
+          closed.insert(vertex_key(piece, corner));
+      else if (!piece.at_boundary[e])
         for (const unsigned int corner : face_vertices[piece.faces[e]])
           closed.insert(vertex_key(piece, corner));
     }
@@ -47,6 +53,15 @@ void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
           }
       }
   }
+  for (CrackTip<dim> &tip : tips)
+    for (unsigned int mode = 0; mode < tip.extra.size(); ++mode)
+    {
+      tip.extra[mode] = all_unknowns.size();
+      all_unknowns.push_back(
+        {hash_combine(hash_combine(hash_combine(0x71b, tip.crack), static_cast<int>(tip.end)),
+                      mode),
+         0., scale});
+    }
 }
 
 template <int dim>

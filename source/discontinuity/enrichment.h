@@ -9,16 +9,22 @@
 
 namespace stockwork
 {
+template <int dim>
+struct CrackTip;
+
 /// The unknowns of all cracks: one per crack, corner of a cut cell and component of displacement,
 /// except where the crack must not open: at the corners of the face that holds a tip, and where a
-/// boundary condition holds the displacement. Known on all ranks.
+/// boundary condition holds the displacement; and two per tip with functions of its own. Known on
+/// all ranks.
 template <int dim>
 class Enrichment
 {
 public:
-  /// Number the unknowns of these cracks anew. Keys stay.
-  void
-  rebuild(const std::vector<CrackPath<dim>> &cracks, const double domain_size, const double scale);
+  /// Number the unknowns of these cracks anew and tell the tips theirs. Keys stay.
+  void rebuild(const std::vector<CrackPath<dim>> &cracks,
+               std::vector<CrackTip<dim>> &tips,
+               const double domain_size,
+               const double scale);
 
   const std::vector<ExtraUnknown> &unknowns() const
   {

@@ -1,5 +1,7 @@
 #include "discontinuity/interaction_integral.h"
 
+#include "discontinuity/near_tip_field.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -18,29 +20,13 @@ Tensor<2, 2> williams_gradient(
   const bool shear, const double x1, const double x2, const double mu, const double kappa)
 {
   const double r = std::hypot(x1, x2), theta = std::atan2(x2, x1);
-  const double c = std::cos(0.5 * theta), s = std::sin(0.5 * theta);
-  // u_i = sqrt(r) f_i(theta) / (2 mu sqrt(2 pi))
-  double f[2], df[2];
-  if (!shear)
-  {
-    f[0] = c * (kappa - 1. + 2. * s * s);
-    f[1] = s * (kappa + 1. - 2. * c * c);
-    df[0] = -0.5 * s * (kappa - 1. + 2. * s * s) + 2. * s * c * c;
-    df[1] = 0.5 * c * (kappa + 1. - 2. * c * c) + 2. * s * s * c;
-  }
-  else
-  {
-    f[0] = s * (kappa + 1. + 2. * c * c);
-    f[1] = -c * (kappa - 1. - 2. * s * s);
-    df[0] = 0.5 * c * (kappa + 1. + 2. * c * c) - 2. * s * s * c;
-    df[1] = 0.5 * s * (kappa - 1. - 2. * s * s) + 2. * s * c * c;
-  }
+  const NearTipField field(shear, theta, kappa);
   const double factor = 1. / (2. * mu * std::sqrt(2. * dealii::numbers::PI * r));
   Tensor<2, 2> gradient;
   for (unsigned int i = 0; i < 2; ++i)
   {
-    gradient[i][0] = factor * (0.5 * std::cos(theta) * f[i] - std::sin(theta) * df[i]);
-    gradient[i][1] = factor * (0.5 * std::sin(theta) * f[i] + std::cos(theta) * df[i]);
+    gradient[i][0] = factor * (0.5 * std::cos(theta) * field.f[i] - std::sin(theta) * field.df[i]);
+    gradient[i][1] = factor * (0.5 * std::sin(theta) * field.f[i] + std::cos(theta) * field.df[i]);
   }
   return gradient;
 }
@@ -85,8 +71,9 @@ StressIntensity stress_intensity(const unsigned int crack,
                                  const Collectives &collectives)
 {
   const CrackPath<dim> &path = discontinuity.paths()[crack];
-  const Point<dim> tip = path.tip(end);
-  const Tensor<1, dim> along = path.direction(end);
+  const CrackTip<dim> *exact = discontinuity.tip(crack, end);
+  const Point<dim> tip = exact != nullptr ? exact->point : path.tip(end);
+  const Tensor<1, dim> along = exact != nullptr ? exact->along : path.direction(end);
   Tensor<1, dim> across;
   across[0] = -along[1];
   across[1] = along[0];
@@ -109,14 +96,21 @@ StressIntensity stress_intensity(const unsigned int crack,
   dealii::FEValues<dim> plain_values(discretization.mapping, fe, gauss, flags);
 
   std::vector<double> sums(2, 0.);
-  const auto add_points = [&](const dealii::FEValues<dim> &fe_values, const CutCell<dim> *cut)
+  const auto add_points = [&](const dealii::FEValues<dim> &fe_values, const CutCell<dim> *cut,
+                              const CrackPiece<dim> *piece)
   {
     std::vector<Tensor<2, dim>> gradients(fe_values.n_quadrature_points);
     fe_values[displacement].get_function_gradients(state.current.bulk, gradients);
     for (unsigned int q = 0; q < gradients.size(); ++q)
     {
-      const Tensor<1, dim> x = frame * (fe_values.quadrature_point(q) - tip);
+      Tensor<1, dim> x = frame * (fe_values.quadrature_point(q) - tip);
       const double r = x.norm();
+      // Where the crack runs beside its line, its side counts and not the place.
+      if (piece != nullptr && x[0] < 0.)
+      {
+        const bool left = piece->plus_side(cut->points[q]) == (end == CrackEnd::last);
+        x[1] = std::copysign(left == (x[1] > 0.) ? x[1] : 0., left ? 1. : -1.);
+      }
       if (weight.slope(r) == 0.)
         continue;
       Tensor<2, dim> gradient = gradients[q];
@@ -152,12 +146,12 @@ StressIntensity stress_intensity(const unsigned int crack,
         dealii::FEValues<dim> cut_values(discretization.mapping, fe,
                                          dealii::Quadrature<dim>(cut->points), flags);
         cut_values.reinit(cell);
-        add_points(cut_values, cut);
+        add_points(cut_values, cut, discontinuity.piece_in(cell->id(), crack));
       }
       else
       {
         plain_values.reinit(cell);
-        add_points(plain_values, nullptr);
+        add_points(plain_values, nullptr, nullptr);
       }
     }
   collectives.sum(sums);

@@ -61,7 +61,10 @@ Discontinuity<2> cut(const Square &square, const std::vector<std::vector<Point<2
 {
   Discontinuity<2> discontinuity(2.8, 1.);
   discontinuity.setup(square.discretization(), square.collectives);
-  discontinuity.cut(polylines, square.collectives);
+  std::vector<InitialCrack<2>> cracks;
+  for (const auto &polyline : polylines)
+    cracks.push_back({polyline});
+  discontinuity.cut(cracks, square.collectives);
   return discontinuity;
 }
 
@@ -254,6 +257,102 @@ TEST_CASE("growth goes on to the boundary, never turns back, and stops at anothe
   for (unsigned int i = 0; i < 10 && outcome == Outcome::grown; ++i)
     outcome = discontinuity.grow({{0, CrackEnd::first, left}}, square.collectives)[0];
   CHECK(outcome == Outcome::reached_crack);
+}
+
+TEST_CASE("a crack that the mesh cannot hold is refused with the entry that asks for it")
+{
+  Square square(10);
+  Discontinuity<2> discontinuity(2.8, 1.);
+  discontinuity.setup(square.discretization(), square.collectives);
+  const auto refused = [&](const std::vector<InitialCrack<2>> &cracks)
+  {
+    try
+    {
+      discontinuity.cut(cracks, square.collectives);
+    }
+    catch (const EntryError &error)
+    {
+      return error.path() + ": " + error.what();
+    }
+    return std::string("accepted");
+  };
+  using Kind = InitialCrack<2>::Kind;
+  const InitialCrack<2> along{{{-0.6, 0.1}, {0.6, 0.1}}, Kind::open, "Cracks/Open", "along"},
+    across{{{-0.5, -0.6}, {-0.5, 0.6}}, Kind::cohesive, "Cracks/Cohesive", "across"},
+    outside{{{2., 0.1}, {2.6, 0.1}}, Kind::open, "Cracks/Open", "outside"};
+  CHECK(refused({along}) == "accepted");
+  CHECK(refused({along, across}).find("Cracks/Cohesive: 'Cracks/Cohesive' is 'across'") == 0);
+  CHECK(refused({outside}).find("Cracks/Open: 'Cracks/Open' is 'outside'") == 0);
+}
+
+TEST_CASE("tips with functions of their own lie where the crack ends")
+{
+  Square square(10); // cells of 0.2
+  Discontinuity<2> discontinuity(2.8, 1.);
+  discontinuity.setup(square.discretization(), square.collectives);
+  discontinuity.cut({{{{-0.57, 0.1}, {0.44, 0.13}}}}, square.collectives, 2.);
+  const auto &path = discontinuity.paths()[0];
+  CHECK(path.length() == doctest::Approx(std::hypot(1.01, 0.03)));
+  CHECK(path.pieces.size() == 6);
+  const auto *tip = discontinuity.tip(0, CrackEnd::last);
+  REQUIRE(tip != nullptr);
+  CHECK(tip->radius == doctest::Approx(0.5 * std::hypot(1.01, 0.03)));
+  // Corners between the cells of the tips: 3 columns of 2, both components; two per tip.
+  CHECK(discontinuity.enrichment().unknowns().size() == 12 + 4);
+
+  // The opening of a unit function near its tip is the root of the distance; both tips open.
+  for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+  {
+    const auto &piece = path.piece_at(end);
+    const Tensor<1, 2> jump = discontinuity.tip(0, end)->mean_jump(0, piece);
+    CHECK(jump * piece.normal() > 0.);
+    const double r = piece.length(), R = tip->radius;
+    CHECK(jump.norm() == doctest::Approx(2. / 3. * std::sqrt(r / R)).epsilon(0.06));
+  }
+  // The jump of the function itself, from both sides of the crack.
+  using Side = CrackTip<2>::Side;
+  const Point<2> x = path.pieces[4].centre();
+  for (unsigned int mode = 0; mode < 2; ++mode)
+  {
+    const auto plus = tip->evaluate(mode, x, Side::plus),
+               minus = tip->evaluate(mode, x, Side::minus);
+    const Tensor<1, 2> jump = plus.value - minus.value;
+    CHECK(jump * (mode == 0 ? path.pieces[4].normal() : path.pieces[4].tangent()) ==
+          doctest::Approx(jump.norm()));
+    // The gradient against differences.
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      Point<2> a(0.35, 0.2), b = a;
+      const double eps = 1e-6;
+      a[d] -= eps;
+      b[d] += eps;
+      const auto difference = (tip->evaluate(mode, b, Side::by_place).value -
+                               tip->evaluate(mode, a, Side::by_place).value) /
+                              (2. * eps);
+      const auto gradient = tip->evaluate(mode, Point<2>(0.35, 0.2), Side::by_place).gradient;
+      for (unsigned int i = 0; i < 2; ++i)
+        CHECK(difference[i] == doctest::Approx(gradient[i][d]).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("the rule around a tip integrates the inverse of the distance")
+{
+  const Point<2> tip(0.3, 0.4);
+  const auto rule = fan_quadrature(tip, std::make_pair(Point<2>(0., 0.2), 0u), 6);
+  double area = 0., integral = 0.;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    area += rule.weight(q);
+    integral += rule.weight(q) / rule.point(q).distance(tip);
+  }
+  CHECK(area == doctest::Approx(1.).epsilon(1e-13));
+  // In closed form: for each edge, its distance times the integral of 1/cos over its angle.
+  const auto edge = [](const double d, const double from, const double to)
+  { return d * (std::asinh(to / d) - std::asinh(from / d)); };
+  const double exact =
+    edge(0.3, -0.4, 0.6) + edge(0.7, -0.4, 0.6) + edge(0.4, -0.3, 0.7) + edge(0.6, -0.3, 0.7);
+  CHECK(integral == doctest::Approx(exact).epsilon(1e-4));
 }
 
 TEST_CASE("two cracks in one cell and a crack off the mesh are refused")

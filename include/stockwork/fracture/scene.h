@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace stockwork
@@ -24,6 +25,8 @@ struct InitialCrack
 
   std::vector<dealii::Point<dim>> points; ///< polyline in 2-D
   Kind kind = Kind::open;
+  std::string entry; ///< of the deck, for messages: "Cracks/Open"
+  std::string text;  ///< what the deck says there
 };
 
 /// What a fracture model may know of the case. Everything outlives the model.

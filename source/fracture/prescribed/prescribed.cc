@@ -22,6 +22,7 @@ public:
   Prescribed(dealii::ParameterHandler &prm, const Scene<dim> &scene)
     : scene(scene)
     , radius(get_quantity(prm, "Integral radius", dimension::number))
+    , tip_functions(prm.get_bool("Tip functions"))
     , cell_size(get_quantity(prm, "Cell size", dimension::length))
     , discontinuity(scene.domain_size, 1.)
   {
@@ -33,7 +34,11 @@ public:
   {
     prm.declare_entry("Integral radius", "8", Quantity(dimension::number, Range::closed(2., 1000.)),
                       "Radius of the disc that stress intensity is computed from, in cells; never "
-                      "more than 0.4 of the crack.");
+                      "more than 0.4 of the crack or up to another crack.");
+    prm.declare_entry("Tip functions", "true", dealii::Patterns::Bool(),
+                      "Around each tip, in a disc of up to half the crack, add the displacement of "
+                      "a crack tip in an elastic body: the tip then lies exactly where the case "
+                      "puts it and needs no small cells. Without, tips move to the nearest edge.");
     prm.declare_entry(
       "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
       "Wanted size of the cells along the crack [m]; zero: that of the given mesh.");
@@ -43,10 +48,11 @@ public:
   {
     discretization = std::make_unique<Discretization<dim>>(d);
     discontinuity.setup(d, collectives);
-    std::vector<std::vector<Point<dim>>> polylines;
-    for (const auto &crack : scene.cracks)
-      polylines.push_back(crack.points);
-    discontinuity.cut(polylines, collectives);
+    const RockProperties &rock = scene.rock.main();
+    const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
+    discontinuity.cut(scene.cracks, collectives,
+                      tip_functions ? std::make_optional((lambda + 3. * mu) / (lambda + mu))
+                                    : std::nullopt);
 
     all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
     for (Segment<dim> &segment : all_segments)
@@ -79,18 +85,16 @@ public:
     for (const auto &owned : discontinuity.owned_pieces())
     {
       const auto &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
-      const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
-      if (columns.empty())
+      const auto jumps = discontinuity.mean_jumps(owned.crack, owned.piece);
+      if (jumps.empty())
         continue;
-      const JumpShapes<dim> shapes(piece);
       const Tensor<1, dim> traction = scene.in_situ_stress(piece.centre()) * piece.normal();
       local.extra.clear();
-      for (const EnrichedColumn &column : columns)
-        local.extra.push_back(column.extra);
+      for (const auto &[extra, jump] : jumps)
+        local.extra.push_back(extra);
       local.reinit();
-      for (unsigned int i = 0; i < columns.size(); ++i)
-        local.residual(i) =
-          -piece.length() * shapes.mean(columns[i].corner) * traction[columns[i].component];
+      for (unsigned int i = 0; i < jumps.size(); ++i)
+        local.residual(i) = -piece.length() * (jumps[i].second * traction);
       sink.add(local);
     }
   }
@@ -119,7 +123,10 @@ public:
     for (const CrackEnd end : {CrackEnd::last, CrackEnd::first})
       if (first.is_tip[static_cast<int>(end)])
       {
-        const double r = std::min(radius * first.piece_at(end).cell_size(), 0.4 * first.length());
+        double r = std::min(radius * first.piece_at(end).cell_size(), 0.4 * first.length());
+        for (unsigned int c = 1; c < discontinuity.paths().size(); ++c) // clear of other cracks
+          for (const auto &piece : discontinuity.paths()[c].pieces)
+            r = std::min(r, 0.9 * piece.centre().distance(first.tip(end)));
         const StressIntensity k =
           stress_intensity(0, end, r, *discretization, discontinuity, scene, state, collectives);
         result.stress_intensity_I = k.opening;
@@ -134,10 +141,9 @@ public:
     for (const auto &owned : discontinuity.owned_pieces())
     {
       const auto &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
-      const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
-      const JumpShapes<dim> shapes(piece);
-      const Tensor<1, dim> jump = 0.5 * (shapes.jump(0, columns, state.current.extra) +
-                                         shapes.jump(1, columns, state.current.extra));
+      Tensor<1, dim> jump;
+      for (const auto &[extra, unit] : discontinuity.mean_jumps(owned.crack, owned.piece))
+        jump += state.current.extra[extra] * unit;
       std::vector<std::pair<std::string, double>> values{{"aperture", jump * piece.normal()},
                                                          {"slip", jump * piece.tangent()},
                                                          {"damage", 1.},
@@ -151,6 +157,7 @@ public:
 private:
   const Scene<dim> &scene;
   double radius;
+  bool tip_functions;
   double cell_size;
   Discontinuity<dim> discontinuity;
   std::unique_ptr<Discretization<dim>> discretization;
