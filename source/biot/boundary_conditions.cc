@@ -155,22 +155,40 @@ void BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
 
 template <int dim>
 void BoundaryConditions<dim>::parse_parameters(
-  ParameterHandler &prm, const std::function<types::boundary_id(const std::string &)> &side)
+  ParameterHandler &prm, const std::function<types::boundary_id(const std::string &)> &side_of)
 {
+  std::string entry_in_hand; // whose sides are being looked up
+  const auto side = [&](const std::string &name)
+  {
+    try
+    {
+      return side_of(name);
+    }
+    catch (const InputError &error)
+    {
+      throw EntryError("Boundary conditions/" + entry_in_hand, name,
+                       std::string("a side of the domain: ") + error.what());
+    }
+  };
+  const auto get = [&](const std::string &entry)
+  {
+    entry_in_hand = entry;
+    return prm.get(entry);
+  };
   const PrescribedValue<dim> zero = {[](const Point<dim> &, double) { return 0.; }, true};
   prm.enter_subsection("Boundary conditions");
-  for (const std::string &name : Utilities::split_string_list(prm.get("Roller")))
+  for (const std::string &name : Utilities::split_string_list(get("Roller")))
     dirichlet.push_back({side(name), normal_component, zero});
-  for (const std::string &name : Utilities::split_string_list(prm.get("Fixed")))
+  for (const std::string &name : Utilities::split_string_list(get("Fixed")))
     for (unsigned int d = 0; d < dim; ++d)
       dirichlet.push_back({side(name), d, zero});
-  for (const std::string &name : Utilities::split_string_list(prm.get("Drained")))
+  for (const std::string &name : Utilities::split_string_list(get("Drained")))
     dirichlet.push_back({side(name), dim, zero});
 
   const auto add_dirichlet =
     [&](const std::string &entry, const unsigned int component, const Dimension &dimension)
   {
-    for (const auto &[name, value] : split_by_side(entry, prm.get(entry)))
+    for (const auto &[name, value] : split_by_side(entry, get(entry)))
     {
       Dirichlet condition{side(name), component, zero};
       if (value == "reference")
@@ -188,15 +206,15 @@ void BoundaryConditions<dim>::parse_parameters(
       if (!prm.get(entry).empty())
         throw EntryError("Boundary conditions/" + entry, prm.get(entry), "nothing in 2-D");
 
-  for (const auto &[name, value] : split_by_side("Flux", prm.get("Flux")))
+  for (const auto &[name, value] : split_by_side("Flux", get("Flux")))
     prescribed_loads.flux[side(name)] = parse_value<dim>("Flux", value, dimension::velocity);
-  for (const auto &[name, value] : split_by_side("Normal traction", prm.get("Normal traction")))
+  for (const auto &[name, value] : split_by_side("Normal traction", get("Normal traction")))
     prescribed_loads.normal_traction[side(name)] =
       parse_value<dim>("Normal traction", value, dimension::pressure);
   for (unsigned int d = 0; d < dim; ++d)
   {
     const std::string entry = "Traction " + axis_names[d];
-    for (const auto &[name, value] : split_by_side(entry, prm.get(entry)))
+    for (const auto &[name, value] : split_by_side(entry, get(entry)))
     {
       auto [position, is_new] = prescribed_loads.traction.try_emplace(side(name));
       if (is_new)
@@ -222,6 +240,17 @@ bool BoundaryConditions<dim>::uses_reference() const
     if (condition.from_reference)
       return true;
   return false;
+}
+
+
+template <int dim>
+double BoundaryConditions<dim>::greatest_displacement(const double time) const
+{
+  double greatest = 0.;
+  for (const Dirichlet &condition : dirichlet)
+    if (condition.component != dim && !condition.from_reference)
+      greatest = std::max(greatest, std::abs(condition.prescribed.value(Point<dim>(), time)));
+  return greatest;
 }
 
 

@@ -12,27 +12,15 @@ namespace stockwork
 {
 using namespace dealii;
 
-void declare_mesh_adaptation(ParameterHandler &prm)
-{
-  prm.enter_subsection("Mesh");
-  prm.declare_entry("Maximum number of cells", "2000000", Patterns::Integer(1),
-                    "A mesh that would have more ends the run with a message.");
-  prm.leave_subsection();
-}
-
-
 template <int dim>
-MeshAdaptation<dim>::MeshAdaptation(ParameterHandler &prm,
-                                    const Geometry<dim> &geometry,
+MeshAdaptation<dim>::MeshAdaptation(const Geometry<dim> &geometry,
                                     parallel::distributed::Triangulation<dim> &triangulation,
                                     const FractureModel<dim> &model)
   : geometry(geometry)
   , triangulation(triangulation)
   , model(model)
+  , max_cells(geometry.maximum_number_of_cells())
 {
-  prm.enter_subsection("Mesh");
-  max_cells = prm.get_integer("Maximum number of cells");
-  prm.leave_subsection();
 }
 
 
@@ -52,8 +40,8 @@ void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
   {
     triangulation.execute_coarsening_and_refinement();
     if (triangulation.n_global_active_cells() > max_cells)
-      throw InputError("The mesh has more than " + std::to_string(max_cells) +
-                       " cells ('Mesh/Maximum number of cells'). Is the wanted cell size meant?");
+      throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells),
+                       "more, unless the fracture model's wanted cell size is a mistake");
   }
   triangulation.repartition();
   system.setup_mesh(time);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/distributed/tria.h>
 
 #include "coupling/stepper.h"
@@ -8,17 +7,13 @@
 
 namespace stockwork
 {
-/// Declares the entries of subsection "Mesh" about refinement in the course of the run.
-void declare_mesh_adaptation(dealii::ParameterHandler &prm);
-
 /// Makes cells as small as the fracture model wants them, where and when it does, and moves all
 /// unknowns along. The mesh never changes inside a step.
 template <int dim>
 class MeshAdaptation
 {
 public:
-  MeshAdaptation(dealii::ParameterHandler &prm,
-                 const Geometry<dim> &geometry,
+  MeshAdaptation(const Geometry<dim> &geometry,
                  dealii::parallel::distributed::Triangulation<dim> &triangulation,
                  const FractureModel<dim> &model);
 

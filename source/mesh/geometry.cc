@@ -52,6 +52,17 @@ auto interpret_entry(const ParameterHandler &prm,
   }
 }
 
+/// The cell of the coarse mesh that a cell has come from. (The number in its id is not that of the
+/// coarse mesh but of p4est, which numbers coarse cells along a curve.)
+template <int dim>
+typename Triangulation<dim>::cell_iterator
+coarse_cell(const Triangulation<dim> &coarse, typename Triangulation<dim>::cell_iterator cell)
+{
+  while (cell->level() > 0)
+    cell = cell->parent();
+  return {&coarse, 0, cell->index()};
+}
+
 template <typename Map>
 std::string list_names(const Map &map)
 {
@@ -92,6 +103,13 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
                     "Cells whose centre is in a box belong to the region of this number in "
                     "subsection Rock: '1: (0, -1) to (5, 1)', several separated by ';', later ones "
                     "on top. A name instead of a number stands for the next free number.");
+
+  prm.declare_entry(
+    "Side boxes", "", Patterns::Anything(),
+    "Faces of the boundary whose centre is in a box form a side of their own: 'grip: "
+    "(-1 mm, 2 cm) to (1 mm, 5 cm)', several separated by ';', later ones on top.");
+  prm.declare_entry("Maximum number of cells", "2000000", Patterns::Integer(1),
+                    "A mesh that would have more ends the run with a message.");
 
   prm.enter_subsection("Box");
   prm.declare_entry("Lower corner", "", Quantities(dimension::length, Range::finite(), 0, 3),
@@ -144,8 +162,15 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
                               : "box, octant of ball or gmsh file in three dimensions");
   bounds = GridTools::compute_bounding_box(*coarse);
   uniform_refinements += prm.get_integer("Uniform refinements");
+  max_cells = prm.get_integer("Maximum number of cells");
+  if (const double n = std::ldexp(coarse->n_active_cells(), dim * uniform_refinements);
+      n > max_cells)
+    throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells),
+                     "at least " + std::to_string(static_cast<long long>(n)) +
+                       ", the cells of the initial mesh, unless their spacing is a mistake");
   parse_refinement(prm);
   parse_regions(prm);
+  parse_sides(prm);
   prm.leave_subsection();
 }
 
@@ -322,12 +347,39 @@ void Geometry<dim>::parse_regions(ParameterHandler &prm)
 }
 
 template <int dim>
+void Geometry<dim>::parse_sides(ParameterHandler &prm)
+{
+  side_boxes.clear();
+  types::boundary_id next = 0;
+  for (const auto &side : sides)
+    next = std::max(next, side.second + 1);
+  interpret_entry(prm, "Mesh", "Side boxes",
+                  "a list of named boxes, 'grip: " +
+                    std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") + "'",
+                  [&](const std::string &text)
+                  {
+                    for (const auto &item : parse_boxes<dim>(text))
+                    {
+                      if (item.label.empty())
+                        throw InputError("a box has no name");
+                      const auto known = sides.emplace(item.label, next);
+                      next = std::max(next, known.first->second + 1);
+                      side_boxes.push_back({item.box, known.first->second});
+                    }
+                  });
+}
+
+template <int dim>
 void Geometry<dim>::create_coarse(Triangulation &triangulation) const
 {
   triangulation.copy_triangulation(*coarse);
-  if (region_boxes.empty())
+  if (region_boxes.empty() && side_boxes.empty())
     return;
-  const auto set = [this, &triangulation]() { set_regions(triangulation); };
+  const auto set = [this, &triangulation]()
+  {
+    set_regions(triangulation);
+    set_sides(triangulation);
+  };
   set();
   triangulation.signals.post_distributed_refinement.connect(set);
   triangulation.signals.post_distributed_repartition.connect(set);
@@ -353,6 +405,9 @@ void Geometry<dim>::create(Triangulation &triangulation) const
     changed = Utilities::MPI::max(any ? 1 : 0, triangulation.get_communicator()) == 1;
     if (changed)
       triangulation.execute_coarsening_and_refinement();
+    if (triangulation.n_global_active_cells() > max_cells)
+      throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells),
+                       "more, unless the refinement boxes ask for smaller cells than is meant");
   }
   // A triangulation that shares its cells out on request only has not done so yet.
   triangulation.repartition();
@@ -387,14 +442,31 @@ void Geometry<dim>::set_regions(Triangulation &triangulation) const
     if (!cell->is_artificial())
     {
       // Children inherit from a parent that a box may have claimed: start from the coarse cell.
-      types::material_id region = typename dealii::Triangulation<dim>::cell_iterator(
-                                    coarse.get(), 0, cell->id().get_coarse_cell_id())
-                                    ->material_id();
+      types::material_id region = coarse_cell(*coarse, cell)->material_id();
       for (const RegionBox &item : region_boxes)
         if (item.box.point_inside(cell->center()))
           region = item.region;
       cell->set_material_id(region);
     }
+}
+
+template <int dim>
+void Geometry<dim>::set_sides(Triangulation &triangulation) const
+{
+  if (side_boxes.empty())
+    return;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (!cell->is_artificial() && cell->at_boundary())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+        {
+          // As for regions: a parent's side may have come from a box that leaves the child out.
+          types::boundary_id side = coarse_cell(*coarse, cell)->face(f)->boundary_id();
+          for (const SideBox &item : side_boxes)
+            if (item.box.point_inside(cell->face(f)->center()))
+              side = item.side;
+          cell->face(f)->set_boundary_id(side);
+        }
 }
 
 template <int dim>

@@ -33,7 +33,9 @@ public:
   void parse_parameters(dealii::ParameterHandler &prm, const std::string &deck_directory = ".");
 
   /// The initial mesh: coarse cells, uniform refinement and the refinement boxes. The
-  /// triangulation must be empty. Regions are set now and after every later change of the mesh.
+  /// triangulation must be empty. Regions and sides are set now and after every later change of the
+  /// mesh.
+  /// @throws EntryError if that makes too many cells
   void create(Triangulation &triangulation) const;
 
   /// The coarse cells of create() alone: what Triangulation::load() needs on a restart.
@@ -51,6 +53,12 @@ public:
   dealii::types::boundary_id side(const std::string &name) const;
 
   std::vector<std::string> side_names() const;
+
+  /// More cells than this end the run with a message.
+  unsigned int maximum_number_of_cells() const
+  {
+    return max_cells;
+  }
 
   /// A region by its name. @throws InputError naming the known regions
   dealii::types::material_id region(const std::string &name) const;
@@ -71,7 +79,9 @@ private:
   void read_gmsh(dealii::ParameterHandler &prm, const std::string &deck_directory);
   void parse_refinement(dealii::ParameterHandler &prm);
   void parse_regions(dealii::ParameterHandler &prm);
+  void parse_sides(dealii::ParameterHandler &prm);
   void set_regions(Triangulation &triangulation) const;
+  void set_sides(Triangulation &triangulation) const;
 
   struct RefinementBox
   {
@@ -84,6 +94,12 @@ private:
     dealii::types::material_id region;
   };
 
+  struct SideBox
+  {
+    dealii::BoundingBox<dim> box;
+    dealii::types::boundary_id side;
+  };
+
   enum class Cells
   {
     cartesian,
@@ -94,8 +110,10 @@ private:
   std::shared_ptr<dealii::Triangulation<dim>> coarse;
   Cells cells = Cells::cartesian;
   unsigned int uniform_refinements = 0;
+  unsigned int max_cells = 0;
   std::vector<RefinementBox> refinement_boxes;
   std::vector<RegionBox> region_boxes;
+  std::vector<SideBox> side_boxes;
   std::map<std::string, dealii::types::boundary_id> sides;
   std::map<std::string, dealii::types::material_id> regions;
   dealii::BoundingBox<dim> bounds;

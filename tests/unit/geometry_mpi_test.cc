@@ -137,6 +137,24 @@ TEST_CASE("sides of a box are where their names say")
             CHECK(face->center()[s / 2] == doctest::Approx(s % 2));
 }
 
+TEST_CASE("sides of the deck's own, through refinement")
+{
+  // Many coarse cells: p4est does not number them as they came.
+  for (const char *refinements : {"0", "2"})
+  {
+    Case<2> c(
+      "set Uniform refinements = " + std::string(refinements) +
+      "\nset Side boxes = upper: (-1 mm, 0.6) to (1 mm, 2); lower: (-1 mm, -1) to (1 mm, 0.4)\n" +
+      box("set Upper corner = 3, 1\nset X spacing = 15 cells\nset Y spacing = 5 cells"));
+    CHECK(c.area("upper") == doctest::Approx(0.4));
+    CHECK(c.area("lower") == doctest::Approx(0.4));
+    CHECK(c.area("left") == doctest::Approx(0.2));
+    CHECK(c.area("right") == doctest::Approx(1.));
+    CHECK(c.area("top") == doctest::Approx(3.));
+    CHECK(c.area("bottom") == doctest::Approx(3.));
+  }
+}
+
 TEST_CASE("equal cells come from refinement, others do not")
 {
   const Case<2> equal(box("set X spacing = 48 cells\nset Y spacing = 16 cells"));
