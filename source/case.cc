@@ -4,7 +4,6 @@
 #include "stockwork/base/quantity.h"
 
 #include "coupling/initial_cracks.h"
-#include "coupling/mesh_adaptation.h"
 #include "output/checkpoint.h"
 #include "output/field_output.h"
 
@@ -102,7 +101,6 @@ void declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &
   StepControl::declare_parameters(prm);
   declare_reference_parameters(prm);
   declare_initial_cracks(prm);
-  declare_mesh_adaptation(prm);
   FieldOutput<2>::declare_parameters(prm);
   CheckpointSchedule::declare_parameters(prm);
 
@@ -205,8 +203,15 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
     set_crack_load(scene, input);
   input.normal_traction = [this](const std::string &side, const double time)
   { return boundary_conditions.loads().uniform_normal_traction(geometry.side(side), time); };
+  input.greatest_displacement = [this](const double time)
+  { return boundary_conditions.greatest_displacement(time); };
   reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
+  loaded_by_displacement =
+    !discretisation.has_pore_pressure && scheme.kind() != TimeScheme::Kind::newmark &&
+    in_situ.is_zero() && boundary_conditions.loads().empty() &&
+    !model->requirements().changes_bulk && (scene.cracks.empty() || scene.crack_pressure == 0.) &&
+    boundary_conditions.greatest_displacement(control.end_time) > 0.;
   if (boundary_conditions.uses_reference() && reference)
     boundary_conditions.set_reference(reference->field());
 }

@@ -43,5 +43,8 @@ struct Case
   TimeScheme scheme;
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
   bool starts_from_reference;
+
+  /// Nothing but prescribed displacements loads elastic rock, slowly: see Report.
+  bool loaded_by_displacement;
 };
 } // namespace stockwork

@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include "coupling/mechanical_energy.h"
+
 #include "stockwork/base/progress.h"
 
 namespace stockwork
@@ -13,6 +15,8 @@ Report<dim>::Report(RunContext &run,
                     const FractureModel<dim> &model,
                     const Network<dim> &network,
                     const InSitu<dim> &in_situ,
+                    const Rock &rock,
+                    const bool audits_energy,
                     const Mapping<dim> &mapping,
                     const ReferenceSolution<dim> *reference,
                     const StepControl &control,
@@ -23,6 +27,8 @@ Report<dim>::Report(RunContext &run,
   , model(model)
   , network(network)
   , in_situ(in_situ)
+  , rock(rock)
+  , audits_energy(audits_energy)
   , mapping(mapping)
   , reference(reference)
   , control(control)
@@ -57,7 +63,7 @@ void Report<dim>::header() const
 
 
 template <int dim>
-std::map<std::string, double> Report<dim>::observe() const
+std::map<std::string, double> Report<dim>::observe()
 {
   std::map<std::string, double> values;
   const State state = stepper.last_state();
@@ -69,6 +75,22 @@ std::map<std::string, double> Report<dim>::observe() const
     values["stress_intensity_I"] = *summary.stress_intensity_I;
   if (summary.stress_intensity_II)
     values["stress_intensity_II"] = *summary.stress_intensity_II;
+  if (audits_energy)
+  {
+    const MechanicalEnergy energy = mechanical_energy<dim>(
+      system.discretization(), rock, [this](const auto &cell) { return model.role(cell); }, state,
+      system.collectives());
+    external_work += energy.work;
+    peak_load = std::max(peak_load, energy.load);
+    values["load"] = energy.load;
+    values["peak_load"] = peak_load;
+    values["external_work"] = external_work;
+    values["stored_energy"] = energy.stored + summary.stored_energy;
+    if (external_work > 0.)
+      values["energy_balance_error"] =
+        std::abs(external_work - values["stored_energy"] - summary.dissipated_energy) /
+        external_work;
+  }
   const FluidBalance &balance = stepper.fluid_balance();
   values["fracture_volume"] = balance.fracture_volume;
   values["injected_volume"] = balance.total.injected - balance.total.outflow;
@@ -114,7 +136,8 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
   if (errors)
   {
     const auto scope = run.timers.scope("verification");
-    errors->add_fields(time, step_report.dt, mapping, system.bulk_dofs(), stepper.committed.bulk);
+    errors->add_fields(time, step_report.dt, mapping, system.bulk_dofs(), stepper.committed,
+                       [this](const auto &cell) { return model.role(cell); });
     errors->add_values(time, step_report.dt, observed);
     for (const auto &[name, error] : errors->errors())
       statistics.set("error_" + name, error.final);

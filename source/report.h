@@ -19,13 +19,16 @@ template <int dim>
 class Report
 {
 public:
-  /// `reference` may be null.
+  /// `reference` may be null. `audits_energy`: nothing but prescribed displacements loads elastic
+  /// rock, slowly, so that their work can be compared with where it has gone.
   Report(RunContext &run,
          const CoupledSystem<dim> &system,
          const Stepper<dim> &stepper,
          const FractureModel<dim> &model,
          const Network<dim> &network,
          const InSitu<dim> &in_situ,
+         const Rock &rock,
+         const bool audits_energy,
          const dealii::Mapping<dim> &mapping,
          const ReferenceSolution<dim> *reference,
          const StepControl &control,
@@ -51,14 +54,14 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
       .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
-      .fluid_balance.relative_error;
+      .fluid_balance.relative_error &external_work &peak_load;
     if (errors)
       archive &*errors;
   }
 
 private:
   /// Scalars of the last step by column name.
-  std::map<std::string, double> observe() const;
+  std::map<std::string, double> observe();
 
   RunContext &run;
   const CoupledSystem<dim> &system;
@@ -66,6 +69,10 @@ private:
   const FractureModel<dim> &model;
   const Network<dim> &network;
   const InSitu<dim> &in_situ;
+  const Rock &rock;
+  bool audits_energy;
+  double external_work = 0.; ///< since the start [J/m]
+  double peak_load = 0.;     ///< greatest so far [N/m]
   const dealii::Mapping<dim> &mapping;
   const ReferenceSolution<dim> *reference;
   StepControl control;

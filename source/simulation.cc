@@ -131,7 +131,7 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.network,
            the_case.discretisation,
            prm)
-  , adaptation(prm, the_case.geometry, triangulation, *the_case.model)
+  , adaptation(the_case.geometry, triangulation, *the_case.model)
   , stepper(run, system, *the_case.model, the_case.network, the_case.scheme, the_case.control)
   , report(run,
            system,
@@ -139,6 +139,8 @@ Simulation<dim>::Simulation(RunContext &run,
            *the_case.model,
            the_case.network,
            the_case.in_situ,
+           the_case.rock,
+           the_case.loaded_by_displacement,
            *mapping,
            the_case.reference.get(),
            the_case.control,

@@ -125,7 +125,7 @@ def draw(options):
     ax.set_ylabel("y [m]")
     name = " ".join(filter(None, (options.field.replace("_", " "), options.component)))
     figure.colorbar(shown, ax=ax, shrink=0.8, label=f"{name} [{unit}]")
-    ax.set_title(f"t = {time:.4g} s" + (f", opening drawn × {round(warp, -2):.0f}" if warp else ""),
+    ax.set_title(f"t = {time:.4g} s" + (f", opening drawn × {float(f'{warp:.2g}'):g}" if warp else ""),
                  fontsize=10)
     output = options.output or os.path.join(options.directory, options.field + ".png")
     figure.savefig(output, dpi=110, bbox_inches="tight")

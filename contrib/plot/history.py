@@ -25,6 +25,8 @@ QUANTITIES = {
     "inlet_pressure": ("net pressure at the inlet", "MPa", 1e-6),
     "pore_pressure": ("pore pressure", "MPa", 1e-6),
     "displacement": ("displacement", "mm", 1e3),
+    "load": ("load", "kN/m", 1e-3),
+    "dissipated_energy": ("dissipated energy", "J/m", 1.),
 }
 PREFIX = "reference_"
 
@@ -35,7 +37,8 @@ def numbers(column):
 
 def draw(directories, columns, output):
     runs = [(read_summary(d), read_statistics(d)) for d in directories]
-    names = columns or [n for n in QUANTITIES if any(n in table for _, table in runs)]
+    names = columns or [n for n in QUANTITIES
+                        if any(any(numbers(table.get(n, []))) for _, table in runs)]
     if not names:
         sys.exit("history.py: none of these columns: " + ", ".join(QUANTITIES))
     figure, axes = plt.subplots(1, len(names), figsize=(4 * len(names), 3.2), squeeze=False)

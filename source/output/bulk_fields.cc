@@ -1,5 +1,7 @@
 #include "output/bulk_fields.h"
 
+#include <deal.II/fe/fe_values.h>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -17,11 +19,18 @@ BulkFields<dim>::BulkFields(const Discretization<dim> &discretization,
     if (cell->is_locally_owned())
       if (const CutCell<dim> *cut = model.role(cell).cut)
       {
+        FEValues<dim> fe_values(discretization.mapping, discretization.dof_handler.get_fe(),
+                                Quadrature<dim>(cut->points), update_gradients);
+        fe_values.reinit(cell);
+        std::vector<SymmetricTensor<2, dim>> strain(cut->points.size());
+        fe_values[FEValuesExtractors::Vector(0)].get_function_symmetric_gradients(
+          state.current.bulk, strain);
         SymmetricTensor<2, dim> sum;
         double volume = 0.;
         for (unsigned int q = 0; q < cut->points.size(); ++q)
         {
           volume += cut->weights[q];
+          sum += cut->weights[q] * strain[q];
           for (unsigned int c = 0; c < cut->n_columns(); ++c)
           {
             Tensor<2, dim> gradient;
@@ -29,7 +38,7 @@ BulkFields<dim>::BulkFields(const Discretization<dim> &discretization,
             sum += cut->weights[q] * state.current.extra[cut->extra[c]] * symmetrize(gradient);
           }
         }
-        extra_strain[cell->active_cell_index()] = sum / volume;
+        mean_strain[cell->active_cell_index()] = sum / volume;
       }
 }
 
@@ -50,7 +59,7 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
   std::vector<BulkCoefficients<dim>> coefficients(inputs.evaluation_points.size(), intact);
   if (model.requirements().changes_bulk)
     model.bulk_coefficients(cell, inputs.evaluation_points, coefficients);
-  const auto extra = extra_strain.find(cell->active_cell_index());
+  const auto mean = mean_strain.find(cell->active_cell_index());
 
   for (unsigned int q = 0; q < inputs.evaluation_points.size(); ++q)
   {
@@ -70,8 +79,8 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
       gradient[d] = inputs.solution_gradients[q][d];
     }
     SymmetricTensor<2, dim> strain = symmetrize(gradient);
-    if (extra != extra_strain.end())
-      strain += extra->second;
+    if (mean != mean_strain.end())
+      strain = mean->second;
     SymmetricTensor<2, dim> total = scene.in_situ_stress(x) + coefficients[q].stiffness * strain;
     if (!has_pore_pressure)
     {

@@ -13,8 +13,8 @@ namespace stockwork
 /// there is a fluid, pore_pressure [Pa], effective_stress = total_stress + alpha p I, and flux
 /// -(k/mu) grad(p - p_0) [m/s]. Stress is the whole of it, in-situ part included [Pa].
 ///
-/// In cells that a discontinuity cuts, the strain of the extra shape functions is added as its
-/// mean over the cell; the displacement is that at the vertices, interpolated.
+/// In cells with extra shape functions the strain is its mean over the cell; the displacement is
+/// that at the vertices, interpolated.
 template <int dim>
 class BulkFields : public dealii::DataPostprocessor<dim>
 {
@@ -39,7 +39,7 @@ private:
   const FractureModel<dim> &model;
   bool has_pore_pressure;
 
-  /// Mean strain of the extra shape functions, by active cell index.
-  std::map<unsigned int, dealii::SymmetricTensor<2, dim>> extra_strain;
+  /// Mean strain of cells with extra shape functions, by active cell index.
+  std::map<unsigned int, dealii::SymmetricTensor<2, dim>> mean_strain;
 };
 } // namespace stockwork

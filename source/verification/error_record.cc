@@ -53,7 +53,8 @@ void ErrorRecord<dim>::add_fields(const double time,
                                   const double dt,
                                   const Mapping<dim> &mapping,
                                   const DoFHandler<dim> &dof_handler,
-                                  const TrilinosWrappers::MPI::BlockVector &solution)
+                                  const Unknowns &solution,
+                                  const Role &role)
 {
   const auto field = reference.field();
   if (!field || !compares(time))
@@ -65,33 +66,55 @@ void ErrorRecord<dim>::add_fields(const double time,
   const QGauss<dim> quadrature(fe.degree + 2);
   FEValues<dim> fe_values(mapping, fe, quadrature,
                           update_values | update_quadrature_points | update_JxW_values);
-  std::vector<Vector<double>> computed(quadrature.size(), Vector<double>(n_components));
+  std::vector<Vector<double>> computed;
   Vector<double> expected(n_components);
   const auto point = reference.observation_point();
   double observed = -std::numeric_limits<double>::infinity();
 
   // Squares of the differences and of the reference: of the displacement, of the pressure.
   std::vector<double> squares(4, 0.);
+  const auto add_cell = [&](const FEValues<dim> &values, const CutCell<dim> *cut)
+  {
+    computed.assign(values.n_quadrature_points, Vector<double>(n_components));
+    values.get_function_values(solution.bulk, computed);
+    for (unsigned int q = 0; q < computed.size(); ++q)
+    {
+      if (cut != nullptr)
+        for (unsigned int c = 0; c < cut->n_columns(); ++c)
+          computed[q](cut->component[c]) +=
+            cut->values[q * cut->n_columns() + c] * solution.extra[cut->extra[c]];
+      field->vector_value(values.quadrature_point(q), expected);
+      expected *= reference.comparison_factor;
+      for (unsigned int c = 0; c < n_components; ++c)
+      {
+        const double difference = computed[q](c) - expected(c);
+        const double weight = cut != nullptr ? cut->weights[q] : values.JxW(q);
+        squares[c < dim ? 0 : 2] += difference * difference * weight;
+        squares[c < dim ? 1 : 3] += expected(c) * expected(c) * weight;
+      }
+    }
+  };
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      fe_values.reinit(cell);
-      fe_values.get_function_values(solution, computed);
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
+      const CutCell<dim> *cut = role(cell).cut;
+      if (cut == nullptr)
       {
-        field->vector_value(fe_values.quadrature_point(q), expected);
-        expected *= reference.comparison_factor;
-        for (unsigned int c = 0; c < n_components; ++c)
-        {
-          const double difference = computed[q](c) - expected(c);
-          squares[c < dim ? 0 : 2] += difference * difference * fe_values.JxW(q);
-          squares[c < dim ? 1 : 3] += expected(c) * expected(c) * fe_values.JxW(q);
-        }
+        fe_values.reinit(cell);
+        add_cell(fe_values, nullptr);
+      }
+      else
+      {
+        // Ordinary functions do not know on which side of the crack a point is.
+        FEValues<dim> cut_values(mapping, fe, Quadrature<dim>(cut->points),
+                                 update_values | update_quadrature_points);
+        cut_values.reinit(cell);
+        add_cell(cut_values, cut);
       }
       if (point && n_components > dim)
         for (const unsigned int v : cell->vertex_indices())
           if (cell->vertex(v).distance(*point) < 1e-8 * cell->diameter())
-            observed = solution(cell->vertex_dof_index(v, dim));
+            observed = solution.bulk(cell->vertex_dof_index(v, dim));
     }
   const MPI_Comm communicator = dof_handler.get_communicator();
   Utilities::MPI::sum(squares, communicator, squares);

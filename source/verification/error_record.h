@@ -2,10 +2,12 @@
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
-#include <deal.II/lac/trilinos_parallel_block_vector.h>
 
+#include "stockwork/fracture/cell_role.h"
+#include "stockwork/fracture/state.h"
 #include "verification/reference_solution.h"
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -41,12 +43,17 @@ public:
 
   ErrorRecord(const ReferenceSolution<dim> &reference, double start_time, double end_time);
 
-  /// Relative L2 errors of displacement and pore pressure at the end of a step. Collective.
+  using Role =
+    std::function<CellRole<dim>(const typename dealii::DoFHandler<dim>::active_cell_iterator &)>;
+
+  /// Relative L2 errors of displacement and pore pressure at the end of a step; in cells that a
+  /// crack cuts, with the functions that jump there. Collective.
   void add_fields(double time,
                   double dt,
                   const dealii::Mapping<dim> &mapping,
                   const dealii::DoFHandler<dim> &dof_handler,
-                  const dealii::TrilinosWrappers::MPI::BlockVector &solution);
+                  const Unknowns &solution,
+                  const Role &role);
 
   /// Relative errors of scalars that both sides know. The length of a fracture with a process zone
   /// is the mean of its whole and its fully broken length: the zone counts for half, as in the

@@ -29,6 +29,7 @@ const Entry table[] = {
   {"line crack", reference::make_line_crack, nullptr},
   {"crack in box", reference::make_crack_in_box, nullptr},
   {"parallel cracks", reference::make_parallel_cracks, nullptr},
+  {"double cantilever", reference::make_double_cantilever, nullptr},
   {"kgd", reference::make_kgd, nullptr},
   {"kgd vertex", reference::make_kgd_vertex, nullptr},
   {"kgd carter", reference::make_kgd_carter, nullptr},
@@ -60,7 +61,9 @@ void declare_reference_parameters(ParameterHandler &prm)
     "quarter x, y >= 0, moved at the top. cryer: octant of a ball, deleeuw: quarter of a "
     "disc, loaded and drained at the surface. bar wave, porous wave: along the last "
     "axis, loaded at the top. line crack: in an infinite body; crack in "
-    "box: with rollers all round. kgd: at the deck's own toughness and viscosity; "
+    "box: with rollers all round. double cantilever: beams along x joined by a cohesive "
+    "layer, a crack from the left, ends moved apart by equal displacements. kgd: at the deck's own "
+    "toughness and viscosity; "
     "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
     "the rollers of the domain all round.");
   prm.declare_entry("Reference factor", "1", Patterns::Double(),
@@ -72,6 +75,9 @@ void declare_reference_parameters(ParameterHandler &prm)
                     "When errors are formed. Their mean over time needs every step.");
   prm.declare_entry("Load", "1 N/m", Quantity(dimension::force_per_length),
                     "mandel: force on the half width of the plate.");
+  prm.declare_entry("Elastic share", "0.01", Quantity(dimension::number, Range::open(0., 1.)),
+                    "double cantilever: opening of the layer at its strength over the opening "
+                    "without traction; the fracture model's.");
   prm.declare_entry("Rise time", "1 s", Quantity(dimension::time, Range::positive()),
                     "bar wave, porous wave: duration of the rise of the load.");
   prm.leave_subsection();

@@ -83,6 +83,9 @@ struct ReferenceInput
   /// InputError for a side without one. Empty: not known.
   std::function<double(const std::string &side, double time)> normal_traction = {};
 
+  /// The greatest displacement that the deck prescribes at a time [m]. Empty: not known.
+  std::function<double(double time)> greatest_displacement = {};
+
   /// Whether the deck makes a side a roller or plane of symmetry. Empty: not known.
   std::function<bool(const std::string &side)> is_roller = {};
 };

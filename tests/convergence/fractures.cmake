@@ -9,10 +9,41 @@ stockwork_case_test(NAME convergence/kgd/viscosity DECK prm/kgd/viscosity/cohesi
   SET "Resolution=coarse"
   EXPECT "errors/fracture_length/final < 0.035" "errors/inlet_aperture/final < 0.02"
          "errors/inlet_pressure/final < 0.02" "fluid_balance/relative_error < 1e-8")
+# Static cracks.
 stockwork_case_test(NAME convergence/sneddon DECK prm/sneddon/prescribed.prm NEGATIVE
   SET "Resolution=coarse"
-  EXPECT "errors/fracture_volume/final < 0.02" "errors/stress_intensity_I/final < 0.005")
-foreach(angle 0 30 45)
-  stockwork_case_test(NAME convergence/inclined/${angle} DECK prm/inclined/${angle}/prescribed.prm
-    SET "Resolution=coarse" EXPECT "errors/stress_intensity_I/final < 0.01")
+  EXPECT "errors/fracture_volume/final < 0.01" "errors/stress_intensity_I/final < 0.005"
+         "errors/displacement/final < 0.01")
+stockwork_case_test(NAME convergence/sneddon/fine DECK prm/sneddon/prescribed.prm
+  SET "Resolution=fine"
+  EXPECT "errors/fracture_volume/final < 0.001" "errors/stress_intensity_I/final < 0.001"
+         "errors/displacement/final < 0.001" "unknowns < 50000")
+stockwork_case_test(NAME convergence/sneddon/box DECK prm/sneddon/box/prescribed.prm NEGATIVE
+  SET "Resolution=coarse"
+  EXPECT "errors/fracture_volume/final < 0.01" "errors/stress_intensity_I/final < 0.005")
+foreach(angle 0 15 30 45)
+  set(shear)
+  if(angle GREATER 0)
+    set(shear "errors/stress_intensity_II/final < 0.005")
+  endif()
+  foreach(load "" "/tension")
+    stockwork_case_test(NAME convergence/inclined/${angle}${load} NEGATIVE
+      DECK prm/inclined/${angle}${load}/prescribed.prm SET "Resolution=coarse"
+      EXPECT "errors/fracture_volume/final < 0.01" "errors/displacement/final < 0.01"
+             "errors/stress_intensity_I/final < 0.005" ${shear})
+  endforeach()
 endforeach()
+foreach(cracks two three)
+  foreach(distance 0.5 1 2 3)
+    stockwork_case_test(NAME convergence/parallel/${cracks}/${distance}
+      DECK prm/parallel/${cracks}/${distance}/prescribed.prm SET "Resolution=coarse"
+      EXPECT "errors/fracture_volume/final < 0.01" "errors/stress_intensity_I/final < 0.01"
+             "errors/stress_intensity_II/final < 0.02")
+  endforeach()
+endforeach()
+
+# Growth along a seam, under prescribed displacements: where their work has gone.
+stockwork_case_test(NAME convergence/dcb DECK prm/dcb/cohesive_xfem.prm NEGATIVE
+  SET "Resolution=coarse"
+  EXPECT "errors/peak_load/final < 0.03" "errors/dissipated_energy/final < 0.02"
+         "final/energy_balance_error < 0.01")

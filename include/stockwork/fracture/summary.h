@@ -15,6 +15,7 @@ struct FractureSummary
   double length = 0.;            ///< of all cracks, from mouth to physical tip [m] ([m^2] in 3-D)
   double broken_length = 0.;     ///< part without any strength left
   double dissipated_energy = 0.; ///< by the fracture process since the start [J/m]
+  double stored_energy = 0.;     ///< in the fracture process zone, recovered on unloading [J/m]
   unsigned int n_tips = 0;
   std::optional<double> stress_intensity_I; ///< of the first crack's last tip [Pa m^1/2]
   std::optional<double> stress_intensity_II;

@@ -84,10 +84,7 @@ void CohesiveXFEM<dim>::setup(const Discretization<dim> &d, const Collectives &c
 template <int dim>
 void CohesiveXFEM<dim>::start(const Collectives &collectives)
 {
-  std::vector<std::vector<Point<dim>>> polylines;
-  for (const auto &crack : scene.cracks)
-    polylines.push_back(crack.points);
-  discontinuity.cut(polylines, collectives);
+  discontinuity.cut(scene.cracks, collectives);
 
   messages.clear();
   double size = 0.;
@@ -287,7 +284,12 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     const double pressure =
       state.segment_pressure ? state.segment_pressure(last.key(scene.domain_size)) : 0.;
     const auto principal = dealii::eigenvectors(stresses[i]);
-    const double drive = principal[0].first + pressure;
+    Tensor<1, dim> across;
+    across[0] = -tips[i].direction[1];
+    across[1] = tips[i].direction[0];
+    const double tension =
+      parameters.straight ? across * (stresses[i] * across) : principal[0].first;
+    const double drive = tension + pressure;
     if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
       continue;
     if (advances[tips[i].crack][static_cast<int>(tips[i].end)] >= parameters.most_advances)
@@ -301,7 +303,8 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     direction[1] = principal[0].second[0];
     if (direction * tips[i].direction < 0.)
       direction *= -1.;
-    tips[i].direction = rounded_direction(direction);
+    if (!parameters.straight)
+      tips[i].direction = rounded_direction(direction);
     growing.push_back(tips[i]);
     pressures.push_back(pressure);
   }
@@ -443,21 +446,33 @@ void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
 
 
 template <int dim>
-FractureSummary CohesiveXFEM<dim>::summary(const State &, const Collectives &) const
+FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives &) const
 {
   FractureSummary result;
-  for (const auto &path : discontinuity.paths())
+  for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
   {
+    const auto &path = discontinuity.paths()[c];
     result.n_tips += path.is_tip[0] + path.is_tip[1];
-    for (const auto &piece : path.pieces)
-      for (const double d : damage(piece))
+    for (unsigned int i = 0; i < path.pieces.size(); ++i)
+    {
+      const CrackPiece<dim> &piece = path.pieces[i];
+      const auto &columns = discontinuity.enrichment().columns(c, i);
+      const JumpShapes<dim> shapes(piece);
+      const PointDamage history = damage(piece);
+      for (unsigned int q = 0; q < n_points; ++q)
       {
+        const double length = piece.length() / n_points, d = history[q];
         // What is cut but undamaged is intact rock.
         if (d > 0.)
-          result.length += piece.length() / n_points;
+          result.length += length;
         if (d >= 1.)
-          result.broken_length += piece.length() / n_points;
+          result.broken_length += length;
+        const NormalShear gap = separation(piece, shapes, q, columns, state.current.extra);
+        const NormalShear traction = law.evaluate(gap, d).traction;
+        result.stored_energy +=
+          0.5 * length * (traction.normal * gap.normal + traction.shear * gap.shear);
       }
+    }
   }
   result.dissipated_energy = dissipated;
   return result;

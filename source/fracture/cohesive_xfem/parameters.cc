@@ -31,6 +31,9 @@ void Parameters::declare(dealii::ParameterHandler &prm)
     "of the given mesh.");
   prm.declare_entry("Rings ahead", "8", dealii::Patterns::Integer(1),
                     "Cells of this size kept ready around a tip.");
+  prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
+                    "Cracks go straight on when the stress across their direction is enough, "
+                    "whatever the stress along it: for a weak seam, or the joint of two beams.");
   prm.declare_entry("Growth", "true", dealii::Patterns::Bool(), "Whether cracks may grow.");
 }
 
@@ -45,6 +48,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm)
   p.most_advances = prm.get_integer("Most advances per step");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.rings_ahead = prm.get_integer("Rings ahead");
+  p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   return p;
 }

@@ -15,6 +15,7 @@ struct Parameters
   unsigned int most_advances;  ///< cells per tip and step
   double cell_size;            ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;    ///< cells of that size ahead of a tip
+  bool straight;
   bool growth;
 
   static void declare(dealii::ParameterHandler &prm);
