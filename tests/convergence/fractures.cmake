@@ -45,5 +45,5 @@ endforeach()
 # Growth along a seam, under prescribed displacements: where their work has gone.
 stockwork_case_test(NAME convergence/dcb DECK prm/dcb/cohesive_xfem.prm NEGATIVE
   SET "Resolution=coarse"
-  EXPECT "errors/peak_load/final < 0.03" "errors/dissipated_energy/final < 0.02"
-         "final/energy_balance_error < 0.01")
+  EXPECT "errors/peak_load/final < 0.03" "errors/dissipated_energy/final < 0.025"
+         "final/energy_balance_error < 0.02")
