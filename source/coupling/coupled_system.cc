@@ -119,6 +119,7 @@ void CoupledSystem<dim>::setup_mesh(const double time)
 
   boundary_conditions.constrain(time, mapping, dof_handler, constraints, increment_constraints);
   constraints_time = time;
+  model.setup(discretization(), communication);
 
   {
     BlockDynamicSparsityPattern pattern(relevant);
@@ -162,7 +163,6 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   if (solver->wants_hierarchy(dof_handler.n_dofs()))
     system.displacement_hierarchy =
       make_displacement_hierarchy(mapping, dof_handler, increment_constraints);
-  model.setup(discretization(), communication);
 }
 
 
