@@ -63,7 +63,10 @@ Discontinuity<2> cut(const Square &square, const std::vector<std::vector<Point<2
   discontinuity.setup(square.discretization(), square.collectives);
   std::vector<InitialCrack<2>> cracks;
   for (const auto &polyline : polylines)
-    cracks.push_back({polyline});
+  {
+    cracks.emplace_back();
+    cracks.back().points = polyline;
+  }
   discontinuity.cut(cracks, square.collectives);
   return discontinuity;
 }
@@ -290,7 +293,9 @@ TEST_CASE("tips with functions of their own lie where the crack ends")
   Square square(10); // cells of 0.2
   Discontinuity<2> discontinuity(2.8, 1.);
   discontinuity.setup(square.discretization(), square.collectives);
-  discontinuity.cut({{{{-0.57, 0.1}, {0.44, 0.13}}}}, square.collectives, 2.);
+  InitialCrack<2> crack;
+  crack.points = {{-0.57, 0.1}, {0.44, 0.13}};
+  discontinuity.cut({crack}, square.collectives, 2.);
   const auto &path = discontinuity.paths()[0];
   CHECK(path.length() == doctest::Approx(std::hypot(1.01, 0.03)));
   CHECK(path.pieces.size() == 6);
