@@ -241,15 +241,16 @@ struct Run
 {
   LinearReport report;
   double error;
+  std::shared_ptr<LinearSystem> system; ///< whose matrix a preconditioner that is kept refers to
 };
 
 Run solve(LinearSolver &solver, const DenseSystem &d, const SystemStamps &stamps)
 {
-  const auto system = distribute(d);
+  std::shared_ptr<LinearSystem> system = distribute(d);
   TrilinosWrappers::MPI::BlockVector bulk(system->residual_bulk);
   std::vector<double> extra;
   const auto report = solver.solve(*system, stamps, 1e-12, bulk, extra);
-  return {report, error(d, bulk, extra)};
+  return {report, error(d, bulk, extra), system};
 }
 
 std::unique_ptr<LinearSolver> make(const LinearSolverParameters::Type type)
@@ -414,13 +415,15 @@ TEST_CASE("the iterative solver converges, with a fracture and where units diffe
     {
       CAPTURE(n_p);
       CAPTURE(decades);
+      std::vector<Run> runs;
       auto solver = make(Type::iterative);
       SystemStamps stamps;
       for (const unsigned int n_extra : {0u, 6u, 10u})
       {
         CAPTURE(n_extra);
         ++stamps.extra;
-        const auto run = solve(*solver, make_dense(31, n_p, n_extra, decades), stamps);
+        runs.push_back(solve(*solver, make_dense(31, n_p, n_extra, decades), stamps));
+        const Run &run = runs.back();
         CHECK(run.report.converged);
         CHECK(run.report.factorised == (n_extra == 0));
         CHECK(run.error < 1e-10);
