@@ -320,7 +320,8 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
 
 
 template <int dim>
-void CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::BlockVector &dx_bulk,
+void CoupledSystem<dim>::update_linear_residual(const double step,
+                                                const TrilinosWrappers::MPI::BlockVector &dx_bulk,
                                                 const std::vector<double> &dx_extra)
 {
   auto product = owned_vector();
@@ -330,7 +331,7 @@ void CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::Blo
       system.bulk_extra.values[k] * dx_extra[system.bulk_extra.columns[k]];
   product.compress(VectorOperation::add);
   for (unsigned int b = 0; b < owned.size(); ++b)
-    linear_residual_bulk.block(b) += product.block(b);
+    linear_residual_bulk.block(b).add(step, product.block(b));
 
   if (numbering.size() == 0)
     return;
@@ -345,7 +346,7 @@ void CoupledSystem<dim>::update_linear_residual(const TrilinosWrappers::MPI::Blo
       linear_extra_extra.values[k] * dx_extra[linear_extra_extra.columns[k]];
   communication.sum(change);
   for (unsigned int i = 0; i < change.size(); ++i)
-    linear_residual_extra[i] += change[i];
+    linear_residual_extra[i] += step * change[i];
 }
 
 
@@ -478,32 +479,43 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       report.reason = error.what();
       return report;
     }
-    // A law with kinks (contact, softening) can send Newton's method round in circles; shorter
-    // increments lead out.
-    double factor = iteration > 8 && norms.extra > 1e-4 * force ? 0.4 : 1.;
+    double factor = 1.;
     for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
       factor = std::min(factor, pressure_limit / std::max(std::abs(dx_extra[i]), 1e-300));
-    if (factor < 1.)
+    const auto move = [&](const double step)
     {
-      dx_bulk *= factor;
-      for (double &value : dx_extra)
-        value *= factor;
-    }
-    values += dx_bulk;
-    constraints.distribute(values);
-    current.bulk = values;
-    for (unsigned int i = 0; i < numbering.size(); ++i)
-      current.extra[i] += dx_extra[i];
-    if (!linear)
-    {
+      values.add(step, dx_bulk);
+      constraints.distribute(values);
+      current.bulk = values;
+      for (unsigned int i = 0; i < numbering.size(); ++i)
+        current.extra[i] += step * dx_extra[i];
+      if (linear)
+        return;
       model_change = model.update_iterate(context, state, communication);
       if (model.requirements().changes_bulk)
         assemble_linear(context, state); // the coefficients have moved along with the iterate
       else if (!bulk_was_touched)
-        update_linear_residual(dx_bulk, dx_extra);
+        update_linear_residual(step, dx_bulk, dx_extra);
       assemble_nonlinear(context, state);
       norms = residual_norms();
-    }
+    };
+    // A law that softens sends Newton's method far beyond the solution, and back again. Shorter
+    // increments are tried as long as the residual grows too much; how much is too much must not be
+    // read too narrowly, for on the way to a good solution the residual may grow as well.
+    const auto imbalance = [&](const Norms &n)
+    {
+      return std::hypot(n.momentum, n.extra) / force +
+             (greatest.fracture_fluid > 0. ? n.fracture_fluid / greatest.fracture_fluid : 0.);
+    };
+    const double before = imbalance(norms);
+    move(factor);
+    if (n_model_extra > 0 && iteration > 0)
+      for (unsigned int halving = 0;
+           halving < 4 && !(imbalance(norms) < (iteration < 6 ? 3. : 1.) * before); ++halving)
+      {
+        factor *= 0.5;
+        move(-factor);
+      }
   }
 }
 

@@ -126,7 +126,9 @@ private:
 
   void assemble_nonlinear(const StepContext &context, const State &state);
 
-  void update_linear_residual(const dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+  /// The unknowns have moved by a step times an increment.
+  void update_linear_residual(double step,
+                              const dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                               const std::vector<double> &dx_extra);
 
   struct Norms

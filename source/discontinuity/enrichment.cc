@@ -67,11 +67,15 @@ void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
 template <int dim>
 JumpShapes<dim>::JumpShapes(const CrackPiece<dim> &piece)
 {
+  // Gauss's two points in each of the equal parts of the piece.
+  constexpr unsigned int n_parts = n_points / 2;
   const double offset = 0.5 / std::sqrt(3.);
   for (unsigned int q = 0; q < n_points; ++q)
+  {
+    const double place = (q / 2 + (q % 2 == 0 ? 0.5 - offset : 0.5 + offset)) / n_parts;
     values[q] =
-      corner_functions<dim>(piece.unit_ends[0] + (q == 0 ? 0.5 - offset : 0.5 + offset) *
-                                                   (piece.unit_ends[1] - piece.unit_ends[0]));
+      corner_functions<dim>(piece.unit_ends[0] + place * (piece.unit_ends[1] - piece.unit_ends[0]));
+  }
 }
 
 template class Enrichment<2>;

@@ -43,11 +43,13 @@ private:
 };
 
 /// Functions of the corners at points along a piece; the displacement jumps there by
-/// sum_c a_c N_corner(c) e_component(c), and both Gauss points have half the length as weight.
+/// sum_c a_c N_corner(c) e_component(c), and all points have the same share of the length as
+/// weight. Two points would do for what is smooth; with four, the peak of a cohesive law passes
+/// from point to point smoothly enough for Newton's method.
 template <int dim>
 struct JumpShapes
 {
-  static constexpr unsigned int n_points = 2;
+  static constexpr unsigned int n_points = 4;
   std::array<std::array<double, CrackPiece<dim>::n_corners>, n_points> values;
 
   explicit JumpShapes(const CrackPiece<dim> &piece);
@@ -55,7 +57,10 @@ struct JumpShapes
   /// Mean along the piece.
   double mean(const unsigned int corner) const
   {
-    return 0.5 * (values[0][corner] + values[1][corner]);
+    double sum = 0.;
+    for (const auto &at_point : values)
+      sum += at_point[corner];
+    return sum / n_points;
   }
 
   /// Jump of the displacement at a point for the unknowns @p a.

@@ -38,20 +38,23 @@ struct Transmissibility
   double slope_j;
 };
 
-/// The two half-distances d_i, d_j from the centres to the shared edge conduct in series, each
-/// with width w_h^3 / (12 mu d).
-/// @param c_i, c_j cubes of the hydraulic apertures
-inline Transmissibility transmissibility(const ValueAndSlope &c_i,
-                                         const ValueAndSlope &c_j,
+/// Poiseuille flow between two centres with the aperture that their linear interpolation has at the
+/// shared edge. The harmonic mean, which suits layers of different rock, would let a closed tip
+/// seal itself: what it lets in would be limited by its own aperture, although an open segment
+/// is next to it, and a fracture in viscous fluid would only creep on.
+/// @param w_i, w_j apertures [m]
+/// @param d_i, d_j distances from the centres to the edge [m]
+inline Transmissibility transmissibility(const double w_i,
+                                         const double w_j,
                                          const double d_i,
                                          const double d_j,
                                          const double width,
-                                         const double viscosity)
+                                         const double viscosity,
+                                         const double w_min)
 {
-  const double resistance_i = d_i / c_i.value, resistance_j = d_j / c_j.value;
-  const double resistance = resistance_i + resistance_j;
-  const double value = width / (12. * viscosity * resistance);
-  return {value, value * resistance_i / resistance * c_i.slope / c_i.value,
-          value * resistance_j / resistance * c_j.slope / c_j.value};
+  const double distance = d_i + d_j, share_i = d_j / distance, share_j = d_i / distance;
+  const ValueAndSlope cube = hydraulic_aperture_cubed(share_i * w_i + share_j * w_j, w_min);
+  const double factor = width / (12. * viscosity * distance);
+  return {factor * cube.value, factor * cube.slope * share_i, factor * cube.slope * share_j};
 }
 } // namespace stockwork

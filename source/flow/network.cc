@@ -291,6 +291,12 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
   Values values;
   values.aperture.assign(all.begin(), all.begin() + n);
   values.aperture_reference.assign(all.begin() + n, all.begin() + 2 * n);
+  // Where a fracture has just grown to, there was no room for fluid, even if the unknowns that the
+  // opening is read from were there and not zero, as those of an older piece around the corner.
+  for (unsigned int i = 0; i < n; ++i)
+    if (const auto fresh = appeared.find(network[i].key);
+        fresh != appeared.end() && fresh->second > 0)
+      values.aperture_reference[i] = 0.;
   values.pore_pressure.assign(all.begin() + 2 * n, all.end());
   values.pressure = pressures(state.current);
   values.pressure_reference = pressures(state.rate_reference);
@@ -391,14 +397,12 @@ void Network<dim>::assemble_segment(const unsigned int index,
   }
 
   // Flow to the neighbours.
-  const ValueAndSlope own_cube = hydraulic_aperture_cubed(w, minimum_aperture);
   for (unsigned int e = 0; e < edges[index].size(); ++e)
   {
     const Edge &edge = edges[index][e];
-    const ValueAndSlope other_cube =
-      hydraulic_aperture_cubed(values.aperture[edge.other], minimum_aperture);
-    const Transmissibility T = transmissibility(own_cube, other_cube, edge.distance,
-                                                edge.other_distance, edge.width, viscosity);
+    const Transmissibility T =
+      transmissibility(w, values.aperture[edge.other], edge.distance, edge.other_distance,
+                       edge.width, viscosity, minimum_aperture);
     const double difference = p - values.pressure[edge.other];
     const unsigned int other = others[e];
     if (own != no_row)
@@ -501,9 +505,8 @@ FluidBalance Network<dim>::balance(const StepContext &context,
       {
         const unsigned int j = edge.other;
         supply += context.dt *
-                  transmissibility(hydraulic_aperture_cubed(w, minimum_aperture),
-                                   hydraulic_aperture_cubed(values.aperture[j], minimum_aperture),
-                                   edge.distance, edge.other_distance, edge.width, viscosity)
+                  transmissibility(w, values.aperture[j], edge.distance, edge.other_distance,
+                                   edge.width, viscosity, minimum_aperture)
                     .value *
                   (values.pressure[i] - values.pressure[j]);
       }

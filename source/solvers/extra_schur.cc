@@ -38,6 +38,7 @@ void ExtraSchur::forget()
 {
   known.clear();
   products.clear();
+  schur.forget();
   has_factor = false;
 }
 
@@ -180,34 +181,13 @@ void ExtraSchur::factorise(const SystemOperator &op)
         if (place[j] != no_place)
           s(i, j) -= products[place[i]][place[j]];
 
-  // Equilibrate rows and columns alike (Ruiz 2001), so that pivoting compares like with like.
-  scaling.assign(n, 1.);
-  for (unsigned int sweep = 0; sweep < 3; ++sweep)
-  {
-    std::vector<double> size(n, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-      {
-        const double entry = std::abs(s(i, j));
-        size[i] = std::max(size[i], entry * scaling[j]);
-        size[j] = std::max(size[j], entry * scaling[i]);
-      }
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      if (!(size[i] > 0.) || !std::isfinite(size[i]))
-        throw_singular();
-      scaling[i] = std::sqrt(scaling[i] / size[i]);
-    }
-  }
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      s(i, j) *= scaling[i] * scaling[j];
-
-  schur.reinit(n, n);
-  schur = s;
   try
   {
-    schur.compute_lu_factorization();
+    schur.factorise(s, place);
+  }
+  catch (const SolveError &)
+  {
+    throw_singular();
   }
   catch (const dealii::ExceptionBase &)
   {
@@ -233,11 +213,8 @@ void ExtraSchur::update(const SystemOperator &op,
 
 void ExtraSchur::solve(std::vector<double> &x) const
 {
-  dealii::Vector<double> right(x.size());
-  for (unsigned int i = 0; i < x.size(); ++i)
-    right(i) = scaling[i] * x[i];
+  dealii::Vector<double> right(x.begin(), x.end());
   schur.solve(right);
-  for (unsigned int i = 0; i < x.size(); ++i)
-    x[i] = scaling[i] * right(i);
+  std::copy(right.begin(), right.end(), x.begin());
 }
 } // namespace stockwork

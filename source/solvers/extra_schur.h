@@ -1,11 +1,10 @@
 #pragma once
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
 #include <functional>
 #include <utility>
 #include <vector>
 
+#include "solvers/dense_solver.h"
 #include "solvers/system_operator.h"
 
 namespace stockwork
@@ -17,7 +16,8 @@ namespace stockwork
 ///
 /// dense, on every rank. Of C A^-1 B only the rows and columns of new extra unknowns are computed;
 /// an unknown is known by the contents of its row and column, so renumbering costs nothing, and
-/// S follows a growing fracture and Newton's iterations at the price of a dense factorisation.
+/// S follows a growing fracture and Newton's iterations at the price of a dense factorisation of
+/// what changes.
 class ExtraSchur
 {
 public:
@@ -82,8 +82,7 @@ private:
   std::vector<std::vector<double>> products; ///< [i][j] = row_i A^-1 column_j of known borders
   std::vector<unsigned int> place;           ///< of each extra unknown among the known borders
 
-  dealii::LAPACKFullMatrix<double> schur; ///< its factor
-  std::vector<double> scaling;
+  DenseSolver schur;
   std::vector<SystemOperator::Entry> corner_of_factor; ///< D
   std::vector<unsigned int> place_of_factor;
   bool has_factor = false;

@@ -32,19 +32,18 @@ TEST_CASE("the hydraulic aperture is a smooth maximum")
   CHECK(hydraulic_aperture_cubed(-1e-4, w_min).slope == 0.);
 }
 
-TEST_CASE("transmissibility of a slot, and in series")
+TEST_CASE("transmissibility between two segments")
 {
   const double w = 1e-3, mu = 1e-3, length = 2., width = 3.;
   const auto T = [&](const double w_i, const double w_j, const double d_i)
-  {
-    return transmissibility(hydraulic_aperture_cubed(w_i, 1e-9),
-                            hydraulic_aperture_cubed(w_j, 1e-9), d_i, length - d_i, width, mu);
-  };
+  { return transmissibility(w_i, w_j, d_i, length - d_i, width, mu, 1e-9); };
   CHECK(T(w, w, 0.7).value == Approx(width * w * w * w / (12. * mu * length)));
 
-  // Poiseuille flow through slots of 1 mm over 0.5 m and of 2 mm over 1.5 m, one after the other
-  const double resistance = 12. * mu / width * (0.5 / 1e-9 + 1.5 / 8e-9);
-  CHECK(T(1e-3, 2e-3, 0.5).value == Approx(1. / resistance));
+  // 1.25 mm at an edge that is nearer to the segment of 1 mm
+  CHECK(T(1e-3, 2e-3, 0.5).value == Approx(width * std::pow(1.25e-3, 3) / (12. * mu * length)));
+
+  // A closed tip takes in fluid.
+  CHECK(T(1e-3, 0., 1.).value == Approx(width * std::pow(0.5e-3, 3) / (12. * mu * length)));
 
   const double h = 1e-9;
   CHECK(

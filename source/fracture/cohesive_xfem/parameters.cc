@@ -16,13 +16,16 @@ void Parameters::declare(dealii::ParameterHandler &prm)
          "Opening at which the strength is reached, as a share of the opening at which no traction "
          "is left. Results change by less than 1 % below 0.01.");
   number(
-    "Growth threshold", "0.7", Range{0., 1., true, false},
+    "Growth threshold", "0.5", Range{0., 1., true, false},
     "A cell ahead of a tip is cut when the averaged stress reaches this share of the strength. "
     "The cut cell still holds until its own traction reaches the strength, so an early cut "
     "costs nothing, and a late one holds the crack back.");
   number("Averaging radius", "1.5", Range::closed(1., 6.),
          "Radius, in cells, over which the stress ahead of a tip is averaged; never more than half "
          "the cohesive length if that is resolved.");
+  number("Direction radius", "5", Range::closed(1., 20.),
+         "Radius, in cells, of the stress that a tip turns to. The cells next to the tip alone "
+         "would draw the crack to the nearest edge of the mesh.");
   prm.declare_entry("Most advances per step", "4", dealii::Patterns::Integer(1),
                     "Cells by which a tip may advance within a time step.");
   prm.declare_entry(
@@ -45,6 +48,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm)
   p.elastic_share = get_quantity(prm, "Elastic share", dimension::number);
   p.growth_threshold = get_quantity(prm, "Growth threshold", dimension::number);
   p.averaging_radius = get_quantity(prm, "Averaging radius", dimension::number);
+  p.direction_radius = get_quantity(prm, "Direction radius", dimension::number);
   p.most_advances = prm.get_integer("Most advances per step");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.rings_ahead = prm.get_integer("Rings ahead");

@@ -12,6 +12,7 @@ struct Parameters
   double elastic_share;        ///< opening at the peak over critical opening
   double growth_threshold;     ///< stress at which a cell is cut, in strengths
   double averaging_radius;     ///< of the tip stress, in cells
+  double direction_radius;     ///< of the stress that a tip turns to, in cells
   unsigned int most_advances;  ///< cells per tip and step
   double cell_size;            ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;    ///< cells of that size ahead of a tip

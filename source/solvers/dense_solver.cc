@@ -1,0 +1,261 @@
+#include "solvers/dense_solver.h"
+
+#include "stockwork/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <string_view>
+#include <unordered_map>
+
+namespace stockwork
+{
+using dealii::FullMatrix;
+using dealii::Vector;
+
+namespace
+{
+/// Fewer unknowns are not worth keeping a factor for.
+constexpr unsigned int least_kept = 64;
+/// The kept part is chosen anew when so many more unknowns are outside of it.
+constexpr unsigned int most_new = 48;
+
+/// The entries of a row as bytes: equal or not, nothing else matters.
+std::string_view bytes_of_row(const FullMatrix<double> &matrix, const unsigned int row)
+{
+  return {reinterpret_cast<const char *>(&matrix(row, 0)), matrix.n() * sizeof(double)};
+}
+} // namespace
+
+
+void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
+{
+  const unsigned int n = matrix.m();
+  scaling.assign(n, 1.);
+  std::vector<double> size(n);
+  for (unsigned int sweep = 0; sweep < 3; ++sweep)
+  {
+    std::fill(size.begin(), size.end(), 0.);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        const double entry = std::abs(matrix(i, j));
+        size[i] = std::max(size[i], entry * scaling[j]);
+        size[j] = std::max(size[j], entry * scaling[i]);
+      }
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      if (!(size[i] > 0.) || !std::isfinite(size[i]))
+        throw SolveError("a row of the matrix is zero or not a number");
+      scaling[i] = std::sqrt(scaling[i] / size[i]);
+    }
+  }
+  lu.reinit(n, n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      lu(i, j) = matrix(i, j) * scaling[i] * scaling[j];
+  lu.compute_lu_factorization();
+}
+
+
+void DenseSolver::Factor::solve(Vector<double> &x) const
+{
+  for (unsigned int i = 0; i < x.size(); ++i)
+    x(i) *= scaling[i];
+  lu.solve(x);
+  for (unsigned int i = 0; i < x.size(); ++i)
+    x(i) *= scaling[i];
+}
+
+
+void DenseSolver::forget()
+{
+  kept_identities.clear();
+  last_identities.clear();
+  columns.reinit(0, 0);
+}
+
+
+bool DenseSolver::find_kept(const FullMatrix<double> &matrix,
+                            const std::vector<unsigned int> &identities)
+{
+  kept.clear();
+  if (kept_identities.empty())
+    return false;
+  std::unordered_map<unsigned int, unsigned int> places;
+  for (unsigned int i = 0; i < identities.size(); ++i)
+    places.emplace(identities[i], i);
+  for (const unsigned int identity : kept_identities)
+  {
+    const auto found = places.find(identity);
+    if (found == places.end())
+      return false;
+    kept.push_back(found->second);
+  }
+  for (unsigned int i = 0; i < kept.size(); ++i)
+    for (unsigned int j = 0; j < kept.size(); ++j)
+      if (matrix(kept[i], kept[j]) != kept_matrix(i, j))
+        return false;
+  return true;
+}
+
+
+void DenseSolver::choose_kept(const FullMatrix<double> &matrix,
+                              const std::vector<unsigned int> &identities)
+{
+  std::unordered_map<unsigned int, unsigned int> last_places;
+  for (unsigned int i = 0; i < last_identities.size(); ++i)
+    last_places.emplace(last_identities[i], i);
+  std::vector<unsigned int> candidates, last;
+  for (unsigned int i = 0; i < identities.size(); ++i)
+    if (identities[i] != anonymous)
+      if (const auto found = last_places.find(identities[i]);
+          found != last_places.end() && matrix(i, i) == last_matrix(found->second, found->second))
+      {
+        candidates.push_back(i);
+        last.push_back(found->second);
+      }
+  std::vector<bool> changed(candidates.size(), false);
+  for (unsigned int i = 0; i < candidates.size(); ++i)
+    for (unsigned int j = 0; j < candidates.size(); ++j)
+      if (matrix(candidates[i], candidates[j]) != last_matrix(last[i], last[j]))
+        changed[i] = changed[j] = true;
+
+  kept.clear();
+  for (unsigned int i = 0; i < candidates.size(); ++i)
+    if (!changed[i])
+      kept.push_back(candidates[i]);
+  if (kept.size() < least_kept)
+    kept.clear();
+
+  kept_identities.clear();
+  for (const unsigned int i : kept)
+    kept_identities.push_back(identities[i]);
+  rest_when_chosen = matrix.m() - kept.size();
+  columns.reinit(0, 0);
+  if (kept.empty())
+    return;
+  kept_matrix.reinit(kept.size(), kept.size());
+  kept_matrix.extract_submatrix_from(matrix, kept, kept);
+  kept_factor.reinit(kept_matrix);
+}
+
+
+void DenseSolver::eliminate(const FullMatrix<double> &matrix)
+{
+  FullMatrix<double> wanted(rest.size(), kept.size());
+  for (unsigned int i = 0; i < rest.size(); ++i)
+    for (unsigned int j = 0; j < kept.size(); ++j)
+      wanted(i, j) = matrix(kept[j], rest[i]);
+
+  // Most columns have been solved for before: they are known by their contents.
+  std::unordered_map<std::string_view, unsigned int> known;
+  for (unsigned int i = 0; i < columns.m(); ++i)
+    known.emplace(bytes_of_row(columns, i), i);
+  FullMatrix<double> result(rest.size(), kept.size());
+  Vector<double> x(kept.size());
+  for (unsigned int i = 0; i < rest.size(); ++i)
+    if (const auto found = known.find(bytes_of_row(wanted, i)); found != known.end())
+      std::memcpy(&result(i, 0), &eliminated(found->second, 0), kept.size() * sizeof(double));
+    else
+    {
+      std::copy(&wanted(i, 0), &wanted(i, 0) + kept.size(), x.begin());
+      kept_factor.solve(x);
+      std::copy(x.begin(), x.end(), &result(i, 0));
+    }
+  known.clear();
+  columns.swap(wanted);
+  eliminated.swap(result);
+}
+
+
+void DenseSolver::factorise(const FullMatrix<double> &matrix,
+                            const std::vector<unsigned int> &identities)
+{
+  if (!find_kept(matrix, identities) || matrix.m() - kept.size() > rest_when_chosen + most_new)
+    choose_kept(matrix, identities);
+  last_matrix = matrix;
+  last_identities = identities;
+
+  std::vector<bool> is_kept(matrix.m(), false);
+  for (const unsigned int i : kept)
+    is_kept[i] = true;
+  rest.clear();
+  for (unsigned int i = 0; i < matrix.m(); ++i)
+    if (!is_kept[i])
+      rest.push_back(i);
+
+  FullMatrix<double> small(rest.size(), rest.size());
+  small.extract_submatrix_from(matrix, rest, rest);
+  if (!kept.empty())
+  {
+    eliminate(matrix);
+    rows.reinit(rest.size(), kept.size());
+    rows.extract_submatrix_from(matrix, rest, kept);
+    // The rows of the fluid have few entries, those of the tips are full.
+    std::vector<unsigned int> full, entries;
+    for (unsigned int i = 0; i < rest.size(); ++i)
+    {
+      entries.clear();
+      for (unsigned int k = 0; k < kept.size(); ++k)
+        if (rows(i, k) != 0.)
+          entries.push_back(k);
+      if (4 * entries.size() > kept.size())
+        full.push_back(i);
+      else
+        for (unsigned int j = 0; j < rest.size(); ++j)
+        {
+          double sum = 0.;
+          for (const unsigned int k : entries)
+            sum += rows(i, k) * eliminated(j, k);
+          small(i, j) -= sum;
+        }
+    }
+    if (!full.empty())
+    {
+      FullMatrix<double> full_rows(full.size(), kept.size()), product(full.size(), rest.size());
+      for (unsigned int i = 0; i < full.size(); ++i)
+        std::copy(&rows(full[i], 0), &rows(full[i], 0) + kept.size(), &full_rows(i, 0));
+      full_rows.mTmult(product, eliminated);
+      for (unsigned int i = 0; i < full.size(); ++i)
+        for (unsigned int j = 0; j < rest.size(); ++j)
+          small(full[i], j) -= product(i, j);
+    }
+  }
+  if (!rest.empty())
+    rest_factor.reinit(small);
+}
+
+
+void DenseSolver::solve(Vector<double> &x) const
+{
+  Vector<double> x_kept(kept.size()), x_rest(rest.size());
+  for (unsigned int i = 0; i < kept.size(); ++i)
+    x_kept(i) = x(kept[i]);
+  for (unsigned int i = 0; i < rest.size(); ++i)
+    x_rest(i) = x(rest[i]);
+  if (!kept.empty())
+    kept_factor.solve(x_kept);
+  if (!rest.empty())
+  {
+    if (!kept.empty())
+    {
+      Vector<double> product(rest.size());
+      rows.vmult(product, x_kept);
+      x_rest -= product;
+    }
+    rest_factor.solve(x_rest);
+    if (!kept.empty())
+    {
+      Vector<double> product(kept.size());
+      eliminated.Tvmult(product, x_rest);
+      x_kept -= product;
+    }
+  }
+  for (unsigned int i = 0; i < kept.size(); ++i)
+    x(kept[i]) = x_kept(i);
+  for (unsigned int i = 0; i < rest.size(); ++i)
+    x(rest[i]) = x_rest(i);
+}
+} // namespace stockwork

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <vector>
+
+namespace stockwork
+{
+/// Solves dense systems one after another, most of whose matrix stays as it is: of the Schur
+/// complement of a growing fracture, only what belongs to its tips and its fluid changes from one
+/// iteration to the next. Unknowns between which all entries have stayed the same are eliminated
+/// with a factor that is kept,
+///
+///   [F C; R D],  F = L U kept,  D - R F^-1 C factorised anew.
+class DenseSolver
+{
+public:
+  /// An unknown that has no place in later matrices, or whose place there is not known.
+  static constexpr unsigned int anonymous = -1;
+
+  /// @param identities of the unknowns, by which those of an earlier matrix are found again
+  /// @throws dealii::ExceptionBase when the matrix is singular
+  void factorise(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
+
+  /// x := A^-1 x
+  void solve(dealii::Vector<double> &x) const;
+
+  /// Nothing that was kept is valid any more.
+  void forget();
+
+private:
+  /// A factor of a matrix that has been scaled from both sides so that pivoting compares like with
+  /// like (Ruiz 2001).
+  class Factor
+  {
+  public:
+    void reinit(const dealii::FullMatrix<double> &);
+
+    void solve(dealii::Vector<double> &) const;
+
+  private:
+    std::vector<double> scaling;
+    dealii::LAPACKFullMatrix<double> lu;
+  };
+
+  /// Whether the kept unknowns are all there, with the same matrix between them; fills `kept`.
+  bool find_kept(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
+
+  /// Keep what has not changed since the last matrix.
+  void choose_kept(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
+
+  /// Fill `eliminated`.
+  void eliminate(const dealii::FullMatrix<double> &);
+
+  // Kept.
+  std::vector<unsigned int> kept_identities;
+  dealii::FullMatrix<double> kept_matrix; ///< F
+  Factor kept_factor;
+  unsigned int rest_when_chosen = 0;
+
+  // The last matrix: what has changed since is not kept.
+  dealii::FullMatrix<double> last_matrix;
+  std::vector<unsigned int> last_identities;
+
+  // Of the present matrix.
+  std::vector<unsigned int> kept, rest;  ///< indices
+  dealii::FullMatrix<double> rows;       ///< R
+  dealii::FullMatrix<double> eliminated; ///< F^-1 C, transposed
+  Factor rest_factor;
+
+  dealii::FullMatrix<double> columns; ///< C, transposed, for which `eliminated` has been computed
+};
+} // namespace stockwork
