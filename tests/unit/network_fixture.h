@@ -236,7 +236,8 @@ public:
     network.begin_step(context);
   }
 
-  /// Newton's method. Returns the iterations.
+  /// Newton's method, with shorter increments where it goes round in circles. Returns the
+  /// iterations.
   unsigned int solve(const double tolerance = 1e-11)
   {
     for (unsigned int iteration = 1; iteration < 100; ++iteration)
@@ -256,6 +257,7 @@ public:
       }
       sink.matrix.gauss_jordan();
       sink.matrix.vmult(increment, rhs);
+      increment *= iteration > 20 ? 0.5 : 1.;
       double change = 0.;
       for (unsigned int i = 0; i < size; ++i)
       {
