@@ -16,7 +16,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
          "Opening at which the strength is reached, as a share of the opening at which no traction "
          "is left. Results change by less than 1 % below 0.01.");
   number(
-    "Growth threshold", "0.5", Range{0., 1., true, false},
+    "Growth threshold", "0.7", Range{0., 1., true, false},
     "A cell ahead of a tip is cut when the averaged stress reaches this share of the strength. "
     "The cut cell still holds until its own traction reaches the strength, so an early cut "
     "costs nothing, and a late one holds the crack back.");
