@@ -31,9 +31,8 @@ namespace stockwork
 /// the balance, so that work and volume are conserved. Segments whose pressure is given have the
 /// load only; what they take from or give to others counts as injected or flowing out.
 ///
-/// The minimum aperture enters the conductivity only. 10 um suits viscous cases; where a tip opens
-/// slowly, a quarter of the critical opening (G_c/(2 T)) runs with fewer iterations and changes
-/// the length by less than 4 % (between 10 and 200 um, at an inlet aperture of 1 mm).
+/// The minimum aperture enters the conductivity only. It should be small beside the aperture near
+/// the tip: in viscous fluid, 2 um runs as well as 10 um.
 ///
 /// Everything but the functionals is known on every rank, in the order of the segments' keys.
 template <int dim>
