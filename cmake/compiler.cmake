@@ -15,6 +15,11 @@ target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-g0> $<$<
 if(STOCKWORK_NATIVE)
   target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-O3 -march=native>)
 endif()
+if(STOCKWORK_UNITY)
+  # Files compiled together are included, and the compiler takes what is included for a header, in
+  # which an unnamed namespace would be a mistake.
+  target_compile_options(stockwork_options INTERFACE -Wno-subobject-linkage)
+endif()
 
 find_program(STOCKWORK_CCACHE ccache)
 if(STOCKWORK_CCACHE AND NOT STOCKWORK_PCH)

@@ -17,17 +17,17 @@ constexpr double zeta_prime_4 = 0.00798381145026862;  // zeta'(-4)
 constexpr double left_parameter = -3.;                // x = 2e-9
 
 // Integral over one step from the eight values around it, in units of the step.
-constexpr std::array<double, 8> one_step = {-191. / 120960.,  1879. / 120960.,  -9531. / 120960.,
-                                            68323. / 120960., 68323. / 120960., -9531. / 120960.,
-                                            1879. / 120960.,  -191. / 120960.};
+constexpr std::array<double, 8> one_step = {{-191. / 120960., 1879. / 120960., -9531. / 120960.,
+                                             68323. / 120960., 68323. / 120960., -9531. / 120960.,
+                                             1879. / 120960., -191. / 120960.}};
 
 // Central differences over seven points, in units of the step: first and third derivative.
-constexpr std::array<double, 7> first_difference = {-1. / 60., 3. / 20.,  -3. / 4., 0.,
-                                                    3. / 4.,   -3. / 20., 1. / 60.};
-constexpr std::array<double, 7> second_difference = {1. / 90., -3. / 20., 3. / 2., -49. / 18.,
-                                                     3. / 2.,  -3. / 20., 1. / 90.};
-constexpr std::array<double, 7> third_difference = {1. / 8.,   -1., 13. / 8., 0.,
-                                                    -13. / 8., 1.,  -1. / 8.};
+constexpr std::array<double, 7> first_difference = {
+  {-1. / 60., 3. / 20., -3. / 4., 0., 3. / 4., -3. / 20., 1. / 60.}};
+constexpr std::array<double, 7> second_difference = {
+  {1. / 90., -3. / 20., 3. / 2., -49. / 18., 3. / 2., -3. / 20., 1. / 90.}};
+constexpr std::array<double, 7> third_difference = {
+  {1. / 8., -1., 13. / 8., 0., -13. / 8., 1., -1. / 8.}};
 
 // A place on the crack, with what would cancel if it were computed from x.
 struct Place

@@ -106,7 +106,7 @@ std::array<double, 2> LineCrack::displacement(const double x, const double y) co
                         -0.5 * (kolosov - 1.) * bar.real() - z.imag() * Z.imag());
   const Complex u =
     axis * (parameters.net_pressure * mode_I + parameters.shear * mode_II) / (2. * shear_modulus);
-  return {u.real(), u.imag()};
+  return {{u.real(), u.imag()}};
 }
 
 
