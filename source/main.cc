@@ -2,19 +2,16 @@
 #include "stockwork/base/deck.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/parameters.h"
-#include "stockwork/base/quantity.h"
 #include "stockwork/base/run_context.h"
 #include "stockwork/base/version.h"
 #include "stockwork/fracture/registry.h"
 
 #include "case.h"
+#include "fracture/plug_ins.h"
 #include "simulation.h"
 
 #include <deal.II/base/mpi.h>
 
-#include <dlfcn.h>
-
-#include <filesystem>
 #include <iostream>
 
 namespace stockwork
@@ -24,28 +21,6 @@ void register_all_fracture_models(FractureModelRegistry &registry);
 
 namespace
 {
-/// Load plug-ins; they stay loaded until the program ends.
-void load_libraries(const Deck &deck, FractureModelRegistry &registry)
-{
-  const auto list = deck.peek("Additional shared libraries");
-  if (!list)
-    return;
-  for (const std::string &name : split_list(*list))
-  {
-    const auto file = std::filesystem::path(deck.file()).parent_path() / name;
-    void *handle = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
-    if (handle == nullptr)
-      throw EntryError("Additional shared libraries", name, std::string("a plug-in: ") + dlerror());
-    using Register = void (*)(FractureModelRegistry &);
-    const auto register_models = reinterpret_cast<Register>(dlsym(handle, "stockwork_register"));
-    if (register_models == nullptr)
-      throw EntryError("Additional shared libraries", name,
-                       "a library with the C function 'stockwork_register'");
-    register_models(registry);
-  }
-}
-
-
 int run_program(const CommandLine &command_line, RunContext &run)
 {
   FractureModelRegistry registry;
@@ -73,10 +48,13 @@ int run_program(const CommandLine &command_line, RunContext &run)
     break;
   }
 
-  const Deck deck = Deck::read(command_line.deck, command_line.overrides);
+  std::vector<std::string> overrides = command_line.overrides;
+  if (command_line.output)
+    overrides.push_back("Output directory=" + *command_line.output);
+  const Deck deck = Deck::read(command_line.deck, overrides);
   try
   {
-    load_libraries(deck, registry);
+    load_plug_ins(deck, registry);
     declare_all_parameters(prm, registry);
     const std::vector<std::string> warnings = deck.parse_into(prm);
     if (command_line.action == CommandLine::Action::print_parameters)
@@ -89,7 +67,7 @@ int run_program(const CommandLine &command_line, RunContext &run)
       run.warn(warning);
 
     SimulationOptions options;
-    options.output_directory = command_line.output.value_or(prm.get("Output directory"));
+    options.output_directory = prm.get("Output directory");
     options.check_only = command_line.action == CommandLine::Action::check;
     options.restart = command_line.restart;
     if (prm.get("Dimension") == "2")

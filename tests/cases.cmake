@@ -34,10 +34,14 @@ function(stockwork_run_test mode)
   set_tests_properties(${T_NAME} PROPERTIES LABELS "${kind};${T_LABELS}" PROCESSORS ${processors})
 endfunction()
 
-# Each of EXPECT must hold in summary.json; NEGATIVE: and must not, with a wrong reference.
+# Each of EXPECT must hold in summary.json; NEGATIVE: and must not, with a wrong reference. WARNS:
+# parts of warnings that must have been given.
 function(stockwork_case_test)
-  cmake_parse_arguments(C "NEGATIVE" "" "EXPECT" ${ARGN})
+  cmake_parse_arguments(C "NEGATIVE" "" "EXPECT;WARNS" ${ARGN})
   set(arguments)
+  foreach(warning IN LISTS C_WARNS)
+    list(APPEND arguments --warns ${warning})
+  endforeach()
   foreach(expectation IN LISTS C_EXPECT)
     list(APPEND arguments --expect ${expectation})
   endforeach()

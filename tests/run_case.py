@@ -9,7 +9,8 @@
     same     two runs on different numbers of ranks (or with different settings) agree
     restart  a run that is interrupted and restarted agrees with the run that is not
     no_restart  a restart must be refused with every --says, because of --second-set or --damage
-    error    a deck which must be refused with given sentences, before anything is computed
+    error    a deck which must be refused with given sentences and the place of the mistake, before
+             anything is computed
 
 An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
 (`errors/pore_pressure/final`); OP is one of < <= > >= ==, or = which needs the relative TOLERANCE;
@@ -174,6 +175,8 @@ def run_case(runner, options):
     expectations = [Expectation(text) for text in options.expect]
     summary = runner.run("run", options.deck, options.set, options.ranks)
     failed = check_all(expectations, summary)
+    failed += [f"no warning says '{text}', but {summary['warnings']}" for text in options.warns
+               if not any(text in warning for warning in summary["warnings"])]
     if failed:
         raise Failure("\n".join(failed))
     if options.negative:
@@ -331,6 +334,11 @@ def run_no_restart(runner, options):
                 byte = file.read(1)[0]
                 file.seek(-1, os.SEEK_CUR)
                 file.write(bytes([byte ^ 1]))
+    def results():
+        with open(os.path.join(runner.output("run"), "statistics.csv"), encoding="utf-8") as file:
+            return file.read()
+
+    before = results()
     command = runner.command("run", options.deck, [*options.set, *options.second_set],
                              options.ranks, ["--restart"])
     status = runner.wait(runner.start("run", command), command)
@@ -340,6 +348,8 @@ def run_no_restart(runner, options):
     for sentence in options.says:
         if sentence not in said:
             raise Failure(f"stderr does not say\n  {sentence}\nbut\n{runner.tail('run')}")
+    if results() != before:
+        raise Failure("the refused restart has changed the results of the run")
     print(f"  restart refused: {said}")
 
 
@@ -349,7 +359,11 @@ def run_error(runner, options):
         sentences = [line.strip() for line in file if line.strip()]
     if not sentences:
         raise Failure("the .message file is empty")
-    ways = [("run", [])] if options.not_in_check else [("check", ["--check"]), ("run", [])]
+    ways = [("check", ["--check"]), ("run", [])]
+    if options.no_directory:
+        ways = [("run", [])]
+        with open(runner.output("run"), "w", encoding="utf-8"):
+            pass
     for name, extra in ways:
         command = runner.command(name, options.deck, options.set, options.ranks, extra)
         status = runner.wait(runner.start(name, command), command)
@@ -359,7 +373,9 @@ def run_error(runner, options):
         for sentence in sentences:
             if " ".join(sentence.split()) not in said:
                 raise Failure(f"stderr does not say\n  {sentence}\nbut\n{runner.tail(name)}")
-        if os.path.exists(runner.output(name)):
+        if not re.search(r"(\.prm:\d+|command line): ", said):
+            raise Failure(f"the message does not say where the mistake was read:\n{said}")
+        if os.path.isdir(runner.output(name)):
             raise Failure("a refused deck left an output directory behind")
     print(f"  refused with {len(sentences)} expected sentence(s)")
 
@@ -380,8 +396,10 @@ def parse(arguments):
     parser.add_argument("--set", action="append", default=[], metavar="SECTION/ENTRY=VALUE")
     parser.add_argument("--ranks", default="1", help="N, or FIRST,SECOND where two runs compare")
     parser.add_argument("--expect", action="append", default=[])
-    parser.add_argument("--not-in-check", action="store_true",
-                        help="error: needs the mesh, so --check does not find it")
+    parser.add_argument("--no-directory", action="store_true",
+                        help="error: a file is where the output directory should be")
+    parser.add_argument("--warns", action="append", default=[],
+                        help="case: part of one of the run's warnings")
     parser.add_argument("--negative", action="store_true")
     parser.add_argument("--series", action="append", default=[], metavar="SETTING[,SETTING]")
     parser.add_argument("--order", action="append", default=[], metavar="PATH=ORDER")

@@ -119,6 +119,14 @@ public:
   };
   PoreFluid pore_fluid(const StepContext &context, const State &state) const;
 
+  /// The residual at a state and the matrix that a solve would take there, until the next call.
+  const LinearSystem &linearise(const StepContext &context, const State &state)
+  {
+    assemble_linear(context, state);
+    assemble_nonlinear(context, state);
+    return system;
+  }
+
 private:
   void assemble_bulk_matrix(const StepContext &context);
 

@@ -56,6 +56,10 @@ class DriverTest(unittest.TestCase):
         self.fails("not of the form", "case", "", "--expect", "errors/y/final 0.1")
         self.fails("belong together", "case", "", "--expect", "errors/y/final = 0.1")
 
+    def test_warnings(self):
+        self.passes("case", "warn too coarse by far", "--warns", "too coarse")
+        self.fails("no warning says 'too fine'", "case", "warn too coarse", "--warns", "too fine")
+
     def test_exit_status(self):
         self.fails("exit status 2", "case", "status 2")
 
@@ -84,9 +88,10 @@ class DriverTest(unittest.TestCase):
         self.fails("reached its end", "restart", "steps 3", "--interrupt-after", "9")
 
     def test_error(self):
-        deck = "bad Poisson's ratio is 0.7, must be below 0.5"
+        deck = "bad deck.prm:1: Poisson's ratio is 0.7, must be below 0.5"
         self.passes("error", deck, message="ratio is 0.7,\nmust be below 0.5\n")
         self.fails("does not say", "error", deck, message="must be below 0.4")
+        self.fails("where the mistake was read", "error", "bad ratio is 0.7", message="0.7")
         self.fails("exit status 3", "error", deck + "\nstatus 3", message="0.7")
         self.fails("exit status 0", "error", "steps 3", message="0.7")
         self.fails("left an output directory", "error", deck + "\nlate", message="0.7")

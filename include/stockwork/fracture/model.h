@@ -140,7 +140,7 @@ public:
   }
 
   /// Sentences for the user since the last call: values the model has chosen by itself, warnings, a
-  /// tip that has stopped. The same on every rank.
+  /// tip that has stopped; nothing from a step that was rolled back. The same on every rank.
   virtual std::vector<std::string> take_messages()
   {
     return {};

@@ -150,6 +150,7 @@ template <int dim>
 void CohesiveXFEM<dim>::begin_step(const StepContext &)
 {
   advances.assign(discontinuity.paths().size(), {{0, 0}});
+  n_messages_before = messages.size();
 }
 
 
@@ -395,6 +396,7 @@ template <int dim>
 void CohesiveXFEM<dim>::rollback()
 {
   discontinuity.restore(committed_paths);
+  messages.resize(n_messages_before);
   begin_step({});
   refresh_segments();
 }
@@ -423,6 +425,7 @@ std::vector<std::string> CohesiveXFEM<dim>::take_messages()
 {
   std::vector<std::string> taken;
   taken.swap(messages);
+  n_messages_before = 0;
   return taken;
 }
 

@@ -87,6 +87,7 @@ private:
   bool started = false;   ///< a step has been accepted
 
   // Of the current step.
+  std::size_t n_messages_before = 0;                 ///< messages that a rollback leaves
   std::vector<std::array<unsigned int, 2>> advances; ///< cells, by crack and end
   std::unordered_map<std::uint64_t, double> initial_pressure;
 };

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <deal.II/base/mpi.h>
+
+#include <memory>
+#include <random>
+#include <sstream>
+
+#include "case.h"
+#include "coupling/mesh_adaptation.h"
+#include "coupling/stepper.h"
+#include "fracture/plug_ins.h"
+
+namespace stockwork
+{
+/// Written by the build from the folders of source/fracture.
+void register_all_fracture_models(FractureModelRegistry &registry);
+
+/// A deck's coupled system of equations in 2-D, for tests that look at residual and matrix. One
+/// rank.
+class Scenario
+{
+public:
+  using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
+
+  Scenario(const std::string &file, const std::vector<std::string> &overrides)
+    : deck(Deck::read(file, overrides))
+    , the_case(make_case())
+    , triangulation(run.communicator,
+                    dealii::Triangulation<2>::limit_level_difference_at_vertices,
+                    dealii::parallel::distributed::Triangulation<2>::no_automatic_repartitioning)
+    , mapping(the_case->geometry.mapping())
+    , system(run,
+             triangulation,
+             *mapping,
+             the_case->rock,
+             the_case->boundary_conditions,
+             *the_case->model,
+             the_case->network,
+             the_case->discretisation,
+             prm)
+    , adaptation(the_case->geometry, triangulation, *the_case->model)
+    , stepper(run, system, *the_case->model, the_case->network, the_case->scheme, the_case->control)
+  {
+    the_case->geometry.create(triangulation);
+    adaptation.prepare(system, 0.);
+    stepper.committed.bulk = system.ghosted_vector();
+    system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
+    the_case->scheme.initialise(stepper.committed);
+  }
+
+  FractureModel<2> &model()
+  {
+    return *the_case->model;
+  }
+
+  Network<2> &network()
+  {
+    return the_case->network;
+  }
+
+  /// Accepted steps of the length that the deck begins with.
+  void advance(const unsigned int n_steps)
+  {
+    for (; step < n_steps; ++step)
+    {
+      stepper.advance(time, the_case->control.initial_step, step + 1);
+      time = stepper.last_context().time;
+      adaptation.adapt(system, stepper);
+    }
+  }
+
+  /// The next step begins: the iterate is the last accepted state.
+  void begin_step()
+  {
+    context = the_case->scheme.context(time, the_case->control.initial_step, step + 1, 0);
+    current = stepper.committed;
+    the_case->scheme.references(context, stepper.committed, rate_reference, acceleration_reference);
+    model().begin_step(context);
+    network().begin_step(context);
+  }
+
+  State state() const
+  {
+    return system.state(current, stepper.committed, rate_reference, acceleration_reference);
+  }
+
+  /// Residual and matrix at the iterate.
+  const LinearSystem &linearise()
+  {
+    return system.linearise(context, state());
+  }
+
+  unsigned int n_bulk() const
+  {
+    return system.bulk_dofs().n_dofs();
+  }
+
+  unsigned int n_unknowns() const
+  {
+    return system.n_unknowns();
+  }
+
+  /// Bulk unknowns, then extra ones.
+  dealii::Vector<double> residual()
+  {
+    const LinearSystem &linear = linearise();
+    dealii::Vector<double> result(n_unknowns());
+    for (unsigned int i = 0; i < n_unknowns(); ++i)
+      result(i) = i < n_bulk() ? linear.residual_bulk(i) : linear.residual_extra[i - n_bulk()];
+    return result;
+  }
+
+  /// current := start + direction; of the bulk, increments obey hanging nodes and boundary
+  /// conditions.
+  void move(const Unknowns &start, const dealii::Vector<double> &direction)
+  {
+    auto bulk = system.owned_vector(), change = system.owned_vector();
+    for (unsigned int i = 0; i < n_bulk(); ++i)
+      change(i) = direction(i);
+    change.compress(dealii::VectorOperation::insert);
+    system.discretization().constraints.distribute(change);
+    bulk = start.bulk;
+    bulk += change;
+    current.bulk = bulk;
+    for (unsigned int i = n_bulk(); i < n_unknowns(); ++i)
+      current.extra[i - n_bulk()] = start.extra[i - n_bulk()] + direction(i);
+  }
+
+  /// What an unknown belongs to: 0 displacement, 1 pore pressure, 2 the model, 3 the flow.
+  unsigned int field(const unsigned int i) const
+  {
+    const unsigned int n_displacement = current.bulk.block(0).size();
+    return i < n_displacement                                        ? 0
+           : i < n_bulk()                                            ? 1
+           : i < n_bulk() + the_case->model->extra_unknowns().size() ? 2
+                                                                     : 3;
+  }
+
+  Deck deck;
+  dealii::ParameterHandler prm;
+  std::ostringstream log;
+  RunContext run{MPI_COMM_WORLD, log};
+  std::unique_ptr<Case<2>> the_case;
+  dealii::parallel::distributed::Triangulation<2> triangulation;
+  std::unique_ptr<dealii::Mapping<2>> mapping;
+  CoupledSystem<2> system;
+  MeshAdaptation<2> adaptation;
+  Stepper<2> stepper;
+
+  double time = 0.;
+  unsigned int step = 0;
+  StepContext context;
+  Unknowns current, rate_reference, acceleration_reference;
+
+private:
+  std::unique_ptr<Case<2>> make_case()
+  {
+    FractureModelRegistry registry;
+    register_all_fracture_models(registry);
+    load_plug_ins(deck, registry);
+    declare_all_parameters(prm, registry);
+    deck.parse_into(prm);
+    return std::make_unique<Case<2>>(deck, prm, registry);
+  }
+};
+} // namespace stockwork
