@@ -77,10 +77,22 @@ make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const S
     throw EntryError("Fracture/Model", name,
                      "a model that exists in " + std::to_string(dim) + "-D");
   prm.enter_subsection(name);
-  auto model = create(prm, scene);
-  prm.leave_subsection();
-  prm.leave_subsection();
-  return model;
+  try
+  {
+    auto model = create(prm, scene);
+    prm.leave_subsection();
+    prm.leave_subsection();
+    return model;
+  }
+  catch (const EntryError &)
+  {
+    throw;
+  }
+  catch (const InputError &error)
+  {
+    throw EntryError("Fracture/Model", name,
+                     std::string("a model that suits the case. ") + error.what());
+  }
 }
 } // namespace
 
@@ -212,8 +224,14 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
     in_situ.is_zero() && boundary_conditions.loads().empty() &&
     !model->requirements().changes_bulk && (scene.cracks.empty() || scene.crack_pressure == 0.) &&
     boundary_conditions.greatest_displacement(control.end_time) > 0.;
-  if (boundary_conditions.uses_reference() && reference)
+  if (const std::string &entry = boundary_conditions.entry_with_reference(); !entry.empty())
+  {
+    if (!reference || !reference->field())
+      throw EntryError(entry, *deck.peek(entry),
+                       "a quantity or a function, for subsection Verification names no reference "
+                       "that gives fields");
     boundary_conditions.set_reference(reference->field());
+  }
 }
 
 

@@ -192,7 +192,10 @@ void BoundaryConditions<dim>::parse_parameters(
     {
       Dirichlet condition{side(name), component, zero};
       if (value == "reference")
+      {
         condition.from_reference = true;
+        reference_entry = "Boundary conditions/" + entry;
+      }
       else
         condition.prescribed = parse_value<dim>(entry, value, dimension);
       dirichlet.push_back(condition);
@@ -202,9 +205,10 @@ void BoundaryConditions<dim>::parse_parameters(
     add_dirichlet("Displacement " + axis_names[d], d, dimension::length);
   add_dirichlet("Pore pressure", dim, dimension::pressure);
   if (dim == 2)
-    for (const std::string &entry : {"Displacement z", "Traction z"})
+    for (const char *entry : {"Displacement z", "Traction z"})
       if (!prm.get(entry).empty())
-        throw EntryError("Boundary conditions/" + entry, prm.get(entry), "nothing in 2-D");
+        throw EntryError(std::string("Boundary conditions/") + entry, prm.get(entry),
+                         "nothing in 2-D");
 
   for (const auto &[name, value] : split_by_side("Flux", get("Flux")))
     prescribed_loads.flux[side(name)] = parse_value<dim>("Flux", value, dimension::velocity);
@@ -230,16 +234,6 @@ template <int dim>
 void BoundaryConditions<dim>::set_reference(std::shared_ptr<Function<dim>> solution)
 {
   reference = std::move(solution);
-}
-
-
-template <int dim>
-bool BoundaryConditions<dim>::uses_reference() const
-{
-  for (const Dirichlet &condition : dirichlet)
-    if (condition.from_reference)
-      return true;
-  return false;
 }
 
 
@@ -298,9 +292,6 @@ void BoundaryConditions<dim>::constrain(const double time,
     mask.set(component, true);
     if (condition.from_reference)
     {
-      if (!reference)
-        throw InputError("A boundary condition asks for the reference solution, but subsection "
-                         "Verification names none.");
       reference->set_time(time);
       VectorTools::interpolate_boundary_values(mapping, dof_handler, condition.side, *reference,
                                                values, mask);

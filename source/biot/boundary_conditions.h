@@ -68,7 +68,11 @@ public:
   /// pore pressure (over in situ); its time is set here. Needed before `constrain` if used.
   void set_reference(std::shared_ptr<dealii::Function<dim>> reference);
 
-  bool uses_reference() const;
+  /// The entry that asks for it, with its sections; empty where none does.
+  const std::string &entry_with_reference() const
+  {
+    return reference_entry;
+  }
 
   bool constant_in_time() const;
 
@@ -105,5 +109,6 @@ private:
   std::vector<Dirichlet> dirichlet;
   Loads<dim> prescribed_loads;
   std::shared_ptr<dealii::Function<dim>> reference;
+  std::string reference_entry;
 };
 } // namespace stockwork

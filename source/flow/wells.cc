@@ -108,6 +108,7 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
     {
       Well well;
       well.number = number;
+      well.points = points;
       well.name = prm.get("Name").empty() ? section(number) : prm.get("Name");
       well.pressure_control = (control == "pressure");
       well.value = well.pressure_control
@@ -165,6 +166,17 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
 
 
 template <int dim>
+EntryError Wells<dim>::perforation_error(const Well &well,
+                                         const Perforation &perforation,
+                                         const std::string &what)
+{
+  std::ostringstream allowed;
+  allowed << "points on fractures; (" << perforation.point << ") is on " << what;
+  return EntryError("Wells/" + section(well.number) + "/Perforations", well.points, allowed.str());
+}
+
+
+template <int dim>
 void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments)
 {
   for (Well &well : wells)
@@ -180,20 +192,15 @@ void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments)
           perforation.segments.push_back(i);
 
       const auto complain = [&](const std::string &what)
-      {
-        std::ostringstream message;
-        message << "'Wells/" << section(well.number) << "/Perforations': the point "
-                << perforation.point << " " << what;
-        throw InputError(message.str());
-      };
+      { throw perforation_error(well, perforation, what); };
       if (segments.empty())
-        complain("is on no fracture, because there is none at the start. Give an initial crack.");
+        complain("none, for there are none at the start. Give an initial crack");
       if (nearest > segments[perforation.segments.front()].size())
-        complain("is on no fracture; the nearest segment of one is at distance " +
-                 std::to_string(nearest) + " m.");
+        complain("none; the nearest segment of one is at distance " + std::to_string(nearest) +
+                 " m");
       for (const unsigned int i : perforation.segments)
         if (segments[i].has_given_pressure())
-          complain("is on a fracture whose pressure is given, so the well would have no effect.");
+          complain("one whose pressure is given, so the well would have no effect");
     }
   for (Well &well : wells)
     well.initial_pressure = segments[well.perforations[0].segments[0]].initial_pressure;
@@ -377,12 +384,7 @@ void Wells<dim>::check(const std::vector<std::vector<dealii::Point<dim>>> &crack
                                    0.1 * corners.front().distance(corners.back());
         }
       if (!on_crack)
-      {
-        std::ostringstream message;
-        message << "'Wells/" << section(well.number) << "/Perforations': the point "
-                << perforation.point << " is on no fracture. Give an initial crack there.";
-        throw InputError(message.str());
-      }
+        throw perforation_error(well, perforation, "none. Give an initial crack there");
     }
 }
 

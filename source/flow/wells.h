@@ -8,6 +8,7 @@
 #include "flow/fluid_balance.h"
 #include "flow/network_segment.h"
 #include "flow/time_history.h"
+#include "stockwork/base/error.h"
 #include "stockwork/fracture/extra_unknown.h"
 #include "stockwork/fracture/sink.h"
 #include "stockwork/fracture/state.h"
@@ -54,12 +55,12 @@ public:
   }
 
   /// Find the segments that the perforations open into.
-  /// @throws InputError naming a point that lies on no segment
+  /// @throws EntryError naming a point that lies on no segment
   void locate(const std::vector<NetworkSegment<dim>> &segments);
 
   /// The same from the cracks of the deck, before there is a mesh: a perforation farther from every
   /// crack than a tenth of its length cannot lie on one.
-  /// @throws InputError naming the point
+  /// @throws EntryError naming the point
   void check(const std::vector<std::vector<dealii::Point<dim>>> &cracks) const;
 
   std::vector<ExtraUnknown> unknowns() const;
@@ -106,6 +107,7 @@ private:
   {
     std::string name;
     unsigned int number = 0; ///< of its subsection
+    std::string points;      ///< the perforations as the deck gives them
     bool pressure_control = false;
     TimeHistory value; ///< Q of the whole well, or p_b
     double fraction = 1.;
@@ -146,6 +148,10 @@ private:
 
     double rate(const StepContext &context, const State &state) const;
   };
+
+  /// What is wrong with the place of a perforation.
+  static EntryError
+  perforation_error(const Well &well, const Perforation &perforation, const std::string &what);
 
   static double mean(const Perforation &perforation, const std::vector<double> &values);
 

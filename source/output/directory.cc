@@ -107,9 +107,9 @@ void prepare_output_directory(const std::string &directory, MPI_Comm communicato
   }
   catch (const OutputError &error)
   {
-    throw InputError("The output directory \"" + directory + "\" cannot be used (" + error.what() +
-                     "). Give one that can be written to, with 'set Output directory' in the "
-                     "deck or --output.");
+    throw EntryError("Output directory", directory,
+                     std::string("a directory that can be written to, there or with --output (") +
+                       error.what() + ")");
   }
 }
 } // namespace stockwork

@@ -106,7 +106,19 @@ std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
       if (maker<dim>(entry) == nullptr)
         throw EntryError("Verification/Reference", name,
                          "a solution in " + std::to_string(dim) + "-D");
-      solution = maker<dim>(entry)(prm, input);
+      try
+      {
+        solution = maker<dim>(entry)(prm, input);
+      }
+      catch (const EntryError &)
+      {
+        throw;
+      }
+      catch (const InputError &error)
+      {
+        throw EntryError("Verification/Reference", name,
+                         std::string("a solution that fits the case. ") + error.what());
+      }
       solution->comparison_factor = prm.get_double("Reference factor");
       solution->compares_every_step = prm.get("Compare") == "every step";
     }

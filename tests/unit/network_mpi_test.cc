@@ -446,7 +446,7 @@ TEST_CASE("decks that make no sense")
   };
   CHECK_NOTHROW(Chain(3).set_up(one_well));
   check({{"Wells/Well 1/Perforations", "0.25, 3"}},
-        "the point 0.25 3 is on no fracture; the nearest segment of one is at distance 3");
+        "(0.25 3) is on none; the nearest segment of one is at distance 3");
   check({{"Wells/Well 1/Perforations", "0.25"}},
         "'Wells/Well 1/Perforations' is '0.25'; allowed is one or more points");
   check({{"Wells/Well 1/Perforations", ""}}, "'Wells/Well 1/Perforations' is empty");
