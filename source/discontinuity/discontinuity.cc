@@ -492,6 +492,19 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
   return all;
 }
 
+namespace
+{
+/// Distance of a point from the line between two others.
+template <int dim>
+double distance_from_line(const Point<dim> &x, const Point<dim> &from, const Point<dim> &to)
+{
+  const dealii::Tensor<1, dim> edge = to - from;
+  const double square = edge.norm_square();
+  return x.distance(square > 0. ? from + std::clamp((x - from) * edge / square, 0., 1.) * edge
+                                : from);
+}
+} // namespace
+
 template <int dim>
 void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                        const Discontinuity<dim> &discontinuity,
@@ -499,23 +512,43 @@ void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &
                        const unsigned int rings_ahead,
                        std::vector<float> &sizes)
 {
+  // What is asked for ahead of a tip reaches as far at the next few advances: a change of the mesh
+  // costs all that has been computed with the old one.
+  constexpr unsigned int stride = 16;
+  struct Line
+  {
+    Point<dim> from, to;
+    double margin, size;
+  };
+  std::vector<Line> lines;
+  for (const auto &path : discontinuity.paths())
+  {
+    const unsigned int n = path.pieces.size();
+    for (const CrackPiece<dim> &piece : path.pieces)
+    {
+      const double h = wanted > 0. ? wanted : longest_edge(piece);
+      lines.push_back({piece.centre(), piece.centre(), 1.5 * h + 0.5 * piece.length(), h});
+    }
+    for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+      if (path.is_tip[static_cast<int>(end)])
+      {
+        const Point<dim> tip = path.tip(end);
+        const double h = wanted > 0. ? wanted : longest_edge(path.piece_at(end));
+        lines.push_back(
+          {tip, tip + (stride - n % stride) * h * path.direction(end), rings_ahead * h, h});
+      }
+  }
+
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const Point<dim> centre = cell->center();
       const double reach = 0.5 * cell->diameter();
       float &size = sizes[cell->active_cell_index()];
-      for (const auto &path : discontinuity.paths())
-        for (unsigned int i = 0; i < path.pieces.size(); ++i)
-        {
-          const CrackPiece<dim> &piece = path.pieces[i];
-          const double h = wanted > 0. ? wanted : longest_edge(piece);
-          const bool at_tip =
-            (i == 0 && path.is_tip[0]) || (i + 1 == path.pieces.size() && path.is_tip[1]);
-          const double margin = (at_tip ? rings_ahead : 1.5) * h;
-          if (centre.distance(piece.centre()) < margin + reach + 0.5 * piece.length())
-            size = std::min(size, static_cast<float>(h));
-        }
+      for (const Line &line : lines)
+        if (line.size < size &&
+            distance_from_line(centre, line.from, line.to) < line.margin + reach)
+          size = static_cast<float>(line.size);
     }
 }
 
@@ -529,19 +562,11 @@ void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const Point<dim> centre = cell->center();
       const double reach = 0.5 * cell->diameter() + rings * wanted;
+      float &size = sizes[cell->active_cell_index()];
       for (unsigned int i = 0; i + 1 < corners.size(); ++i)
-      {
-        const dealii::Tensor<1, dim> edge = corners[i + 1] - corners[i];
-        const double along =
-          std::clamp(((centre - corners[i]) * edge) / edge.norm_square(), 0., 1.);
-        if (centre.distance(corners[i] + along * edge) < reach)
-        {
-          float &size = sizes[cell->active_cell_index()];
+        if (distance_from_line(cell->center(), corners[i], corners[i + 1]) < reach)
           size = std::min(size, static_cast<float>(wanted));
-        }
-      }
     }
 }
 
