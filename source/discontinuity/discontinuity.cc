@@ -459,6 +459,8 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
     segment.centre = piece.centre();
     segment.normal = piece.normal();
     segment.area = piece.length();
+    segment.at_tip = (owned.piece == 0 && cracks[owned.crack].is_tip[0]) ||
+                     (owned.piece + 1 == pieces.size() && cracks[owned.crack].is_tip[1]);
     if (owned.piece > 0)
       segment.neighbours.push_back(
         {pieces[owned.piece - 1].key(domain_size), 0.5 * piece.length(), 1.});

@@ -99,7 +99,7 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
                     segment.given_pressure, segment.initial_pressure,
                     segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
-                    collectives.rank(), segment.neighbours});
+                    collectives.rank(), segment.at_tip, segment.neighbours});
   network = collectives.gather(mine);
   std::sort(network.begin(), network.end(),
             [](const auto &a, const auto &b) { return a.key < b.key; });
@@ -128,7 +128,12 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
                                      [&](const auto &n) { return n.key == network[i].key; });
       if (twin == back.end())
         throw std::logic_error("a segment is not its neighbour's neighbour");
-      edges[i].push_back({j, neighbour.distance, twin->distance, neighbour.width});
+      // The pressure that drives the flow is singular in the last segment.
+      double width = neighbour.width;
+      if (network[i].at_tip != network[j].at_tip)
+        width *= network[i].at_tip ? tip_gradient_factor(neighbour.distance, twin->distance)
+                                   : tip_gradient_factor(twin->distance, neighbour.distance);
+      edges[i].push_back({j, neighbour.distance, twin->distance, width});
     }
 
   if (leak_off == LeakOff::resolved &&

@@ -154,7 +154,7 @@ private:
     unsigned int other;
     double distance;       ///< from this segment's centre to the edge
     double other_distance; ///< from the other's
-    double width;
+    double width;          ///< of the edge; at a tip less, see tip_gradient_factor()
   };
 
   Values evaluate(const State &, const Collectives &) const;

@@ -20,6 +20,7 @@ struct NetworkSegment
   double in_situ_pore_pressure = 0.;
   bool rock_has_pore_pressure = false; ///< as unknowns
   unsigned int owner = 0;              ///< rank
+  bool at_tip = false;
   std::vector<typename Segment<dim>::Neighbour> neighbours;
 
   bool has_given_pressure() const
@@ -37,7 +38,7 @@ struct NetworkSegment
   void serialize(Archive &ar, const unsigned int)
   {
     ar &key &centre &normal &area &given_pressure &initial_pressure &in_situ_pore_pressure
-      &rock_has_pore_pressure &owner &neighbours;
+      &rock_has_pore_pressure &owner &at_tip &neighbours;
   }
 };
 

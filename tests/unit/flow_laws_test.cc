@@ -54,6 +54,24 @@ TEST_CASE("transmissibility between two segments")
     Approx((T(1e-3, 2e-3 + h, 0.5).value - T(1e-3, 2e-3 - h, 0.5).value) / (2. * h)).epsilon(1e-7));
 }
 
+TEST_CASE("the flow out of the last segment, with the pressure of a viscous tip")
+{
+  // p = -x^(-1/3), x from the tip; means by Simpson's rule in s, x = s^3
+  const auto mean = [](const double from, const double to)
+  {
+    const auto f = [](const double s) { return -3. * s; }; // p dx/ds, dx = 3 s^2 ds
+    const double a = std::cbrt(from), b = std::cbrt(to);
+    return (b - a) / 6. * (f(a) + 4. * f(0.5 * (a + b)) + f(b)) / (to - from);
+  };
+  for (const double next : {0.5, 1., 2.})
+  {
+    const double tip = 0.8;
+    const double quotient = (mean(tip, tip + next) - mean(0., tip)) / (0.5 * (tip + next));
+    const double gradient = std::pow(tip, -4. / 3.) / 3.;
+    CHECK(tip_gradient_factor(0.5 * tip, 0.5 * next) * quotient == Approx(gradient));
+  }
+}
+
 TEST_CASE("Carter leak-off is integrated exactly")
 {
   const double C = 2e-5, exposed = 3.;

@@ -46,6 +46,7 @@ struct Segment
   dealii::Tensor<1, dim> normal; ///< unit, from the minus to the plus side
   double area = 0.;              ///< [m^2]; [m] per unit thickness in 2-D
   std::vector<Neighbour> neighbours;
+  bool at_tip = false; ///< the fracture ends at the far side of this segment, within rock
 
   /// Mean aperture [m]. Known on the rank that owns the host cell only.
   LinearFunctional opening;

@@ -200,6 +200,24 @@ NormalShear CohesiveXFEM<dim>::separation(const CrackPiece<dim> &piece,
 
 
 template <int dim>
+bool CohesiveXFEM<dim>::is_damaged(const unsigned int crack,
+                                   const CrackEnd end,
+                                   const State &state) const
+{
+  const auto &pieces = discontinuity.paths()[crack].pieces;
+  const unsigned int i = end == CrackEnd::first ? 0 : pieces.size() - 1;
+  const auto &columns = discontinuity.enrichment().columns(crack, i);
+  const JumpShapes<dim> shapes(pieces[i]);
+  const PointDamage history = damage(pieces[i]);
+  for (unsigned int q = 0; q < n_points; ++q)
+    if (law.evaluate(separation(pieces[i], shapes, q, columns, state.current.extra), history[q])
+          .damage > 0.)
+      return true;
+  return false;
+}
+
+
+template <int dim>
 void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
 {
   LocalSystem local;
@@ -291,6 +309,10 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     Tensor<1, dim> across;
     across[0] = -tips[i].direction[1];
     across[1] = tips[i].direction[0];
+    // One intact cell is enough: where the fluid's pressure alone exceeds the strength, cutting
+    // would never end.
+    if (!is_damaged(tips[i].crack, tips[i].end, state))
+      continue;
     const double drive = pressure + (parameters.straight ? across * (stress * across)
                                                          : dealii::eigenvalues(stress)[0]);
     if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))

@@ -72,6 +72,9 @@ private:
                          const std::vector<EnrichedColumn> &columns,
                          const std::vector<double> &a) const;
 
+  /// Whether the last piece at this end of a crack has begun to break.
+  bool is_damaged(unsigned int crack, CrackEnd end, const State &) const;
+
   Parameters parameters;
   const Scene<dim> &scene;
   CohesiveLaw law;
