@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <string_view>
 #include <unordered_map>
@@ -55,7 +56,18 @@ void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < n; ++j)
       lu(i, j) = matrix(i, j) * scaling[i] * scaling[j];
-  lu.compute_lu_factorization();
+  try
+  {
+    lu.compute_lu_factorization();
+  }
+  catch (const dealii::LACExceptions::ExcSingular &)
+  {
+    throw SolveError("the matrix is singular");
+  }
+  // Entries are of order one, so a pivot of the size of their rounding errors is a zero.
+  for (unsigned int i = 0; i < n; ++i)
+    if (!(std::abs(lu(i, i)) > std::numeric_limits<double>::epsilon()))
+      throw SolveError("the matrix is singular");
 }
 
 
@@ -71,6 +83,7 @@ void DenseSolver::Factor::solve(Vector<double> &x) const
 
 void DenseSolver::forget()
 {
+  kept.clear();
   kept_identities.clear();
   last_identities.clear();
   columns.reinit(0, 0);
@@ -138,7 +151,15 @@ void DenseSolver::choose_kept(const FullMatrix<double> &matrix,
     return;
   kept_matrix.reinit(kept.size(), kept.size());
   kept_matrix.extract_submatrix_from(matrix, kept, kept);
-  kept_factor.reinit(kept_matrix);
+  try
+  {
+    kept_factor.reinit(kept_matrix);
+  }
+  catch (const SolveError &) // which says nothing about the whole matrix
+  {
+    kept.clear();
+    kept_identities.clear();
+  }
 }
 
 
@@ -224,7 +245,15 @@ void DenseSolver::factorise(const FullMatrix<double> &matrix,
     }
   }
   if (!rest.empty())
-    rest_factor.reinit(small);
+    try
+    {
+      rest_factor.reinit(small);
+    }
+    catch (const SolveError &)
+    {
+      forget();
+      throw;
+    }
 }
 
 

@@ -21,7 +21,7 @@ public:
   static constexpr unsigned int anonymous = -1;
 
   /// @param identities of the unknowns, by which those of an earlier matrix are found again
-  /// @throws dealii::ExceptionBase when the matrix is singular
+  /// @throws SolveError when the matrix is singular; nothing is kept then
   void factorise(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
 
   /// x := A^-1 x
@@ -29,6 +29,12 @@ public:
 
   /// Nothing that was kept is valid any more.
   void forget();
+
+  /// So many unknowns of the present matrix are eliminated with the factor that is kept.
+  unsigned int n_kept() const
+  {
+    return kept.size();
+  }
 
 private:
   /// A factor of a matrix that has been scaled from both sides so that pivoting compares like with

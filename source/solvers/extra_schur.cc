@@ -189,10 +189,6 @@ void ExtraSchur::factorise(const SystemOperator &op)
   {
     throw_singular();
   }
-  catch (const dealii::ExceptionBase &)
-  {
-    throw_singular();
-  }
   has_factor = true;
 }
 
