@@ -198,7 +198,9 @@ double TimeScheme::error_estimate(const StepContext &context,
                                   const Unknowns &committed,
                                   const Unknowns &current) const
 {
-  if (scheme != Kind::bdf2 || n_accepted < 2)
+  // The initial state is not one of the four: loads that act from the start on jump there, which
+  // the scheme does not mind (the fluid in the pores does not jump) but a difference of unknowns.
+  if (scheme != Kind::bdf2 || n_accepted < 3)
     return -1.;
   // BDF2 differentiates the parabola through three points in time. What it misses of the rate is
   // x[0,1,2,3] h0 (h0 + h1), with the third divided difference over the last four points and the

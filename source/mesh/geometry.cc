@@ -4,6 +4,7 @@
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +21,9 @@ using namespace dealii;
 
 namespace
 {
+/// Manifold of the cells of a quarter disc or octant of a ball; 0 is that of the surface.
+constexpr types::manifold_id interior_manifold = 1;
+
 const std::array<const char *, 3> spacing_entry{{"X spacing", "Y spacing", "Z spacing"}};
 
 /// Names of the two sides of a box across each axis.
@@ -268,6 +272,15 @@ void Geometry<dim>::make_ball(ParameterHandler &prm)
   GridGenerator::quarter_hyper_ball(*coarse, Point<dim>(), radius);
   cells = Cells::curved;
 
+  // All cells bend with the surface, not only those beside it: halving them leaves them regular.
+  coarse->set_all_manifold_ids(interior_manifold);
+  for (const auto &face : coarse->active_face_iterators())
+    if (face->at_boundary() && std::abs(face->vertex(0).norm() - radius) < 1e-10 * radius &&
+        std::all_of(face->vertex_indices().begin(), face->vertex_indices().end(),
+                    [&](const unsigned int v)
+                    { return std::abs(face->vertex(v).norm() - radius) < 1e-10 * radius; }))
+      face->set_all_manifold_ids(0);
+
   const types::boundary_id surface = 1;
   for (unsigned int d = 0; d < dim; ++d)
     sides[box_sides<dim>(d)[0]] = 2 * d;
@@ -373,6 +386,12 @@ template <int dim>
 void Geometry<dim>::create_coarse(Triangulation &triangulation) const
 {
   triangulation.copy_triangulation(*coarse);
+  if (cells == Cells::curved)
+  {
+    TransfiniteInterpolationManifold<dim> interior;
+    interior.initialize(triangulation);
+    triangulation.set_manifold(interior_manifold, interior);
+  }
   if (region_boxes.empty() && side_boxes.empty())
     return;
   const auto set = [this, &triangulation]()

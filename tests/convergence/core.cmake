@@ -23,13 +23,15 @@ foreach(set rock soft incompressible)
     EXPECT "errors/peak_pore_pressure/final < 1e-3" "errors/pore_pressure/mean < 2e-3")
 endforeach()
 stockwork_case_test(NAME convergence/deleeuw DECK prm/deleeuw/none.prm NEGATIVE
-  SET "Resolution=coarse" "Time/Error tolerance=1e-4"
-  EXPECT "errors/peak_pore_pressure/final < 2e-2" "errors/pore_pressure/mean < 2e-2")
-# The pressure at the centre is linear over cells of half the radius (coarse) and so off by 5.4 %,
-# hardly any of it from time steps; it falls with the square of the cells.
+  SET "Resolution=medium"
+  EXPECT "errors/peak_pore_pressure/final < 2.5e-3" "errors/pore_pressure/mean < 1.5e-3"
+         "errors/displacement/mean < 1.6e-3")
+# The pressure at the centre is linear over cells of a quarter of the radius and so off by 3.7 %,
+# hardly any of it from time steps; it falls with the square of the cells (order/cryer, which holds
+# the medium resolution to 1 %), and the goal, 0.5 %, is reached by the fine one (doc/cases/cryer.md).
 stockwork_case_test(NAME convergence/cryer DECK prm/cryer/none.prm NEGATIVE
-  SET "Resolution=coarse" EXPECT "errors/peak_pore_pressure/final < 5.6e-2"
-    "errors/pore_pressure/mean < 2.4e-2" "errors/displacement/final < 1.2e-2")
+  SET "Resolution=coarse" EXPECT "errors/peak_pore_pressure/final < 3.9e-2"
+    "errors/pore_pressure/mean < 1.9e-2" "errors/displacement/final < 7e-3")
 stockwork_case_test(NAME convergence/column/inertia DECK prm/column/inertia/none.prm NEGATIVE
   SET "Resolution=coarse" EXPECT "errors/displacement/final < 1e-2" "errors/pore_pressure/final < 1e-2")
 

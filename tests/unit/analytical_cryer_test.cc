@@ -1,7 +1,10 @@
 #include "reference_table.h"
 #include "verification/analytical/cryer.h"
+#include "verification/reference/problems.h"
 
 #include <doctest/doctest.h>
+
+#include <cmath>
 
 namespace stockwork::analytical_cryer_test
 {
@@ -81,5 +84,35 @@ TEST_CASE("sphere: the displacement inside follows from the pressure")
   };
   CHECK(stress(0.2) == doctest::Approx(stress(0.5)).epsilon(1e-6));
   CHECK(stress(0.8) == doctest::Approx(stress(0.5)).epsilon(1e-6));
+}
+TEST_CASE("the field that errors are formed with is that of the series, at early times too")
+{
+  dealii::ParameterHandler prm;
+  Rock::declare_parameters(prm);
+  prm.parse_input_from_string("subsection Rock\n set Young modulus = 100 MPa\n"
+                              " set Poisson ratio = 0\n set Biot coefficient = 1\n"
+                              " set Biot modulus = inf\n set Permeability = 1e-12\nend");
+  Rock rock;
+  rock.parse_parameters(prm);
+  ReferenceInput<3> input{rock, {}, {2., 2., 2.}};
+  input.normal_traction = [](const std::string &, double) { return -1e5; };
+  const auto reference = reference::make_cryer<3>(prm, input);
+  const auto field = reference->field();
+  const Cryer solution({Shape::sphere, reference::medium(rock), 2., 1e5});
+  for (const double time : {0., 1e-6, 1e-3, 0.1})
+  {
+    CAPTURE(time);
+    field->set_time(time * 4. / solution.diffusivity());
+    const CryerAtTime now = solution.at(time * 4. / solution.diffusivity());
+    for (const double r : {0., 0.3, 1.234, 1.99, 1.9987, 1.99999, 2.})
+    {
+      CAPTURE(r);
+      dealii::Vector<double> values(4);
+      field->vector_value({0.6 * r, 0., 0.8 * r}, values);
+      CHECK(std::abs(values(3) - now.pressure(r)) < 1e-6 * 1e5);
+      CHECK(std::abs(std::hypot(values(0), values(2)) - std::abs(now.displacement(r))) <
+            1e-6 * std::abs(now.displacement(2.)) + 1e-300);
+    }
+  }
 }
 } // namespace stockwork::analytical_cryer_test
