@@ -1,15 +1,18 @@
-# Fractures against their references, at the coarse resolution; doc/cases says what each reaches.
-# The pressure of kgd/toughness at the end is 1.501 %, a hair above its goal of 1.5 %.
+# Fractures against their references; doc/cases says what each resolution reaches. The two limits are
+# met at medium resolution already, but the length of kgd/viscosity, which is known to a cell, on
+# average over the history.
 stockwork_case_test(NAME convergence/kgd/toughness DECK prm/kgd/toughness/cohesive_xfem.prm NEGATIVE
-  SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.01" "errors/fracture_length/mean < 0.01"
-         "errors/inlet_aperture/final < 0.01" "errors/inlet_aperture/mean < 0.01"
-         "errors/inlet_pressure/final < 0.016" "errors/inlet_pressure/mean < 0.015"
-         "fluid_balance/relative_error < 1e-8")
+  SET "Resolution=medium"
+  EXPECT "errors/fracture_length/final < 0.01" "errors/fracture_length/mean < 0.015"
+         "errors/inlet_aperture/final < 0.002" "errors/inlet_aperture/mean < 0.003"
+         "errors/inlet_pressure/final < 0.005" "errors/inlet_pressure/mean < 0.006"
+         "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 stockwork_case_test(NAME convergence/kgd/viscosity DECK prm/kgd/viscosity/cohesive_xfem.prm NEGATIVE
-  SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.03" "errors/inlet_aperture/final < 0.015"
-         "errors/inlet_pressure/final < 0.01" "fluid_balance/relative_error < 1e-8")
+  SET "Resolution=medium"
+  EXPECT "errors/fracture_length/final < 0.01" "errors/fracture_length/mean < 0.025"
+         "errors/inlet_aperture/final < 0.004" "errors/inlet_aperture/mean < 0.005"
+         "errors/inlet_pressure/final < 0.004" "errors/inlet_pressure/mean < 0.004"
+         "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 # Static cracks.
 stockwork_case_test(NAME convergence/sneddon DECK prm/sneddon/prescribed.prm NEGATIVE
   SET "Resolution=coarse"

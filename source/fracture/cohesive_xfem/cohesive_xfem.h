@@ -75,6 +75,9 @@ private:
   /// Whether the last piece at this end of a crack has begun to break.
   bool is_damaged(unsigned int crack, CrackEnd end, const State &) const;
 
+  /// Whether the last piece is as open as the one before it lets expect of a viscous tip.
+  bool is_filled(unsigned int crack, CrackEnd end, const State &) const;
+
   Parameters parameters;
   const Scene<dim> &scene;
   CohesiveLaw law;
