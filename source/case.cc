@@ -56,6 +56,27 @@ Discretisation parse_discretisation(ParameterHandler &prm,
 }
 
 
+/// Where nothing gives way, neither rock nor fluid nor boundary, the level of the pore pressure is
+/// anything, and what is injected has no place.
+template <int dim>
+void refuse_incompressible(const Rock &rock,
+                           const Geometry<dim> &geometry,
+                           const BoundaryConditions<dim> &boundary_conditions)
+{
+  bool gives_way = rock.main().inverse_biot_modulus > 0.;
+  for (const std::string &region : geometry.region_names())
+    gives_way |= rock(geometry.region(region)).inverse_biot_modulus > 0.;
+  std::vector<types::boundary_id> sides;
+  for (const std::string &name : geometry.side_names())
+    sides.push_back(geometry.side(name));
+  if (!gives_way && boundary_conditions.seal(sides))
+    throw EntryError("Rock/Biot modulus", "",
+                     "a finite modulus, or a finite 'Fluid/Bulk modulus', in a body whose sides "
+                     "neither move nor are drained: with incompressible constituents its pressure "
+                     "is undetermined, and fluid that is injected has no place");
+}
+
+
 template <int dim>
 const auto &create_function(const FractureModelEntry &entry)
 {
@@ -193,6 +214,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   discretisation =
     parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = discretisation.has_pore_pressure;
+  if (discretisation.has_pore_pressure)
+    refuse_incompressible(rock, geometry, boundary_conditions);
 
   control.parse_parameters(prm);
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace stockwork
 {
@@ -255,6 +256,23 @@ bool BoundaryConditions<dim>::mentions_pore_pressure() const
     if (condition.component == dim)
       return true;
   return !prescribed_loads.flux.empty();
+}
+
+
+template <int dim>
+bool BoundaryConditions<dim>::seal(const std::vector<types::boundary_id> &sides) const
+{
+  for (const types::boundary_id side : sides)
+  {
+    std::set<unsigned int> components;
+    for (const Dirichlet &condition : dirichlet)
+      if (condition.side == side)
+        components.insert(condition.component);
+    const bool drained = components.erase(dim) > 0;
+    if (drained || (components.count(normal_component) == 0 && components.size() < dim))
+      return false;
+  }
+  return true;
 }
 
 

@@ -83,6 +83,9 @@ public:
   /// Is there any condition on pore pressure or flux?
   bool mentions_pore_pressure() const;
 
+  /// Whether neither fluid nor a change of volume gets through any of these sides.
+  bool seal(const std::vector<dealii::types::boundary_id> &sides) const;
+
   /// Add hanging-node constraints and Dirichlet conditions at `time`; `increment` gets the same
   /// with zero values. Both are closed. Collective.
   void constrain(double time,

@@ -485,8 +485,11 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (fe.system_to_component_index(i).first == dim)
         {
+          const double share = fe.shape_value(i, middle);
+          const Point<dim> &node = piece.corners[fe.system_to_component_index(i).second];
           segment.pore_pressure.bulk.push_back(dofs[i]);
-          segment.pore_pressure.bulk_coefficients.push_back(fe.shape_value(i, middle));
+          segment.pore_pressure.bulk_coefficients.push_back(share);
+          segment.pore_distance += share * std::abs((node - segment.centre) * segment.normal);
         }
     }
     all.push_back(std::move(segment));

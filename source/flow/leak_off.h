@@ -11,41 +11,43 @@ namespace stockwork
 enum class LeakOff
 {
   none,
-  /// C_L / sqrt(t - t_0), with t_0 the time at which the face was exposed: one-dimensional loss
-  /// into rock beyond the model (Carter 1957). The fluid leaves the model. Nothing leaks where the
-  /// fracture is closed.
+  /// C_L / sqrt(t - t_0), with t - t_0 the time for which fluid has been at the face:
+  /// one-dimensional loss into rock beyond the model (Carter 1957). The fluid leaves the model.
   carter,
   /// c_l (p_f - p_m), p_m the rock's pore pressure at the face. The fluid enters the rock.
   filter_cake,
-  /// p_f = p_m, as a filter cake so permeable that its pressure drop cannot be seen.
+  /// p_f is the pore pressure at the face.
   resolved
 };
 
-/// What passes through one face between two times, exactly integrated [m]: the audit of the fluid
-/// volume closes for any step.
+/// What passes through one face while its time of exposure grows, exactly integrated [m]: the audit
+/// of the fluid volume closes for any step.
 /// @param coefficient C_L [m/s^(1/2)]
-/// @param exposed t_0 [s]
-inline double
-carter_volume(const double coefficient, const double exposed, const double begin, const double end)
+/// @param begin, end times for which fluid has been at the face [s]
+inline double carter_volume(const double coefficient, const double begin, const double end)
 {
-  return 2. * coefficient *
-         (std::sqrt(std::max(end - exposed, 0.)) - std::sqrt(std::max(begin - exposed, 0.)));
+  return 2. * coefficient * (std::sqrt(end) - std::sqrt(begin));
 }
 
-/// Share of Carter's leak-off that finds fluid to take: all of it where the fracture is open by
-/// more than the minimum aperture, nothing where it is closed. Without it, the law would draw from
-/// an empty notch more than is injected, and suck it shut.
-inline ValueAndSlope wetted_share(const double w, const double w_min)
+/// Share of a segment that has fluid at its faces: all of it where the fracture is open by more
+/// than w_bare, nothing where it is closed. The time of exposure counts this share only. Otherwise
+/// a cell that was cut well before it opened would have the small rate of a face long exposed, and
+/// an empty notch would draw more than is injected.
+inline ValueAndSlope wetted_share(const double w, const double w_bare)
 {
-  const double x = std::clamp(w / w_min, 0., 1.);
-  return {x * x * (3. - 2. * x), 6. * x * (1. - x) / w_min};
+  const double x = std::clamp(w / w_bare, 0., 1.);
+  return {x * x * (3. - 2. * x), 6. * x * (1. - x) / w_bare};
 }
 
-/// Coefficient of the filter cake that stands for p_f = p_m: a thousand times what a cell of size h
-/// conducts, k/(mu h), so that the drop across the face is a thousandth of that across the cell.
+/// Coefficient c_l that resolved leak-off has: what the rock between the fracture and the nodes of
+/// the pore pressure conducts, k/(mu d), which makes the drop across it that of Darcy's flow away
+/// from the fracture, exactly where this is steady. Elements that are smooth across the fracture
+/// would miss that drop, as a grid block misses the drop towards a well (Peaceman 1978). Where the
+/// nodes lie on the fracture: p_f = p_m but for a thousandth of the drop across a cell of size h.
 /// @param mobility k/mu of the rock [m^2/(Pa s)]
-inline double resolved_coefficient(const double mobility, const double h)
+/// @param distance d, Segment::pore_distance [m]
+inline double resolved_coefficient(const double mobility, const double h, const double distance)
 {
-  return 1e3 * mobility / h;
+  return mobility / std::max(distance, 1e-3 * h);
 }
 } // namespace stockwork

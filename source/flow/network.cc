@@ -33,11 +33,10 @@ void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
   namespace Patterns = dealii::Patterns;
   prm.enter_subsection("Fracture flow");
   prm.declare_entry(
-    "Minimum aperture", "10 um", Quantity(dimension::length, Range::positive()),
+    "Minimum aperture", "2 um", Quantity(dimension::length, Range::positive()),
     "w_min in the hydraulic aperture (w^4 + w_min^4)^(1/4). Enters the conductivity "
-    "only, never the volume. Too small a value lets closed tips hold suction; "
-    "G_c/(2T), a quarter of the critical opening of a cohesive crack, runs "
-    "cleanly.");
+    "only, never the volume. Small beside the aperture near the tip: a larger "
+    "value lets viscous fluid run ahead.");
   prm.declare_entry("Leak-off", "none", Patterns::Selection("none|carter|filter cake|resolved"),
                     "How fluid passes from fractures into the rock. carter: C_L/sqrt(t-t_0) "
                     "per face, out of the model. filter cake: c_l (p_f - p_m) per face, into the "
@@ -99,7 +98,8 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
                     segment.given_pressure, segment.initial_pressure,
                     segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
-                    collectives.rank(), segment.at_tip, segment.neighbours});
+                    segment.pore_distance, segment.bare_aperture, collectives.rank(),
+                    segment.at_tip, segment.neighbours});
   network = collectives.gather(mine);
   std::sort(network.begin(), network.end(),
             [](const auto &a, const auto &b) { return a.key < b.key; });
@@ -218,28 +218,40 @@ void Network<dim>::rollback()
 
 
 template <int dim>
-double Network<dim>::exposed_since(const unsigned int segment, const StepContext &context) const
+typename Network<dim>::Exposure Network<dim>::exposure(const unsigned int segment,
+                                                       const StepContext &context,
+                                                       const Values &values) const
 {
+  const ValueAndSlope now = wetted_share(values.aperture[segment], bare_aperture(segment));
+  if (const auto fresh = appeared.find(network[segment].key);
+      fresh != appeared.end() && fresh->second > 0)
+  {
+    // Those of pass k out of n were reached, on average, in the middle of the k-th part of the
+    // step.
+    const double left = context.dt * (1. - (fresh->second - 0.5) / pass);
+    return {0., left * now.value, left * now.slope};
+  }
   const auto old = history.find(network[segment].key);
-  if (old != history.end())
-    return old->second.exposed;
-
-  // Those of pass k out of n were reached, on average, in the middle of the k-th part of the step.
-  const double begin = context.time - context.dt;
-  const auto fresh = appeared.find(network[segment].key);
-  return fresh == appeared.end() || fresh->second == 0
-           ? begin
-           : begin + context.dt * (fresh->second - 0.5) / pass;
+  const double begin = old == history.end() ? 0. : old->second.exposure;
+  const double wetted =
+    old == history.end()
+      ? wetted_share(values.aperture_reference[segment], bare_aperture(segment)).value
+      : old->second.wetted;
+  return {begin, begin + 0.5 * context.dt * (wetted + now.value), 0.5 * context.dt * now.slope};
 }
 
 
 template <int dim>
 double Network<dim>::leak_off_coefficient(const unsigned int segment) const
 {
-  return leak_off == LeakOff::filter_cake ? filter_cake_coefficient
-         : leak_off == LeakOff::resolved
-           ? resolved_coefficient(rock_mobility, network[segment].size())
-           : 0.;
+  const NetworkSegment<dim> &s = network[segment];
+  if (leak_off == LeakOff::resolved)
+    return resolved_coefficient(rock_mobility, s.size(), s.pore_distance);
+  if (leak_off != LeakOff::filter_cake)
+    return 0.;
+  return s.rock_has_pore_pressure && rock_mobility > 0.
+           ? 1. / (1. / filter_cake_coefficient + s.pore_distance / rock_mobility)
+           : filter_cake_coefficient;
 }
 
 
@@ -425,12 +437,11 @@ void Network<dim>::assemble_segment(const unsigned int index,
   // Leak-off.
   if (leak_off == LeakOff::carter && own != no_row)
   {
-    const double volume = 2. * area * dt / context.dt *
-                          carter_volume(carter_coefficient, exposed_since(index, context),
-                                        context.time - context.dt, context.time);
-    const ValueAndSlope share = wetted_share(w, minimum_aperture);
-    local.residual(own) -= volume * share.value;
-    add_aperture_slope(own, -volume * share.slope);
+    const Exposure times = exposure(index, context, values);
+    const double faces = 2. * area * dt / context.dt;
+    local.residual(own) -= faces * carter_volume(carter_coefficient, times.begin, times.end);
+    if (times.end > 0.)
+      add_aperture_slope(own, -faces * carter_coefficient / std::sqrt(times.end) * times.slope);
   }
 
   // c d enters the balances of fracture and rock, and c (d - p + p_m) = 0.
@@ -468,9 +479,10 @@ std::vector<double> Network<dim>::leaked_in_step(const StepContext &context,
   std::vector<double> volumes(network.size(), 0.);
   for (unsigned int i = 0; i < network.size(); ++i)
     if (leak_off == LeakOff::carter)
-      volumes[i] = 2. * network[i].area * wetted_share(values.aperture[i], minimum_aperture).value *
-                   carter_volume(carter_coefficient, exposed_since(i, context),
-                                 context.time - context.dt, context.time);
+    {
+      const Exposure times = exposure(i, context, values);
+      volumes[i] = 2. * network[i].area * carter_volume(carter_coefficient, times.begin, times.end);
+    }
     else
       volumes[i] =
         2. * network[i].area * leak_off_coefficient(i) * context.dt * values.cake_drop[i];
@@ -536,13 +548,15 @@ void Network<dim>::commit(const StepContext &context,
                           const State &state,
                           const Collectives &collectives)
 {
-  const std::vector<double> leaked = leaked_in_step(context, evaluate(state, collectives));
+  const Values values = evaluate(state, collectives);
+  const std::vector<double> leaked = leaked_in_step(context, values);
   total = balance(context, state, collectives).total;
   for (unsigned int i = 0; i < network.size(); ++i)
   {
-    const double exposed = exposed_since(i, context);
-    auto &entry = history[network[i].key];
-    entry.exposed = exposed;
+    const double exposed = exposure(i, context, values).end;
+    History &entry = history[network[i].key];
+    entry.exposure = exposed;
+    entry.wetted = wetted_share(values.aperture[i], bare_aperture(i)).value;
     entry.leaked += leaked[i];
   }
   rollback(); // nothing is on trial any more

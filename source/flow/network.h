@@ -138,13 +138,14 @@ private:
   /// What a segment remembers.
   struct History
   {
-    double exposed = 0.; ///< since this time [s]
-    double leaked = 0.;  ///< volume through both faces so far [m^3]
+    double exposure = 0.; ///< time for which fluid has been at its faces [s]
+    double wetted = 0.;   ///< share of it that has fluid at its faces
+    double leaked = 0.;   ///< volume through both faces so far [m^3]
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &exposed &leaked;
+      ar &exposure &wetted &leaked;
     }
   };
 
@@ -159,7 +160,18 @@ private:
 
   Values evaluate(const State &, const Collectives &) const;
 
-  double exposed_since(unsigned int segment, const StepContext &) const;
+  /// The time of exposure of a segment's faces before and after a step.
+  struct Exposure
+  {
+    double begin, end; ///< [s]
+    double slope;      ///< of `end` by the aperture [s/m]
+  };
+  Exposure exposure(unsigned int segment, const StepContext &, const Values &) const;
+
+  double bare_aperture(const unsigned int segment) const
+  {
+    return std::max(network[segment].bare_aperture, minimum_aperture);
+  }
 
   /// c_l of the linear leak-off laws [m/(Pa s)].
   double leak_off_coefficient(unsigned int segment) const;
@@ -180,7 +192,7 @@ private:
                         const Values &,
                         LocalSystem &) const;
 
-  double minimum_aperture = 10e-6;
+  double minimum_aperture = 2e-6;
   LeakOff leak_off = LeakOff::none;
   double carter_coefficient = 0.;
   double filter_cake_coefficient = 0.;

@@ -19,6 +19,8 @@ struct NetworkSegment
   double initial_pressure = 0.;
   double in_situ_pore_pressure = 0.;
   bool rock_has_pore_pressure = false; ///< as unknowns
+  double pore_distance = 0.;           ///< see Segment [m]
+  double bare_aperture = 0.;           ///< see Segment [m]
   unsigned int owner = 0;              ///< rank
   bool at_tip = false;
   std::vector<typename Segment<dim>::Neighbour> neighbours;
@@ -38,7 +40,7 @@ struct NetworkSegment
   void serialize(Archive &ar, const unsigned int)
   {
     ar &key &centre &normal &area &given_pressure &initial_pressure &in_situ_pore_pressure
-      &rock_has_pore_pressure &owner &at_tip &neighbours;
+      &rock_has_pore_pressure &pore_distance &bare_aperture &owner &at_tip &neighbours;
   }
 };
 

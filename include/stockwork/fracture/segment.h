@@ -55,6 +55,16 @@ struct Segment
   /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.
   LinearFunctional pore_pressure;
 
+  /// How far from the segment, along its normal, the nodes are whose pressures make up
+  /// `pore_pressure`, their mean with the same weights [m]. The pore pressure has a kink at a
+  /// leaking fracture; elements that are smooth there see the pressure at this distance from it.
+  /// Zero: the pressure at the segment itself.
+  double pore_distance = 0.;
+
+  /// Aperture from which on the faces are bare and leak in full, for Carter's law; below, bridges
+  /// of rock still hold them together [m]. The minimum aperture of the flow if that is larger.
+  double bare_aperture = 0.;
+
   /// Fluid pressure where it is given and not solved for [Pa]; NaN: an unknown of its own.
   double given_pressure = std::numeric_limits<double>::quiet_NaN();
 

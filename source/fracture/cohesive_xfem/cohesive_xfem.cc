@@ -140,6 +140,9 @@ void CohesiveXFEM<dim>::refresh_segments()
   for (Segment<dim> &segment : all_segments)
   {
     segment.given_pressure = scene.crack_pressure;
+    // Half of the leak-off in the middle of the cohesive zone, where the tip of an elastic fracture
+    // with the same toughness would be.
+    segment.bare_aperture = 0.7 * law.critical_opening();
     if (const auto found = initial_pressure.find(segment.key); found != initial_pressure.end())
       segment.initial_pressure = found->second;
   }
