@@ -59,7 +59,8 @@ Discretisation parse_discretisation(ParameterHandler &prm,
 /// Where nothing gives way, neither rock nor fluid nor boundary, the level of the pore pressure is
 /// anything, and what is injected has no place.
 template <int dim>
-void refuse_incompressible(const Rock &rock,
+void refuse_incompressible(ParameterHandler &prm,
+                           const Rock &rock,
                            const Geometry<dim> &geometry,
                            const BoundaryConditions<dim> &boundary_conditions)
 {
@@ -69,11 +70,16 @@ void refuse_incompressible(const Rock &rock,
   std::vector<types::boundary_id> sides;
   for (const std::string &name : geometry.side_names())
     sides.push_back(geometry.side(name));
-  if (!gives_way && boundary_conditions.seal(sides))
-    throw EntryError("Rock/Biot modulus", "",
-                     "a finite modulus, or a finite 'Fluid/Bulk modulus', in a body whose sides "
-                     "neither move nor are drained: with incompressible constituents its pressure "
-                     "is undetermined, and fluid that is injected has no place");
+  if (gives_way || !boundary_conditions.seal(sides))
+    return;
+  prm.enter_subsection("Boundary conditions");
+  const std::string entry = prm.get("Roller").empty() ? "Fixed" : "Roller", value = prm.get(entry);
+  prm.leave_subsection();
+  throw EntryError(
+    "Boundary conditions/" + entry, value,
+    "a side less, or one of them 'Drained', where 'Rock/Biot modulus' and "
+    "'Fluid/Bulk modulus' are infinite: the pressure of a body that nothing leaves "
+    "and nothing compresses is undetermined, and fluid that is injected has no place");
 }
 
 
@@ -215,7 +221,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
     parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = discretisation.has_pore_pressure;
   if (discretisation.has_pore_pressure)
-    refuse_incompressible(rock, geometry, boundary_conditions);
+    refuse_incompressible(prm, rock, geometry, boundary_conditions);
 
   control.parse_parameters(prm);
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);

@@ -33,7 +33,7 @@ void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
   namespace Patterns = dealii::Patterns;
   prm.enter_subsection("Fracture flow");
   prm.declare_entry(
-    "Minimum aperture", "2 um", Quantity(dimension::length, Range::positive()),
+    "Minimum aperture", "10 um", Quantity(dimension::length, Range::positive()),
     "w_min in the hydraulic aperture (w^4 + w_min^4)^(1/4). Enters the conductivity "
     "only, never the volume. Small beside the aperture near the tip: a larger "
     "value lets viscous fluid run ahead.");

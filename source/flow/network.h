@@ -192,7 +192,7 @@ private:
                         const Values &,
                         LocalSystem &) const;
 
-  double minimum_aperture = 2e-6;
+  double minimum_aperture = 10e-6;
   LeakOff leak_off = LeakOff::none;
   double carter_coefficient = 0.;
   double filter_cake_coefficient = 0.;
