@@ -209,7 +209,7 @@ void DenseSolver::factorise(const FullMatrix<double> &matrix,
 
   FullMatrix<double> small(rest.size(), rest.size());
   small.extract_submatrix_from(matrix, rest, rest);
-  if (!kept.empty())
+  if (!kept.empty() && !rest.empty())
   {
     eliminate(matrix);
     rows.reinit(rest.size(), kept.size());
