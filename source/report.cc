@@ -105,6 +105,16 @@ std::map<std::string, double> Report<dim>::observe()
     values["net_inlet_pressure"] =
       wells[0].inlet_pressure + inlet.normal * (in_situ.stress(inlet.centre) * inlet.normal);
   }
+  // How the fluid is shared.
+  if (wells.size() > 1 || (!wells.empty() && wells[0].perforation_rates.size() > 1))
+    for (unsigned int w = 0; w < wells.size(); ++w)
+    {
+      const std::string well = "well_" + std::to_string(w + 1);
+      values[well + "_borehole_pressure"] = wells[w].borehole_pressure;
+      for (unsigned int i = 0; i < wells[w].perforation_rates.size(); ++i)
+        values[well + "_perforation_" + std::to_string(i + 1) + "_rate"] =
+          wells[w].perforation_rates[i];
+    }
   return values;
 }
 

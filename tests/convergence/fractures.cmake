@@ -13,6 +13,16 @@ stockwork_case_test(NAME convergence/kgd/viscosity DECK prm/kgd/viscosity/cohesi
          "errors/inlet_aperture/final < 0.004" "errors/inlet_aperture/mean < 0.005"
          "errors/inlet_pressure/final < 0.004" "errors/inlet_pressure/mean < 0.004"
          "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
+# Two fractures on one well. Friction in the perforations shares the fluid evenly, although one notch
+# is twice as long; without it, the longer takes all.
+stockwork_case_test(NAME convergence/clusters DECK prm/clusters/cohesive_xfem.prm
+  SET "Resolution=coarse" "Time/End time=5 s"
+  EXPECT "final/well_1_perforation_1_rate = final/well_1_perforation_2_rate within 0.02"
+         "fluid_balance/relative_error < 1e-8")
+stockwork_case_test(NAME convergence/clusters/without_friction DECK prm/clusters/cohesive_xfem.prm
+  SET "Resolution=coarse" "Time/End time=5 s" "Wells/Well 1/Perforation friction=0"
+  EXPECT "final/well_1_perforation_1_rate > 4.9e-4" "final/well_1_perforation_2_rate < 0.1e-4"
+         "fluid_balance/relative_error < 1e-8")
 # Static cracks.
 stockwork_case_test(NAME convergence/sneddon DECK prm/sneddon/prescribed.prm NEGATIVE
   SET "Resolution=coarse"
