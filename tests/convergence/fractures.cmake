@@ -1,6 +1,4 @@
-# Fractures against their references; doc/cases says what each resolution reaches. The two limits are
-# met at medium resolution already, but the length of kgd/viscosity, which is known to a cell, on
-# average over the history.
+# Fractures against their references; doc/cases says what each resolution reaches.
 stockwork_case_test(NAME convergence/kgd/toughness DECK prm/kgd/toughness/cohesive_xfem.prm NEGATIVE
   SET "Resolution=medium"
   EXPECT "errors/fracture_length/final < 0.01" "errors/fracture_length/mean < 0.015"
@@ -8,10 +6,10 @@ stockwork_case_test(NAME convergence/kgd/toughness DECK prm/kgd/toughness/cohesi
          "errors/inlet_pressure/final < 0.005" "errors/inlet_pressure/mean < 0.006"
          "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 stockwork_case_test(NAME convergence/kgd/viscosity DECK prm/kgd/viscosity/cohesive_xfem.prm NEGATIVE
-  SET "Resolution=medium"
-  EXPECT "errors/fracture_length/final < 0.01" "errors/fracture_length/mean < 0.025"
-         "errors/inlet_aperture/final < 0.004" "errors/inlet_aperture/mean < 0.005"
-         "errors/inlet_pressure/final < 0.004" "errors/inlet_pressure/mean < 0.004"
+  SET "Resolution=coarse"
+  EXPECT "errors/fracture_length/final < 0.003" "errors/fracture_length/mean < 0.006"
+         "errors/inlet_aperture/final < 0.006" "errors/inlet_aperture/mean < 0.007"
+         "errors/inlet_pressure/final < 0.003" "errors/inlet_pressure/mean < 0.003"
          "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 # Two fractures on one well. Friction in the perforations shares the fluid evenly, although one notch
 # is twice as long; without it, the longer takes all.

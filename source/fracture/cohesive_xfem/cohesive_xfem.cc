@@ -221,28 +221,36 @@ bool CohesiveXFEM<dim>::is_damaged(const unsigned int crack,
 
 
 template <int dim>
-bool CohesiveXFEM<dim>::is_filled(const unsigned int crack,
-                                  const CrackEnd end,
-                                  const State &state) const
+double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
+                                         const CrackEnd end,
+                                         const State &state) const
 {
-  // A tip in viscous fluid opens as x^(2/3). With apertures linear in each cell, that of the last
-  // cell is then 0.39 of the next one's, if both are of one size.
-  constexpr double full = 0.35;
   const auto &pieces = discontinuity.paths()[crack].pieces;
-  if (pieces.size() < 2)
-    return true;
-  const auto mean_aperture = [&](const unsigned int i)
+  const unsigned int last = end == CrackEnd::first ? 0 : pieces.size() - 1;
+  const double length = pieces[last].length();
+  if (pieces.size() < 2 || !state.segment_pressure || !std::isnan(scene.crack_pressure))
+    return length;
+  const Tensor<1, dim> n = pieces[last].normal();
+  const double closing_stress = -(n * (scene.in_situ_stress(pieces[last].centre()) * n));
+  if (state.segment_pressure(pieces[last].key(scene.domain_size)) >= closing_stress)
+    return length;
+
+  const auto volume = [&](const unsigned int i)
   {
     const auto &columns = discontinuity.enrichment().columns(crack, i);
     const JumpShapes<dim> shapes(pieces[i]);
     double sum = 0.;
     for (unsigned int q = 0; q < n_points; ++q)
       sum += separation(pieces[i], shapes, q, columns, state.current.extra).normal;
-    return sum / n_points;
+    return std::max(sum / n_points * pieces[i].length(), 0.);
   };
-  const unsigned int last = end == CrackEnd::first ? 0 : pieces.size() - 1;
   const unsigned int next = end == CrackEnd::first ? 1 : pieces.size() - 2;
-  return mean_aperture(next) > 0. && mean_aperture(last) >= full * mean_aperture(next);
+  const double in_last = volume(last), in_next = volume(next);
+  if (in_last == 0. || in_next == 0.)
+    return 0.;
+  // With w ~ x^(2/3) at the distance x from the front, V ~ x^(5/3) is beyond any place.
+  const double ratio = std::pow(in_last / (in_last + in_next), 0.6);
+  return std::min(length, pieces[next].length() * ratio / (1. - ratio));
 }
 
 
@@ -344,9 +352,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
       continue;
     // Suction at the tip and the tension ahead, both many times the strength, leave a difference
     // that tells nothing: there the fluid has to have arrived.
-    const Tensor<1, dim> n = last.normal();
-    if (pressure + n * (scene.in_situ_stress(last.centre()) * n) < 0. &&
-        !is_filled(tips[i].crack, tips[i].end, state))
+    if (reached_length(tips[i].crack, tips[i].end, state) < 0.8 * last.length())
       continue;
     const double drive = pressure + (parameters.straight ? across * (stress * across)
                                                          : dealii::eigenvalues(stress)[0]);
@@ -524,9 +530,13 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
       const auto &columns = discontinuity.enrichment().columns(c, i);
       const JumpShapes<dim> shapes(piece);
       const PointDamage history = damage(piece);
+      double reached = piece.length();
+      for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+        if (path.is_tip[static_cast<int>(end)] && &piece == &path.piece_at(end))
+          reached = reached_length(c, end, state);
       for (unsigned int q = 0; q < n_points; ++q)
       {
-        const double length = piece.length() / n_points, d = history[q];
+        const double length = reached / n_points, d = history[q];
         // What is cut but undamaged is intact rock.
         if (d > 0.)
           result.length += length;
@@ -534,8 +544,8 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
           result.broken_length += length;
         const NormalShear gap = separation(piece, shapes, q, columns, state.current.extra);
         const NormalShear traction = law.evaluate(gap, d).traction;
-        result.stored_energy +=
-          0.5 * length * (traction.normal * gap.normal + traction.shear * gap.shear);
+        result.stored_energy += 0.5 * piece.length() / n_points *
+                                (traction.normal * gap.normal + traction.shear * gap.shear);
       }
     }
   }

@@ -75,8 +75,10 @@ private:
   /// Whether the last piece at this end of a crack has begun to break.
   bool is_damaged(unsigned int crack, CrackEnd end, const State &) const;
 
-  /// Whether the last piece is as open as the one before it lets expect of a viscous tip.
-  bool is_filled(unsigned int crack, CrackEnd end, const State &) const;
+  /// How far into the last piece at this end of a crack the fluid has come [m]: all of it, unless
+  /// there is suction in it, as in viscous fluid. Then from its volume and that of the piece
+  /// before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).
+  double reached_length(unsigned int crack, CrackEnd end, const State &) const;
 
   Parameters parameters;
   const Scene<dim> &scene;
