@@ -47,6 +47,7 @@ public:
     stepper.committed.bulk = system.ghosted_vector();
     system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
     the_case->scheme.initialise(stepper.committed);
+    dt = the_case->control.initial_step;
   }
 
   FractureModel<2> &model()
@@ -59,21 +60,18 @@ public:
     return the_case->network;
   }
 
-  /// Accepted steps of the length that the deck begins with.
-  void advance(const unsigned int n_steps)
+  /// One accepted step, of dt unless it is cut.
+  void advance()
   {
-    for (; step < n_steps; ++step)
-    {
-      stepper.advance(time, the_case->control.initial_step, step + 1);
-      time = stepper.last_context().time;
-      adaptation.adapt(system, stepper);
-    }
+    dt = stepper.advance(time, dt, ++step).next_dt;
+    time = stepper.last_context().time;
+    adaptation.adapt(system, stepper);
   }
 
   /// The next step begins: the iterate is the last accepted state.
   void begin_step()
   {
-    context = the_case->scheme.context(time, the_case->control.initial_step, step + 1, 0);
+    context = the_case->scheme.context(time, dt, step + 1, 0);
     current = stepper.committed;
     the_case->scheme.references(context, stepper.committed, rate_reference, acceleration_reference);
     model().begin_step(context);
@@ -148,7 +146,7 @@ public:
   MeshAdaptation<2> adaptation;
   Stepper<2> stepper;
 
-  double time = 0.;
+  double time = 0., dt; ///< dt: proposed for the next step
   unsigned int step = 0;
   StepContext context;
   Unknowns current, rate_reference, acceleration_reference;
