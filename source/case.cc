@@ -260,6 +260,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
                        "a quantity or a function, for subsection Verification names no reference "
                        "that gives fields");
     boundary_conditions.set_reference(reference->field());
+    walls_follow_reference = true;
   }
 }
 

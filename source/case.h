@@ -44,6 +44,9 @@ struct Case
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
   bool starts_from_reference;
 
+  /// The walls move as the reference says, so they are not felt.
+  bool walls_follow_reference = false;
+
   /// Nothing but prescribed displacements loads elastic rock, slowly: see Report.
   bool loaded_by_displacement;
 };

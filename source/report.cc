@@ -4,6 +4,8 @@
 
 #include "stockwork/base/progress.h"
 
+#include <algorithm>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -91,7 +93,14 @@ std::map<std::string, double> Report<dim>::observe()
         std::abs(external_work - values["stored_energy"] - summary.dissipated_energy) /
         external_work;
   }
+  const double time = stepper.last_context().time;
+  shown.n_tips = summary.n_tips;
+  shown.length = summary.length;
+  shown.process_zone = summary.length - summary.broken_length;
+  shown.grown_to(summary.length, time, 0.01 * (control.end_time - control.start_time));
   const FluidBalance &balance = stepper.fluid_balance();
+  shown.injected = balance.total.injected;
+  shown.leaked = balance.total.leaked;
   values["fracture_volume"] = balance.fracture_volume;
   values["injected_volume"] = balance.total.injected - balance.total.outflow;
   values["leaked_volume"] = balance.total.leaked;
@@ -100,6 +109,10 @@ std::map<std::string, double> Report<dim>::observe()
   {
     values["inlet_aperture"] = wells[0].inlet_aperture;
     values["inlet_pressure"] = wells[0].inlet_pressure;
+    shown.inlet_pressure = wells[0].inlet_pressure;
+    const auto pressures = network.pressures(stepper.committed);
+    shown.least_pressure = -system.collectives().max(
+      pressures.empty() ? -1e300 : -*std::min_element(pressures.begin(), pressures.end()));
     // Over the in-situ stress across the fracture, which is what analytical solutions call p.
     const auto &inlet = network.segments()[wells[0].inlet_segment];
     values["net_inlet_pressure"] =

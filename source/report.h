@@ -5,6 +5,7 @@
 
 #include "biot/in_situ.h"
 #include "coupling/stepper.h"
+#include "outcome_audit.h"
 #include "verification/error_record.h"
 
 #include <map>
@@ -45,6 +46,12 @@ public:
   /// After an accepted step. Collective.
   void add_step(unsigned int step, const StepReport &step_report);
 
+  /// For the audit of the assumptions.
+  const Outcome &outcome() const
+  {
+    return shown;
+  }
+
   /// Write summary.json and the table of times. Collective.
   void finish(unsigned long n_cells);
 
@@ -54,7 +61,7 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
       .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
-      .fluid_balance.relative_error &external_work &peak_load;
+      .fluid_balance.relative_error &external_work &peak_load &shown;
     if (errors)
       archive &*errors;
   }
@@ -78,6 +85,7 @@ private:
   StepControl control;
   std::string directory;
   StatisticsTable statistics;
+  Outcome shown;
   RunSummary summary;
   double start_of_run;
   std::unique_ptr<ErrorRecord<dim>> errors;

@@ -13,10 +13,6 @@ namespace stockwork
 {
 using namespace dealii;
 
-namespace
-{
-/// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
-/// it, the smallest over the directions [m].
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case)
 {
@@ -37,6 +33,15 @@ double distance_to_walls(const Case<dim> &the_case)
 }
 
 
+double rayleigh_speed(const RockProperties &rock)
+{
+  const double shear_speed = std::sqrt(rock.shear_modulus() / rock.density);
+  return shear_speed * (0.87 + 1.12 * rock.poisson_ratio) / (1. + rock.poisson_ratio);
+}
+
+
+namespace
+{
 template <int dim>
 void add_hydraulic_numbers(const Case<dim> &the_case,
                            const double rate,
@@ -56,11 +61,7 @@ void add_hydraulic_numbers(const Case<dim> &the_case,
   const analytical::Kgd kgd(parameters);
   const double duration = the_case.control.end_time - the_case.control.start_time;
   const double length = kgd.half_length(duration);
-  // Rayleigh speed, to 1 %: Viktorov's fit to c_s.
-  const double shear_speed = std::sqrt(rock.shear_modulus() / rock.density);
-  const double rayleigh =
-    shear_speed * (0.87 + 1.12 * rock.poisson_ratio) / (1. + rock.poisson_ratio);
-  const double speed = kgd.tip_speed(0.01 * duration) / rayleigh;
+  const double speed = kgd.tip_speed(0.01 * duration) / rayleigh_speed(rock);
   numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)", speed,
                      speed < 0.1 ? "inertia left out: waves settle long before the tip moves on"
                                  : "inertia matters: set Time/Inertia = on"});
@@ -154,6 +155,8 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const double 
 }
 
 
+template double distance_to_walls<2>(const Case<2> &);
+template double distance_to_walls<3>(const Case<3> &);
 template std::vector<SceneNumber> scene_numbers<2>(const Case<2> &, const double);
 template std::vector<SceneNumber> scene_numbers<3>(const Case<3> &, const double);
 template void print_scene_audit<2>(RunContext &, const Case<2> &, const double);

@@ -17,6 +17,14 @@ struct SceneNumber
   std::string consequence;
 };
 
+/// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
+/// it, the smallest over the directions [m].
+template <int dim>
+double distance_to_walls(const Case<dim> &the_case);
+
+/// To 1 %: Viktorov's fit to the shear wave speed [m/s].
+double rayleigh_speed(const RockProperties &rock);
+
 /// The numbers of a case, computed before the first step. Lengths and speeds of a fracture that is
 /// still to come are those of the plane-strain reference solution (analytical/kgd.h).
 ///

@@ -296,6 +296,7 @@ void Simulation<dim>::march()
     if (schedule.due(clock.step, run.communicator))
       save();
   }
+  audit_outcome(run, the_case, report.outcome());
   report.finish(triangulation.n_global_active_cells());
 }
 } // namespace

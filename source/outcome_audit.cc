@@ -1,0 +1,142 @@
+#include "outcome_audit.h"
+
+#include "scene_audit.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// Below this a gauge pressure is less than that of vacuum [Pa].
+constexpr double vacuum = -1e5;
+
+constexpr double compressibility_of_water = 4.5e-10; // 1/Pa
+
+std::string per_cent(const double fraction)
+{
+  std::ostringstream text;
+  text << std::setprecision(2) << 100. * fraction << " %";
+  return text.str();
+}
+} // namespace
+
+
+template <int dim>
+std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outcome &outcome)
+{
+  std::vector<Assumption> assumptions;
+  if (dim != 2 || the_case.scene.cracks.empty() || outcome.n_tips == 0 || !(outcome.injected > 0.))
+    return assumptions;
+  const RockProperties &rock = the_case.rock.main();
+  const Fluid &fluid = the_case.rock.fluid();
+  const double wing = outcome.length / outcome.n_tips;
+
+  if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
+  {
+    const double speed = outcome.greatest_tip_speed / rayleigh_speed(rock);
+    assumptions.push_back({"inertia left out: tip speed / Rayleigh speed", speed, speed < 0.1,
+                           speed < 0.1
+                             ? "waves settled long before the tips moved on"
+                             : "the fracture ran as fast as waves: set Time/Inertia = on"});
+  }
+
+  if (!the_case.walls_follow_reference)
+  {
+    const double walls = distance_to_walls(the_case) / wing;
+    // A crack of half length a between rollers has K/K_inf = 0.996 with walls at 20 a (all round),
+    // 0.945 at 5 a and 0.84 at 2.5 a: 1 - (1 to 1.6) (a/d)^2.
+    const double effect = 1.5 / (walls * walls);
+    assumptions.push_back({"walls far away: distance / length of a wing", walls, effect < 0.05,
+                           (effect < 0.05 ? "they change the stress intensity by about "
+                                          : "the walls govern the answer; they change the stress "
+                                            "intensity by about ") +
+                             per_cent(std::min(effect, 1.))});
+  }
+
+  if (!std::isnan(rock.energy_release_rate) && outcome.process_zone > 0.)
+  {
+    const double zone = outcome.process_zone / outcome.length;
+    assumptions.push_back(
+      {"short process zones: their length / that of the fracture", zone, zone < 0.2,
+       zone < 0.2 ? "toughness alone decides, not strength"
+                  : "strength decides with toughness: linear-elastic fracture mechanics does not "
+                    "describe this fracture"});
+  }
+
+  const bool suction = outcome.least_pressure < vacuum;
+  assumptions.push_back({"no fluid lag: least pressure in the fracture [Pa]",
+                         outcome.least_pressure, !suction,
+                         suction ? "less than vacuum: real fluid would lag behind the tip"
+                                 : "the fluid can fill the tips"});
+
+  if (fluid.compressibility == 0.)
+  {
+    const double share = outcome.inlet_pressure * compressibility_of_water;
+    assumptions.push_back(
+      {"incompressible fluid: pressure / bulk modulus of water", share, share < 0.02,
+       share < 0.02 ? "hardly any of the volume is compressed away" : "set Fluid/Bulk modulus"});
+  }
+
+  if (outcome.leaked > 0.)
+    assumptions.push_back(
+      {"leak-off: leaked / injected", outcome.leaked / outcome.injected, true, "as modelled"});
+  else if (!the_case.discretisation.has_pore_pressure && the_case.rock.bulk_model() == "auto")
+  {
+    // Carter's coefficient where the pore fluid resists (Howard & Fast 1957), as if the whole
+    // fracture had been open all the time.
+    const auto &corners = the_case.scene.cracks[0].points;
+    const double excess = outcome.inlet_pressure - the_case.in_situ.pore_pressure(corners.front());
+    const double storage =
+      rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient /
+                                    (rock.lame_lambda() + 2. * rock.shear_modulus());
+    const double carter =
+      excess * std::sqrt(rock.permeability * storage / (numbers::PI * fluid.viscosity));
+    const double duration = the_case.control.end_time - the_case.control.start_time;
+    const double share = 4. * carter * std::sqrt(duration) * outcome.length / outcome.injected;
+    assumptions.push_back({"impermeable rock: Carter's estimate of leaked / injected", share,
+                           share < 0.05,
+                           share < 0.05 ? "the rock would take next to nothing"
+                                        : "the rock would take a good deal: set Fracture "
+                                          "flow/Leak-off, or Rock/Bulk model = elastic if its "
+                                          "permeability is meant to be nil"});
+  }
+  return assumptions;
+}
+
+
+template <int dim>
+void audit_outcome(RunContext &run, const Case<dim> &the_case, const Outcome &outcome)
+{
+  const auto assumptions = check_assumptions(the_case, outcome);
+  if (assumptions.empty())
+    return;
+  run.out << "\nAssumptions after the run\n";
+  std::vector<std::string> violated;
+  for (const Assumption &assumption : assumptions)
+  {
+    std::ostringstream text;
+    text << assumption.name << " = " << std::setprecision(3) << assumption.value << ": "
+         << assumption.judgement;
+    run.out << (assumption.holds ? "  holds     " : "  DOES NOT  ") << text.str() << '\n';
+    if (!assumption.holds)
+      violated.push_back(text.str());
+  }
+  run.out << std::flush;
+  for (const std::string &text : violated)
+    run.warn("An assumption does not hold. " + text + ".");
+}
+
+
+template std::vector<Assumption> check_assumptions<2>(const Case<2> &, const Outcome &);
+template std::vector<Assumption> check_assumptions<3>(const Case<3> &, const Outcome &);
+template void audit_outcome<2>(RunContext &, const Case<2> &, const Outcome &);
+template void audit_outcome<3>(RunContext &, const Case<3> &, const Outcome &);
+} // namespace stockwork

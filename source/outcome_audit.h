@@ -1,0 +1,65 @@
+#pragma once
+
+#include "stockwork/base/run_context.h"
+
+#include "case.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// What a run has shown of the assumptions it was made with. Collected step by step.
+struct Outcome
+{
+  double length = 0.;             ///< of all cracks at the end [m]
+  double process_zone = 0.;       ///< part of it that still has strength [m]
+  unsigned int n_tips = 0;        ///< at the end
+  double greatest_tip_speed = 0.; ///< of one tip, averaged over a hundredth of the run [m/s]
+  double injected = 0.;           ///< [m^2]
+  double leaked = 0.;             ///< [m^2]
+  double inlet_pressure = 0.;     ///< total, at the end [Pa]
+  double least_pressure = 0.;     ///< total, of all segments at the end [Pa]
+
+  /// The cracks had this length at this time.
+  void grown_to(double new_length, double time, double window)
+  {
+    if (time - last_time < window)
+      return;
+    if (n_tips > 0 && last_time > 0.)
+      greatest_tip_speed =
+        std::max(greatest_tip_speed, (new_length - last_length) / (time - last_time) / n_tips);
+    last_length = new_length;
+    last_time = time;
+  }
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &greatest_tip_speed &last_length &last_time;
+  }
+
+private:
+  double last_length = 0., last_time = 0.;
+};
+
+/// An assumption held against the outcome.
+struct Assumption
+{
+  std::string name;
+  double value;
+  bool holds;
+  std::string judgement; ///< what the number means
+};
+
+/// The assumptions of a fluid-driven fracture in two dimensions that only the outcome can confirm,
+/// as far as the case makes them: no inertia, walls far away, a process zone and a fluid lag that
+/// are short, a fluid and a rock that take up no fluid. Empty without injection.
+template <int dim>
+std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outcome &outcome);
+
+/// Print them; those that do not hold are warnings of the run.
+template <int dim>
+void audit_outcome(RunContext &run, const Case<dim> &the_case, const Outcome &outcome);
+} // namespace stockwork

@@ -1,0 +1,10 @@
+# What was left out is held against what has happened: one second of injection into a toughness-
+# dominated fracture leaves it hardly longer than its process zone, and in rock of 1 md most of the fluid
+# would have leaked; the viscosity-dominated one sucks at its tip. (That nothing is said where
+# everything holds is part of convergence/kgd/toughness.)
+stockwork_case_test(NAME convergence/assumptions/short DECK prm/kgd/toughness/cohesive_xfem.prm
+  LABELS quick SET "Time/End time=1 s" "Rock/Bulk model=auto" "Rock/Permeability=1 md"
+  EXPECT "warnings >= 2" WARNS "short process zones" "impermeable rock")
+stockwork_case_test(NAME convergence/assumptions/suction DECK prm/kgd/viscosity/cohesive_xfem.prm
+  SET "Resolution=coarse" "Time/End time=2 s"
+  EXPECT "warnings >= 1" WARNS "less than vacuum")
