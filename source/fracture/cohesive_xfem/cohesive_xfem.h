@@ -90,6 +90,7 @@ private:
 
   // History, the same on all ranks, by key of the piece.
   std::unordered_map<std::uint64_t, PointDamage> committed_damage;
+  std::unordered_map<std::uint64_t, double> committed_reach; ///< of pieces at ends [m]
   std::vector<CrackPath<dim>> committed_paths;
   double dissipated = 0.; ///< [J/m]
   bool started = false;   ///< a step has been accepted

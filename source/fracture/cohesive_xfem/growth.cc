@@ -1,0 +1,214 @@
+#include "fracture/cohesive_xfem/cohesive_xfem.h"
+
+#include "fracture/cohesive_xfem/tip_stress.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace stockwork::cohesive_xfem
+{
+using dealii::Tensor;
+
+namespace
+{
+/// Unit vector in the direction of v, its angle rounded to 1e-6, so that the noise of a solver
+/// neither tilts a crack nor tells numbers of ranks apart.
+Tensor<1, 2> rounded_direction(const Tensor<1, 2> &v)
+{
+  const double grid = 1e-6;
+  const double angle = std::round(std::atan2(v[1], v[0]) / grid) * grid;
+  Tensor<1, 2> t;
+  t[0] = std::cos(angle);
+  t[1] = std::sin(angle);
+  // Rounding leaves 1e-7 of a right angle; along the axes a crack shall be exactly straight.
+  for (unsigned int d = 0; d < 2; ++d)
+    if (std::abs(t[d]) < grid)
+    {
+      t[d] = 0.;
+      t[1 - d] = t[1 - d] > 0. ? 1. : -1.;
+    }
+  return t;
+}
+} // namespace
+
+template <int dim>
+bool CohesiveXFEM<dim>::is_damaged(const unsigned int crack,
+                                   const CrackEnd end,
+                                   const State &state) const
+{
+  const auto &pieces = discontinuity.paths()[crack].pieces;
+  const unsigned int i = end == CrackEnd::first ? 0 : pieces.size() - 1;
+  const auto &columns = discontinuity.enrichment().columns(crack, i);
+  const JumpShapes<dim> shapes(pieces[i]);
+  const PointDamage history = damage(pieces[i]);
+  for (unsigned int q = 0; q < n_points; ++q)
+    if (law.evaluate(separation(pieces[i], shapes, q, columns, state.current.extra), history[q])
+          .damage > 0.)
+      return true;
+  return false;
+}
+
+
+template <int dim>
+double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
+                                         const CrackEnd end,
+                                         const State &state) const
+{
+  const auto &pieces = discontinuity.paths()[crack].pieces;
+  const unsigned int last = end == CrackEnd::first ? 0 : pieces.size() - 1;
+  const double length = pieces[last].length();
+  if (pieces.size() < 2 || !state.segment_pressure || !std::isnan(scene.crack_pressure))
+    return length;
+  const Tensor<1, dim> n = pieces[last].normal();
+  const double closing_stress = -(n * (scene.in_situ_stress(pieces[last].centre()) * n));
+  if (state.segment_pressure(pieces[last].key(scene.domain_size)) >= closing_stress)
+    return length;
+
+  const auto volume = [&](const unsigned int i)
+  {
+    const auto &columns = discontinuity.enrichment().columns(crack, i);
+    const JumpShapes<dim> shapes(pieces[i]);
+    double sum = 0.;
+    for (unsigned int q = 0; q < n_points; ++q)
+      sum += separation(pieces[i], shapes, q, columns, state.current.extra).normal;
+    return std::max(sum / n_points * pieces[i].length(), 0.);
+  };
+  const unsigned int next = end == CrackEnd::first ? 1 : pieces.size() - 2;
+  const double in_last = volume(last), in_next = volume(next);
+  if (in_last == 0. || in_next == 0.)
+    return 0.;
+  // With w ~ x^(2/3) at the distance x from the front, V ~ x^(5/3) is beyond any place.
+  const double ratio = std::pow(in_last / (in_last + in_next), 0.6);
+  return std::min(length, pieces[next].length() * ratio / (1. - ratio));
+}
+
+
+template <int dim>
+Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
+                                   const State &state,
+                                   const Collectives &collectives)
+{
+  using Advance = typename Discontinuity<dim>::Advance;
+  using Outcome = typename Discontinuity<dim>::Outcome;
+
+  const RockProperties &rock = scene.rock.main();
+  const double cohesive_length =
+    rock.plane_modulus() * rock.energy_release_rate / (law.strength * law.strength);
+
+  Verdict verdict;
+  std::vector<Advance> tips;
+  std::vector<HalfDisc<dim>> discs; // for the growth of each tip, and for its direction
+  bool held_back = false;
+  if (parameters.growth)
+    for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+      for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+      {
+        const CrackPath<dim> &path = discontinuity.paths()[c];
+        if (!path.is_tip[static_cast<int>(end)])
+          continue;
+        const double h = path.piece_at(end).cell_size();
+        const double radius =
+          std::min(parameters.averaging_radius * h, std::max(0.5 * cohesive_length, 1.2 * h));
+        tips.push_back({c, end, path.direction(end)});
+        discs.push_back({path.tip(end), path.direction(end), radius});
+        discs.push_back({path.tip(end), path.direction(end), parameters.direction_radius * h});
+      }
+
+  const auto stresses =
+    average_stress(discs, *discretization, discontinuity, scene, state, collectives);
+  std::vector<Advance> growing;
+  std::vector<double> pressures;
+  for (unsigned int i = 0; i < tips.size(); ++i)
+  {
+    const CrackPiece<dim> &last = discontinuity.paths()[tips[i].crack].piece_at(tips[i].end);
+    const double pressure =
+      state.segment_pressure ? state.segment_pressure(last.key(scene.domain_size)) : 0.;
+    const auto &stress = stresses[2 * i];
+    Tensor<1, dim> across;
+    across[0] = -tips[i].direction[1];
+    across[1] = tips[i].direction[0];
+    // One intact cell is enough: where the fluid's pressure alone exceeds the strength, cutting
+    // would never end.
+    if (!is_damaged(tips[i].crack, tips[i].end, state))
+      continue;
+    // Suction at the tip and the tension ahead, both many times the strength, leave a difference
+    // that tells nothing: there the fluid has to have arrived.
+    if (reached_length(tips[i].crack, tips[i].end, state) < 0.8 * last.length())
+      continue;
+    const double drive = pressure + (parameters.straight ? across * (stress * across)
+                                                         : dealii::eigenvalues(stress)[0]);
+    if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
+      continue;
+    if (advances[tips[i].crack][static_cast<int>(tips[i].end)] >= parameters.most_advances)
+    {
+      held_back = true;
+      continue;
+    }
+    // Orthogonal to the largest tension, forward.
+    const Tensor<1, dim> normal = dealii::eigenvectors(stresses[2 * i + 1])[0].second;
+    Tensor<1, dim> direction;
+    direction[0] = -normal[1];
+    direction[1] = normal[0];
+    if (direction * tips[i].direction < 0.)
+      direction *= -1.;
+    if (!parameters.straight)
+      tips[i].direction = rounded_direction(direction);
+    growing.push_back(tips[i]);
+    pressures.push_back(pressure);
+  }
+
+  bool grown = false, needs_mesh = false;
+  if (!growing.empty())
+  {
+    const auto outcomes = discontinuity.grow(growing, collectives);
+    for (unsigned int i = 0; i < growing.size(); ++i)
+    {
+      const unsigned int crack = growing[i].crack, end = static_cast<unsigned int>(growing[i].end);
+      const auto &path = discontinuity.paths()[crack];
+      std::ostringstream where;
+      where << "Crack " << crack + 1 << " at (" << path.tip(growing[i].end) << ") ";
+      if (outcomes[i] == Outcome::grown || outcomes[i] == Outcome::reached_boundary)
+      {
+        grown = true;
+        ++advances[crack][end];
+        initial_pressure[path.piece_at(growing[i].end).key(scene.domain_size)] = pressures[i];
+      }
+      if (outcomes[i] == Outcome::reached_boundary)
+        messages.push_back(where.str() + "has reached the boundary of the domain.");
+      if (outcomes[i] == Outcome::reached_crack)
+      {
+        discontinuity.stop(crack, growing[i].end);
+        messages.push_back(where.str() + "has met another crack and stops: crossing and "
+                                         "branching cracks are not supported.");
+      }
+      needs_mesh |= outcomes[i] == Outcome::needs_mesh;
+    }
+    refresh_segments();
+  }
+
+  if (grown)
+  {
+    verdict.kind = Verdict::Kind::topology_changed;
+    return verdict;
+  }
+  unsigned int most = 0;
+  for (const auto &ends : advances)
+    most = std::max({most, ends[0], ends[1]});
+  // In the end, a tip advances in every other step: with an advance in each, the error in time of a
+  // fracture driven through viscous fluid is as large as that in space.
+  verdict.dt_limit = context.dt * (held_back || needs_mesh ? 0.5
+                                   : most > 1              ? 0.6
+                                   : most == 1             ? 0.8
+                                                           : 1.25);
+  if (held_back)
+    verdict.reason = "a tip wants to advance by more than " +
+                     std::to_string(parameters.most_advances) + " cells in a step";
+  if (needs_mesh)
+    verdict.reason = "a tip waits for the mesh to be refined ahead of it";
+  return verdict;
+}
+
+template bool CohesiveXFEM<2>::is_damaged(unsigned int, CrackEnd, const State &) const;
+template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
+template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);
+} // namespace stockwork::cohesive_xfem
