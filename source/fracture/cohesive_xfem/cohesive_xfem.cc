@@ -4,6 +4,7 @@
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/unordered_map.hpp>
+#include <boost/serialization/unordered_set.hpp>
 #include <boost/serialization/vector.hpp>
 
 #include "stockwork/base/error.h"
@@ -98,6 +99,7 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
 
   committed_damage.clear();
   committed_reach.clear();
+  committed_bare_tips.clear();
   initial_pressure.clear();
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
     for (const auto &piece : discontinuity.paths()[c].pieces)
@@ -107,11 +109,14 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
       d.fill(scene.cracks[c].kind == InitialCrack<dim>::Kind::open ? 1. : 0.);
       committed_damage[key] = d;
       committed_reach[key] = piece.length();
+      if (d[0] >= 1.)
+        committed_bare_tips.insert(key);
       // The pressure at which the crack begins to open.
       const auto n = piece.normal();
       initial_pressure[key] = std::max(0., -(n * (scene.in_situ_stress(piece.centre()) * n)));
     }
   committed_paths = discontinuity.paths();
+  bare_tips = committed_bare_tips;
 }
 
 
@@ -122,6 +127,7 @@ void CohesiveXFEM<dim>::refresh_segments()
   for (Segment<dim> &segment : all_segments)
   {
     segment.given_pressure = scene.crack_pressure;
+    segment.at_tip = segment.at_tip && bare_tips.count(segment.key) != 0;
     // Half of the leak-off in the middle of the cohesive zone, where the tip of an elastic fracture
     // with the same toughness would be.
     segment.bare_aperture = 0.7 * law.critical_opening();
@@ -258,6 +264,7 @@ void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
   initial_pressure.clear();
 
   std::unordered_map<std::uint64_t, double> reach;
+  committed_bare_tips.clear();
   for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
     for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
     {
@@ -265,14 +272,18 @@ void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
       const auto old = committed_reach.find(key);
       reach[key] =
         std::max(reached_length(c, end, state), old == committed_reach.end() ? 0. : old->second);
+      if (bare_tips.count(key) != 0)
+        committed_bare_tips.insert(key);
     }
   committed_reach.swap(reach);
+  bare_tips = committed_bare_tips;
 }
 
 
 template <int dim>
 void CohesiveXFEM<dim>::rollback()
 {
+  bare_tips = committed_bare_tips;
   discontinuity.restore(committed_paths);
   messages.resize(n_messages_before);
   begin_step({});
@@ -311,8 +322,8 @@ std::vector<std::string> CohesiveXFEM<dim>::take_messages()
 template <int dim>
 void CohesiveXFEM<dim>::save(boost::archive::binary_oarchive &archive) const
 {
-  archive << committed_paths << committed_damage << committed_reach << dissipated << started
-          << law.strength;
+  archive << committed_paths << committed_damage << committed_reach << committed_bare_tips
+          << dissipated << started << law.strength;
 }
 
 
@@ -320,10 +331,11 @@ template <int dim>
 void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
 {
   double strength;
-  archive >> committed_paths >> committed_damage >> committed_reach >> dissipated >> started >>
-    strength;
+  archive >> committed_paths >> committed_damage >> committed_reach >> committed_bare_tips >>
+    dissipated >> started >> strength;
   law = make_law(parameters, scene.rock.main(), strength);
   initial_pressure.clear();
+  bare_tips = committed_bare_tips;
   discontinuity.replace(committed_paths);
   if (discretization)
   {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace stockwork::cohesive_xfem
 {
@@ -72,12 +73,12 @@ private:
                          const std::vector<EnrichedColumn> &columns,
                          const std::vector<double> &a) const;
 
-  /// Whether the last piece at this end of a crack has begun to break.
-  bool is_damaged(unsigned int crack, CrackEnd end, const State &) const;
+  /// Share of the last piece at this end of a crack whose damage is at least so much.
+  double damaged_share(unsigned int crack, CrackEnd end, double least, const State &) const;
 
   /// How far into the last piece at this end of a crack the fluid has come [m]: all of it, unless
-  /// there is suction in it, as in viscous fluid. Then from its volume and that of the piece
-  /// before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).
+  /// there is suction in it, as in viscous fluid, and the tip is bare. Then from its volume and
+  /// that of the piece before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).
   double reached_length(unsigned int crack, CrackEnd end, const State &) const;
 
   Parameters parameters;
@@ -91,6 +92,9 @@ private:
   // History, the same on all ranks, by key of the piece.
   std::unordered_map<std::uint64_t, PointDamage> committed_damage;
   std::unordered_map<std::uint64_t, double> committed_reach; ///< of pieces at ends [m]
+  /// Pieces at ends to which the rock is broken, without a cohesive zone that spans cells: the
+  /// fluid alone makes the shape of such a tip.
+  std::unordered_set<std::uint64_t> committed_bare_tips;
   std::vector<CrackPath<dim>> committed_paths;
   double dissipated = 0.; ///< [J/m]
   bool started = false;   ///< a step has been accepted
@@ -99,5 +103,6 @@ private:
   std::size_t n_messages_before = 0;                 ///< messages that a rollback leaves
   std::vector<std::array<unsigned int, 2>> advances; ///< cells, by crack and end
   std::unordered_map<std::uint64_t, double> initial_pressure;
+  std::unordered_set<std::uint64_t> bare_tips;
 };
 } // namespace stockwork::cohesive_xfem

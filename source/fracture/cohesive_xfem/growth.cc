@@ -32,20 +32,22 @@ Tensor<1, 2> rounded_direction(const Tensor<1, 2> &v)
 } // namespace
 
 template <int dim>
-bool CohesiveXFEM<dim>::is_damaged(const unsigned int crack,
-                                   const CrackEnd end,
-                                   const State &state) const
+double CohesiveXFEM<dim>::damaged_share(const unsigned int crack,
+                                        const CrackEnd end,
+                                        const double least,
+                                        const State &state) const
 {
   const auto &pieces = discontinuity.paths()[crack].pieces;
   const unsigned int i = end == CrackEnd::first ? 0 : pieces.size() - 1;
   const auto &columns = discontinuity.enrichment().columns(crack, i);
   const JumpShapes<dim> shapes(pieces[i]);
   const PointDamage history = damage(pieces[i]);
+  unsigned int count = 0;
   for (unsigned int q = 0; q < n_points; ++q)
-    if (law.evaluate(separation(pieces[i], shapes, q, columns, state.current.extra), history[q])
-          .damage > 0.)
-      return true;
-  return false;
+    count +=
+      law.evaluate(separation(pieces[i], shapes, q, columns, state.current.extra), history[q])
+        .damage >= least;
+  return double(count) / n_points;
 }
 
 
@@ -57,11 +59,13 @@ double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
   const auto &pieces = discontinuity.paths()[crack].pieces;
   const unsigned int last = end == CrackEnd::first ? 0 : pieces.size() - 1;
   const double length = pieces[last].length();
-  if (pieces.size() < 2 || !state.segment_pressure || !std::isnan(scene.crack_pressure))
+  const std::uint64_t key = pieces[last].key(scene.domain_size);
+  if (pieces.size() < 2 || bare_tips.count(key) == 0 || !state.segment_pressure ||
+      !std::isnan(scene.crack_pressure))
     return length;
   const Tensor<1, dim> n = pieces[last].normal();
   const double closing_stress = -(n * (scene.in_situ_stress(pieces[last].centre()) * n));
-  if (state.segment_pressure(pieces[last].key(scene.domain_size)) >= closing_stress)
+  if (state.segment_pressure(key) >= closing_stress)
     return length;
 
   const auto volume = [&](const unsigned int i)
@@ -118,6 +122,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     average_stress(discs, *discretization, discontinuity, scene, state, collectives);
   std::vector<Advance> growing;
   std::vector<double> pressures;
+  std::vector<bool> broken; // behind the new tip
   for (unsigned int i = 0; i < tips.size(); ++i)
   {
     const CrackPiece<dim> &last = discontinuity.paths()[tips[i].crack].piece_at(tips[i].end);
@@ -129,7 +134,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     across[1] = tips[i].direction[0];
     // One intact cell is enough: where the fluid's pressure alone exceeds the strength, cutting
     // would never end.
-    if (!is_damaged(tips[i].crack, tips[i].end, state))
+    if (damaged_share(tips[i].crack, tips[i].end, 1e-12, state) == 0.)
       continue;
     // Suction at the tip and the tension ahead, both many times the strength, leave a difference
     // that tells nothing: there the fluid has to have arrived.
@@ -154,6 +159,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     if (!parameters.straight)
       tips[i].direction = rounded_direction(direction);
     growing.push_back(tips[i]);
+    broken.push_back(damaged_share(tips[i].crack, tips[i].end, 1., state) >= 0.5);
     pressures.push_back(pressure);
   }
 
@@ -171,7 +177,10 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
       {
         grown = true;
         ++advances[crack][end];
-        initial_pressure[path.piece_at(growing[i].end).key(scene.domain_size)] = pressures[i];
+        const std::uint64_t key = path.piece_at(growing[i].end).key(scene.domain_size);
+        initial_pressure[key] = pressures[i];
+        if (broken[i])
+          bare_tips.insert(key);
       }
       if (outcomes[i] == Outcome::reached_boundary)
         messages.push_back(where.str() + "has reached the boundary of the domain.");
@@ -208,7 +217,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
   return verdict;
 }
 
-template bool CohesiveXFEM<2>::is_damaged(unsigned int, CrackEnd, const State &) const;
+template double CohesiveXFEM<2>::damaged_share(unsigned int, CrackEnd, double, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);
 } // namespace stockwork::cohesive_xfem
