@@ -88,7 +88,10 @@ int run_program(const CommandLine &command_line, RunContext &run)
 int main(int argc, char **argv)
 {
   using namespace stockwork;
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // The options are ours: newer PETSc, which deal.II starts, complains of those that it does not
+  // know.
+  int n_arguments = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, argv, 1);
   RunContext run(MPI_COMM_WORLD);
 
   // A failure is the same on all ranks, or the others would wait for ever: rank 0 speaks, and the

@@ -6,6 +6,7 @@
 
 int main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  int n_arguments = 1; // the options are for doctest
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, argv, 1);
   return doctest::Context(argc, argv).run();
 }
