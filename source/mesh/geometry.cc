@@ -313,13 +313,21 @@ void Geometry<dim>::read_gmsh(ParameterHandler &prm, const std::string &deck_dir
   prm.leave_subsection();
 }
 
+namespace
+{
+template <int dim>
+std::string example_box()
+{
+  return dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)";
+}
+} // namespace
+
 template <int dim>
 void Geometry<dim>::parse_refinement(ParameterHandler &prm)
 {
   refinement_boxes.clear();
   interpret_entry(prm, "Mesh", "Refinement boxes",
-                  "a list of boxes with cell sizes, '0.1 m: " +
-                    std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") + "'",
+                  "a list of boxes with cell sizes, '0.1 m: " + example_box<dim>() + "'",
                   [&](const std::string &text)
                   {
                     for (const auto &item : parse_boxes<dim>(text))
@@ -340,23 +348,20 @@ void Geometry<dim>::parse_regions(ParameterHandler &prm)
   types::material_id next = 1;
   for (const auto &region : regions)
     next = std::max(next, region.second + 1);
-  interpret_entry(prm, "Mesh", "Region boxes",
-                  "a list of numbered boxes, '1: " +
-                    std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") + "'",
-                  [&](const std::string &text)
-                  {
-                    for (const auto &item : parse_boxes<dim>(text))
-                    {
-                      if (item.label.empty())
-                        throw InputError("a box has no name");
-                      const bool is_number =
-                        item.label.find_first_not_of("0123456789") == std::string::npos;
-                      const auto known =
-                        regions.emplace(item.label, is_number ? std::stoul(item.label) : next);
-                      next = std::max(next, known.first->second + 1);
-                      region_boxes.push_back({item.box, known.first->second});
-                    }
-                  });
+  interpret_entry(
+    prm, "Mesh", "Region boxes", "a list of numbered boxes, '1: " + example_box<dim>() + "'",
+    [&](const std::string &text)
+    {
+      for (const auto &item : parse_boxes<dim>(text))
+      {
+        if (item.label.empty())
+          throw InputError("a box has no name");
+        const bool is_number = item.label.find_first_not_of("0123456789") == std::string::npos;
+        const auto known = regions.emplace(item.label, is_number ? std::stoul(item.label) : next);
+        next = std::max(next, known.first->second + 1);
+        region_boxes.push_back({item.box, known.first->second});
+      }
+    });
 }
 
 template <int dim>
@@ -367,8 +372,7 @@ void Geometry<dim>::parse_sides(ParameterHandler &prm)
   for (const auto &side : sides)
     next = std::max(next, side.second + 1);
   interpret_entry(prm, "Mesh", "Side boxes",
-                  "a list of named boxes, 'grip: " +
-                    std::string(dim == 2 ? "(0, -1) to (5, 1)" : "(0, -1, -1) to (5, 1, 1)") + "'",
+                  "a list of named boxes, 'grip: " + example_box<dim>() + "'",
                   [&](const std::string &text)
                   {
                     for (const auto &item : parse_boxes<dim>(text))
