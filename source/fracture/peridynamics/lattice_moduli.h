@@ -1,0 +1,84 @@
+#pragma once
+
+#include "fracture/peridynamics/bond_law.h"
+#include "stockwork/biot/rock.h"
+
+namespace stockwork::peridynamics
+{
+/// Stiffness of the infinite lattice under homogeneous strain, which has cubic symmetry [Pa].
+struct LatticeModuli
+{
+  double c11, c12, c44;
+  int dim;
+
+  /// (C11 + (d-1) C12)/d: in 2-D the area modulus, for a bond-based plane 0.8 E.
+  double bulk() const
+  {
+    return (c11 + (dim - 1) * c12) / dim;
+  }
+
+  /// The mean of the shear modulus over all directions of the lattice (Voigt).
+  double mean_shear() const
+  {
+    return dim == 2 ? ((c11 - c12) / 2. + c44) / 2. : (c11 - c12 + 3. * c44) / 5.;
+  }
+
+  /// (C11 - C12)/(2 C44): one for an isotropic lattice.
+  double anisotropy() const
+  {
+    return (c11 - c12) / (2. * c44);
+  }
+};
+
+/// C_ijkl = 1/2 c sum_b beta V |xi| e_i e_j e_k e_l + A delta_ij delta_kl.
+template <int dim>
+LatticeModuli lattice_moduli(const std::vector<StencilBond<dim>> &stencil,
+                             const BondLaw &law,
+                             const double spacing);
+
+/// q = sum_b beta V |xi| [m^(d+1)]; in the limit of a fine lattice 2 pi delta^3/3 (2-D), pi
+/// delta^4.
+template <int dim>
+double weighted_volume(const std::vector<StencilBond<dim>> &stencil, const double spacing);
+
+/// Eq. 8b, and 12 E/(pi delta^4) in 3-D (Silling and Askari 2005): the micromodulus that is exact
+/// when the sum over the horizon is an integral. Both are 2 d (d+2) G/q, @p rock having the
+/// Poisson's ratio of bond-based peridynamics.
+template <int dim>
+double continuum_micromodulus(const RockProperties &rock, const double horizon);
+
+/// Bond-based law of @p rock, calibrated: c = 2 d (d+2) G/q with the lattice's own sum q. Then C11
+/// + (d-1) C12 is exact and the mean shear modulus is, too; what remains is the anisotropy, 3 % for
+/// m = 3 with exact volumes and none with VolumeRule::isotropic.
+template <int dim>
+BondLaw bond_based_law(const RockProperties &rock,
+                       const std::vector<StencilBond<dim>> &stencil,
+                       const double spacing);
+
+/// Poisson's ratio of a bond-based rock, for which lambda = G: 1/4, and 1/3 in plane stress.
+double bond_based_poisson_ratio(const bool plane_stress);
+
+/// Energy per area [J/m^2] in a lattice all of whose bonds across a plane between two layers of
+/// sites have @p stretch, and no others.
+template <int dim>
+double crossing_energy(const std::vector<StencilBond<dim>> &stencil,
+                       const BondLaw &law,
+                       const double spacing,
+                       const double stretch);
+
+/// The stretch for which the crossing energy is G_c when sums are integrals [-]. Bond-based Eq. 19
+/// (plane strain and plane stress) and sqrt(5 G_c/(9 K delta)) in 3-D (Silling and Askari 2005),
+/// all of them (G_c/(g delta G))^1/2 with g = 6/pi in a plane and 3 in space; state-based with the
+/// energy of the dilatation, which adds 0.32260 (lambda - G) and 26/45 (lambda - G) to g G.
+template <int dim>
+double continuum_critical_stretch(const RockProperties &rock,
+                                  const double horizon,
+                                  const bool state_based = false);
+
+/// What a critical stretch is multiplied by so that a crack along the lattice grows steadily at
+/// G_c. Lattice trapping makes it need J_max/G_c = 1.78 (m = 2), 1.31 (3), 1.17 (4), measured for
+/// plane strain with exact volumes under a moving K-field; the factor is the square root of the
+/// inverse. Beyond, the excess is taken to fall as it does from 2 to 4, like m^-2; 3-D uses the
+/// same.
+double trapping_factor(const unsigned int m);
+} // namespace stockwork::peridynamics

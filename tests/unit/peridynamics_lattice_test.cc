@@ -1,0 +1,231 @@
+// The uniform lattice of peridynamics: bond volumes, stiffness, energy of a cut, calibration.
+#include <doctest/doctest.h>
+
+#include "fracture/peridynamics/lattice_moduli.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace stockwork::peridynamics_lattice_test
+{
+using namespace stockwork::peridynamics;
+
+namespace
+{
+RockProperties rock(const double poisson_ratio, const bool plane_stress = false)
+{
+  RockProperties rock;
+  rock.young_modulus = 1e10;
+  rock.poisson_ratio = poisson_ratio;
+  rock.plane_stress = plane_stress;
+  rock.energy_release_rate = 100.;
+  return rock;
+}
+
+/// The law with the constants of the continuum.
+template <int dim>
+BondLaw uncalibrated(const RockProperties &rock, const double horizon)
+{
+  return {continuum_micromodulus<dim>(rock, horizon), 0., 1.};
+}
+
+/// Percent.
+double error(const double value, const double exact)
+{
+  return 100. * (value / exact - 1.);
+}
+
+const double spacing = 0.125;
+} // namespace
+
+TEST_CASE("the study's table: stiffness and energy of a line with the constants of the continuum")
+{
+  // Errors in percent of C11, C12, their sum and the energy of a grid-aligned line; plane strain.
+  // Values of an independent prototype; it printed the energy for m = 3 and 4 only.
+  struct Row
+  {
+    VolumeRule rule;
+    unsigned int m;
+    double c11, c12, bulk, line, precision;
+  };
+  const double none = std::nan("");
+  for (const Row &row : {Row{VolumeRule::full, 2, 18., -32., 5.4, none, 0.5},
+                         Row{VolumeRule::full, 3, 5.3, 0.5, 4.1, 2.6, 0.05},
+                         Row{VolumeRule::full, 4, -2.6, -7.3, -3.8, -7.1, 0.05},
+                         Row{VolumeRule::ramp, 2, -14., -32., -18., none, 0.5},
+                         Row{VolumeRule::ramp, 3, -13., -13., -13., -18., 0.5},
+                         Row{VolumeRule::ramp, 4, -12., -11., -12., -16., 0.5},
+                         Row{VolumeRule::exact, 2, 5.2, -4.3, 2.8, none, 0.05},
+                         Row{VolumeRule::exact, 3, 2.2, -1.0, 1.4, 2.8, 0.05},
+                         Row{VolumeRule::exact, 4, 1.1, -0.2, 0.8, 1.5, 0.05}})
+  {
+    CAPTURE(row.m);
+    const auto stencil = horizon_stencil<2>(row.m, row.rule);
+    const double horizon = row.m * spacing;
+    const RockProperties r = rock(0.25);
+    const BondLaw law = uncalibrated<2>(r, horizon);
+    const double E = r.young_modulus;
+    const auto moduli = lattice_moduli(stencil, law, spacing);
+    CHECK(std::abs(error(moduli.c11, 1.2 * E) - row.c11) <= row.precision);
+    CHECK(std::abs(error(moduli.c12, 0.4 * E) - row.c12) <= row.precision);
+    CHECK(std::abs(error(moduli.c11 + moduli.c12, 1.6 * E) - row.bulk) <=
+          std::min(row.precision, row.m == 2 ? 0.5 : 1.));
+    if (!std::isnan(row.line))
+    {
+      const double s_c = continuum_critical_stretch<2>(r, horizon);
+      CHECK(std::abs(error(crossing_energy(stencil, law, spacing, s_c), 100.) - row.line) <=
+            row.precision);
+    }
+  }
+}
+
+TEST_CASE("number of bonds")
+{
+  CHECK(horizon_stencil<2>(3, VolumeRule::full).size() == 28);
+  CHECK(horizon_stencil<2>(3, VolumeRule::exact).size() == 44);
+  CHECK(horizon_stencil<2>(4, VolumeRule::exact).size() == 68);
+  // Neighbours within 3 spacings in the cubic lattice.
+  CHECK(horizon_stencil<3>(3, VolumeRule::full).size() == 122);
+}
+
+TEST_CASE_TEMPLATE("exact shares fill the horizon",
+                   D,
+                   std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+  constexpr int dim = D::value;
+  for (unsigned int m = 2; m <= 6; ++m)
+  {
+    double sum = 1.; // the site's own cell
+    for (const auto &bond : horizon_stencil<dim>(m, VolumeRule::exact))
+      sum += bond.volume_fraction;
+    CHECK(sum ==
+          doctest::Approx(dim == 2 ? M_PI * m * m : 4. / 3. * M_PI * m * m * m).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the share of a cell on the axis of a ball")
+{
+  // Cap: cell (3,0,0) of m = 3 is [2.5,3.5] x [-.5,.5]^2; by the midpoint rule on 400^2 columns.
+  double volume = 0.;
+  const int n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+    {
+      const double y = (i + 0.5) / n - 0.5, z = (j + 0.5) / n - 0.5;
+      volume += (std::sqrt(9. - y * y - z * z) - 2.5) / (n * n);
+    }
+  for (const auto &bond : horizon_stencil<3>(3, VolumeRule::exact))
+    if (bond.offset == std::array<int, 3>{{3, 0, 0}} ||
+        bond.offset == std::array<int, 3>{{0, 0, -3}})
+      CHECK(bond.volume_fraction == doctest::Approx(volume).epsilon(1e-6));
+}
+
+TEST_CASE_TEMPLATE("forward bonds and their opposites",
+                   D,
+                   std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+  constexpr int dim = D::value;
+  for (const auto rule : {VolumeRule::exact, VolumeRule::isotropic, VolumeRule::full})
+  {
+    const auto stencil = horizon_stencil<dim>(3, rule);
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+    {
+      const auto &back = stencil[opposite(b, stencil.size())];
+      for (unsigned int d = 0; d < dim; ++d)
+        CHECK(back.offset[d] == -stencil[b].offset[d]);
+      CHECK(back.volume_fraction == stencil[b].volume_fraction);
+      int last = 0;
+      for (const int component : stencil[b].offset)
+        last = component != 0 ? component : last;
+      CHECK((last > 0) == (b < stencil.size() / 2));
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("calibrated, the bulk modulus and the mean shear modulus are exact",
+                   D,
+                   std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+  constexpr int dim = D::value;
+  for (const bool plane_stress : {false, true})
+  {
+    if (dim == 3 && plane_stress)
+      continue;
+    const RockProperties r = rock(bond_based_poisson_ratio(plane_stress), plane_stress);
+    const double lambda = r.lame_lambda(), G = r.shear_modulus();
+    CHECK(lambda == doctest::Approx(G).epsilon(1e-14));
+    for (const auto rule : {VolumeRule::exact, VolumeRule::isotropic, VolumeRule::full})
+      for (unsigned int m = 2; m <= 6; ++m)
+      {
+        CAPTURE(m);
+        const auto stencil = horizon_stencil<dim>(m, rule);
+        const BondLaw law = bond_based_law<dim>(r, stencil, spacing);
+        const auto moduli = lattice_moduli(stencil, law, spacing);
+        CHECK(moduli.bulk() == doctest::Approx(lambda + 2. * G / dim).epsilon(1e-13));
+        CHECK(moduli.mean_shear() == doctest::Approx(G).epsilon(1e-13));
+        if (rule == VolumeRule::isotropic)
+        {
+          CHECK(moduli.anisotropy() == doctest::Approx(1.).epsilon(1e-12));
+          CHECK(moduli.c11 == doctest::Approx(lambda + 2. * G).epsilon(1e-12));
+        }
+      }
+  }
+}
+
+TEST_CASE("what calibration leaves: the anisotropy C11/(3 C12) of the study")
+{
+  for (const auto &[m, ratio] : {std::pair{3u, 1.033}, {4u, 1.013}})
+  {
+    const auto stencil = horizon_stencil<2>(m, VolumeRule::exact);
+    const auto moduli =
+      lattice_moduli(stencil, bond_based_law<2>(rock(0.25), stencil, spacing), spacing);
+    CHECK(std::abs(moduli.c11 / (3. * moduli.c12) - ratio) < 0.0005);
+  }
+}
+
+TEST_CASE("constants of the continuum")
+{
+  const double E = 1e10, delta = 0.3, G_c = 100.;
+  CHECK(continuum_micromodulus<2>(rock(0.25), delta) ==
+        doctest::Approx(9.6 * E / (M_PI * std::pow(delta, 3))));
+  // Eq. 8b of Sun et al., plane stress, nu = 1/3.
+  CHECK(continuum_micromodulus<2>(rock(1. / 3., true), delta) ==
+        doctest::Approx(9. * E / (M_PI * std::pow(delta, 3))));
+  CHECK(continuum_micromodulus<3>(rock(0.25), delta) ==
+        doctest::Approx(12. * E / (M_PI * std::pow(delta, 4))));
+  // Eq. 19, and Silling and Askari with K = 2E/3.
+  CHECK(continuum_critical_stretch<2>(rock(0.25), delta) ==
+        doctest::Approx(std::sqrt(5. * M_PI * G_c / (12. * E * delta))));
+  CHECK(continuum_critical_stretch<2>(rock(1. / 3., true), delta) ==
+        doctest::Approx(std::sqrt(4. * M_PI * G_c / (9. * E * delta))));
+  CHECK(continuum_critical_stretch<3>(rock(0.25), delta) ==
+        doctest::Approx(std::sqrt(5. * G_c / (9. * 2. / 3. * E * delta))));
+}
+
+TEST_CASE("without calibration the bulk modulus converges with the square of the spacing")
+{
+  for (unsigned int m = 2; m <= 6; ++m)
+  {
+    CAPTURE(m);
+    const double horizon = m * spacing;
+    const double plane = error(weighted_volume(horizon_stencil<2>(m, VolumeRule::exact), spacing),
+                               2. * M_PI * std::pow(horizon, 3) / 3.);
+    const double space = error(weighted_volume(horizon_stencil<3>(m, VolumeRule::exact), spacing),
+                               M_PI * std::pow(horizon, 4));
+    CHECK(plane * m * m == doctest::Approx(12.25).epsilon(0.09));
+    CHECK(space * m * m == doctest::Approx(15.75).epsilon(0.06));
+  }
+}
+
+TEST_CASE("trapping falls with the horizon")
+{
+  CHECK(trapping_factor(3) == doctest::Approx(0.874).epsilon(1e-3));
+  CHECK(trapping_factor(4) == doctest::Approx(0.924).epsilon(1e-3));
+  for (unsigned int m = 2; m < 6; ++m)
+    CHECK(trapping_factor(m) < trapping_factor(m + 1));
+  CHECK(trapping_factor(6) < 1.);
+}
+} // namespace stockwork::peridynamics_lattice_test
