@@ -147,7 +147,7 @@ private:
 
   /// Bounds of what rounding leaves of the bulk's residuals: a solve that starts in equilibrium
   /// gets no further.
-  Norms rounding_errors(const dealii::TrilinosWrappers::MPI::BlockVector &values) const;
+  Norms rounding_errors(const dealii::TrilinosWrappers::MPI::BlockVector &values);
 
   RunContext &run;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
@@ -180,6 +180,8 @@ private:
 
   LinearSystem system;
   SystemStamps stamps;
+  dealii::FullMatrix<double> matrix_norms; ///< l1 norms of the bulk's blocks,
+  unsigned int stamp_of_norms = 0;         ///< formed when its values had this stamp
 
   // The part of the system that is linear in the unknowns, kept through the iteration.
   dealii::TrilinosWrappers::MPI::BlockVector linear_residual_bulk;

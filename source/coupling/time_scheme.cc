@@ -87,11 +87,10 @@ void TimeScheme::parse_parameters(ParameterHandler &prm, const bool smooth)
 
 void TimeScheme::initialise(const Unknowns &unknowns)
 {
-  if (scheme == Kind::backward_euler)
-    return;
+  if (scheme != Kind::newmark)
+    combine(previous, 1., unknowns, 0., unknowns);
   if (scheme == Kind::bdf2)
   {
-    combine(previous, 1., unknowns, 0., unknowns);
     combine(earlier, 1., unknowns, 0., unknowns);
   }
   if (scheme == Kind::newmark)
@@ -184,8 +183,9 @@ void TimeScheme::accept(const StepContext &context,
             acceleration_reference);
   }
   if (scheme == Kind::bdf2)
-  {
     std::swap(earlier, previous);
+  if (scheme != Kind::newmark)
+  {
     combine(previous, 1., committed, 0., committed);
   }
   earlier_dt = previous_dt;
@@ -242,6 +242,11 @@ void TimeScheme::predict(const StepContext &context, Unknowns &unknowns) const
     combine(start, 1., unknowns, context.dt, velocity);
     combine(unknowns, 1., start, 0.5 * context.dt * context.dt, acceleration);
   }
+  else if (n_accepted > 1)
+  {
+    const double r = context.dt / previous_dt;
+    combine(unknowns, 1. + r, unknowns, -r, previous);
+  }
 }
 
 
@@ -251,7 +256,7 @@ std::vector<TrilinosWrappers::MPI::BlockVector *> TimeScheme::bulk_history()
     return {&velocity.bulk, &acceleration.bulk};
   if (scheme == Kind::bdf2)
     return {&previous.bulk, &earlier.bulk};
-  return {};
+  return {&previous.bulk};
 }
 
 
@@ -261,6 +266,6 @@ std::vector<std::vector<double> *> TimeScheme::extra_history()
     return {&velocity.extra, &acceleration.extra};
   if (scheme == Kind::bdf2)
     return {&previous.extra, &earlier.extra};
-  return {};
+  return {&previous.extra};
 }
 } // namespace stockwork
