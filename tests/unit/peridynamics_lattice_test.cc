@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "fracture/peridynamics/lattice_moduli.h"
+#include "fracture/peridynamics/state_based.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -173,6 +174,69 @@ TEST_CASE_TEMPLATE("calibrated, the bulk modulus and the mean shear modulus are 
         }
       }
   }
+}
+
+TEST_CASE_TEMPLATE("state-based, any Poisson's ratio has the same two moduli exact",
+                   D,
+                   std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+  constexpr int dim = D::value;
+  for (const double poisson_ratio : {0.15, 0.25, 0.35})
+    for (const bool plane_stress : {false, true})
+    {
+      if (dim == 3 && plane_stress)
+        continue;
+      const RockProperties r = rock(poisson_ratio, plane_stress);
+      const double lambda = r.lame_lambda(), G = r.shear_modulus();
+      for (const auto rule :
+           {VolumeRule::exact, VolumeRule::isotropic, VolumeRule::full, VolumeRule::ramp})
+        for (unsigned int m = 2; m <= 6; ++m)
+        {
+          CAPTURE(m);
+          const auto stencil = horizon_stencil<dim>(m, rule);
+          const auto moduli =
+            lattice_moduli(stencil, state_based_law<dim>(r, stencil, spacing), spacing);
+          CHECK(moduli.bulk() == doctest::Approx(lambda + 2. * G / dim).epsilon(1e-13));
+          CHECK(moduli.mean_shear() == doctest::Approx(G).epsilon(1e-13));
+          if (rule == VolumeRule::isotropic)
+          {
+            CHECK(moduli.c12 == doctest::Approx(lambda).epsilon(1e-12));
+            CHECK(moduli.c44 == doctest::Approx(G).epsilon(1e-12));
+          }
+        }
+    }
+}
+
+TEST_CASE("state-based rock of the bond-based ratio is bond-based")
+{
+  const auto stencil = horizon_stencil<3>(3, VolumeRule::exact);
+  const BondLaw law = state_based_law<3>(rock(0.25), stencil, spacing);
+  CHECK(std::abs(law.dilatation_modulus) < 1e-14 * rock(0.25).young_modulus);
+  CHECK(law.micromodulus == bond_based_law<3>(rock(0.25), stencil, spacing).micromodulus);
+}
+
+TEST_CASE_TEMPLATE("calibrated, a cut at the critical stretch takes G_c",
+                   D,
+                   std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+  constexpr int dim = D::value;
+  for (const double poisson_ratio : {0.15, 0.25, 0.35})
+    for (const auto rule : {VolumeRule::exact, VolumeRule::isotropic})
+      for (unsigned int m = 3; m <= 6; ++m)
+      {
+        CAPTURE(poisson_ratio);
+        CAPTURE(m);
+        const RockProperties r = rock(poisson_ratio);
+        const auto stencil = horizon_stencil<dim>(m, rule);
+        const double s_c = continuum_critical_stretch<dim>(r, m * spacing, true);
+        const double energy =
+          crossing_energy(stencil, state_based_law<dim>(r, stencil, spacing), spacing, s_c);
+        CHECK(std::abs(error(energy, 100.)) < 18. / (m * m));
+        if (m == 6)
+          CHECK(std::abs(error(energy, 100.)) < 0.4);
+      }
 }
 
 TEST_CASE("what calibration leaves: the anisotropy C11/(3 C12) of the study")

@@ -1,0 +1,256 @@
+#include "fracture/peridynamics/bond_forces.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+namespace stockwork::peridynamics
+{
+namespace
+{
+/// Neighbouring sites of a row in one register (or as many as that takes).
+using Lanes = double __attribute__((vector_size(32)));
+constexpr int n_lanes = sizeof(Lanes) / sizeof(double);
+
+/// Registers swept at once.
+constexpr int n_registers = 2;
+constexpr int sweep_width = n_registers * n_lanes;
+
+template <typename Value>
+inline Value load(const double *const from)
+{
+  Value value;
+  std::memcpy(&value, from, sizeof(Value));
+  return value;
+}
+
+template <typename Value>
+inline void store(const Value &value, double *const to)
+{
+  std::memcpy(to, &value, sizeof(Value));
+}
+} // namespace
+
+template <int dim>
+std::size_t LatticeBox<dim>::n_sites() const
+{
+  std::size_t n = 1;
+  for (const unsigned int s : size)
+    n *= s;
+  return n;
+}
+
+template <int dim>
+std::array<unsigned int, dim> LatticeBox<dim>::position(std::size_t site) const
+{
+  std::array<unsigned int, dim> position;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    position[d] = site % size[d];
+    site /= size[d];
+  }
+  return position;
+}
+
+template <int dim>
+std::ptrdiff_t LatticeBox<dim>::stride(const std::array<int, dim> &offset) const
+{
+  std::ptrdiff_t stride = 0;
+  for (int d = dim - 1; d >= 0; --d)
+    stride = stride * static_cast<std::ptrdiff_t>(size[d]) + offset[d];
+  return stride;
+}
+
+template <int dim>
+bool LatticeBox<dim>::inside(const std::size_t site, const unsigned int margin) const
+{
+  const auto at = position(site);
+  for (unsigned int d = 0; d < dim; ++d)
+    if (at[d] < margin || at[d] + margin >= size[d])
+      return false;
+  return true;
+}
+
+template <int dim>
+BondForces<dim>::BondForces(const LatticeBox<dim> &box,
+                            const std::vector<StencilBond<dim>> &stencil,
+                            const BondLaw &law,
+                            const double spacing)
+  : box(box)
+  , law(law)
+  , bonds(bond_coefficients(stencil, law, spacing))
+  , dilatation_stiffness(law.dilatation_modulus)
+  , reach(0)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    dilatation_stiffness *= spacing;
+  for (const auto &bond : stencil)
+  {
+    strides.push_back(box.stride(bond.offset));
+    for (const int component : bond.offset)
+      reach = std::max<unsigned int>(reach, std::abs(component));
+  }
+  for (unsigned int b = 0; b < bonds.size() / 2; ++b)
+  {
+    Pair pair;
+    pair.by = strides[b];
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      pair.direction[d] = bonds[b].direction[d];
+      pair.force[d] = bonds[b].stiffness * bonds[b].direction[d];
+      pair.dilatation[d] = bonds[b].dilatation * bonds[b].direction[d];
+    }
+    pairs.push_back(pair);
+  }
+  if (law.state_based())
+    dilatation.assign(box.n_sites(), 0.);
+}
+
+template <int dim>
+double BondForces<dim>::elongation(const LatticeField<dim> &u,
+                                   const std::size_t site,
+                                   const unsigned int b) const
+{
+  double sum = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    sum += bonds[b].direction[d] * (u[d][site + strides[b]] - u[d][site]);
+  return sum;
+}
+
+template <int dim>
+double BondForces<dim>::stretch(const LatticeField<dim> &u,
+                                const std::size_t site,
+                                const unsigned int bond) const
+{
+  return elongation(u, site, bond) / bonds[bond].length;
+}
+
+template <int dim>
+template <typename Wide, typename Narrow>
+void BondForces<dim>::for_each_block(const unsigned int margin,
+                                     const Wide &wide,
+                                     const Narrow &narrow) const
+{
+  for (const unsigned int s : box.size)
+    if (s <= 2 * margin)
+      return;
+  const unsigned int length = box.size[0] - 2 * margin;
+  const unsigned int layers = (dim == 3 ? box.size[dim - 1] - 2 * margin : 1);
+  for (unsigned int z = 0; z < layers; ++z)
+    for (unsigned int y = margin; y < box.size[1] - margin; ++y)
+    {
+      const std::size_t layer = (dim == 3 ? z + margin : 0);
+      const std::size_t row = (layer * box.size[1] + y) * box.size[0] + margin;
+      unsigned int x = 0;
+      for (; x + sweep_width <= length; x += sweep_width)
+        wide(row + x);
+      for (; x < length; ++x)
+        narrow(row + x);
+    }
+}
+
+// Opposite bonds have opposite directions: what is even in the direction (force of the bond's own
+// elongation) takes the sum of the two neighbours, what is odd their difference.
+
+template <int dim>
+template <typename Value, int n>
+void BondForces<dim>::sweep_dilatation(const LatticeField<dim> &u, const std::size_t first)
+{
+  constexpr int width = sizeof(Value) / sizeof(double);
+  Value theta[n] = {};
+  for (const Pair &pair : pairs)
+    for (int r = 0; r < n; ++r)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double *const at = u[d].data() + first + r * width;
+        theta[r] += pair.dilatation[d] * (load<Value>(at + pair.by) - load<Value>(at - pair.by));
+      }
+  for (int r = 0; r < n; ++r)
+    store(theta[r], dilatation.data() + first + r * width);
+}
+
+template <int dim>
+template <typename Value, int n>
+void BondForces<dim>::sweep(const LatticeField<dim> &u,
+                            const std::size_t first,
+                            LatticeField<dim> &force) const
+{
+  constexpr int width = sizeof(Value) / sizeof(double);
+  std::array<const double *, dim> at;
+  Value own[dim][n], sum[dim][n] = {};
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    at[d] = u[d].data() + first;
+    for (int r = 0; r < n; ++r)
+      own[d][r] = load<Value>(at[d] + r * width);
+  }
+  for (const Pair &pair : pairs)
+    for (int r = 0; r < n; ++r)
+    {
+      Value elongation = {};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double *const here = at[d] + r * width;
+        elongation += pair.direction[d] * ((load<Value>(here + pair.by) - own[d][r]) +
+                                           (load<Value>(here - pair.by) - own[d][r]));
+      }
+      for (unsigned int d = 0; d < dim; ++d)
+        sum[d][r] += pair.force[d] * elongation;
+    }
+  if (law.state_based())
+    for (const Pair &pair : pairs)
+      for (int r = 0; r < n; ++r)
+      {
+        const double *const theta = dilatation.data() + first + r * width;
+        const Value difference =
+          dilatation_stiffness * (load<Value>(theta + pair.by) - load<Value>(theta - pair.by));
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[d][r] += pair.dilatation[d] * difference;
+      }
+  for (unsigned int d = 0; d < dim; ++d)
+    for (int r = 0; r < n; ++r)
+      store(sum[d][r], force[d].data() + first + r * width);
+}
+
+template <int dim>
+void BondForces<dim>::compute_dilatation(const LatticeField<dim> &u, const BrokenBonds &broken)
+{
+  for_each_block(
+    reach, [&](const std::size_t site) { sweep_dilatation<Lanes, n_registers>(u, site); },
+    [&](const std::size_t site) { sweep_dilatation<double, 1>(u, site); });
+  for (const std::size_t site : broken.sites())
+    if (box.inside(site, reach))
+      broken.for_each(site, [&](const unsigned int b)
+                      { dilatation[site] -= bonds[b].dilatation * elongation(u, site, b); });
+}
+
+template <int dim>
+void BondForces<dim>::evaluate(const LatticeField<dim> &u,
+                               const BrokenBonds &broken,
+                               LatticeField<dim> &force)
+{
+  if (law.state_based())
+    compute_dilatation(u, broken);
+  for_each_block(
+    margin(), [&](const std::size_t site) { sweep<Lanes, n_registers>(u, site, force); },
+    [&](const std::size_t site) { sweep<double, 1>(u, site, force); });
+
+  for (const std::size_t site : broken.sites())
+    if (box.inside(site, margin()))
+      broken.for_each(site,
+                      [&](const unsigned int b)
+                      {
+                        double magnitude = bonds[b].stiffness * elongation(u, site, b);
+                        if (law.state_based())
+                          magnitude += dilatation_stiffness * bonds[b].dilatation *
+                                       (dilatation[site] + dilatation[site + strides[b]]);
+                        for (unsigned int d = 0; d < dim; ++d)
+                          force[d][site] -= magnitude * bonds[b].direction[d];
+                      });
+}
+
+template struct LatticeBox<2>;
+template struct LatticeBox<3>;
+template class BondForces<2>;
+template class BondForces<3>;
+} // namespace stockwork::peridynamics
