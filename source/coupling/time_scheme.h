@@ -47,8 +47,8 @@ public:
                         const Unknowns &committed,
                         const Unknowns &current) const;
 
-  /// Extrapolated start of the iteration, in place of the committed state `unknowns`: a quarter fewer
-  /// iterations where a fracture grows steadily.
+  /// Extrapolated start of the iteration, in place of the committed state `unknowns`: a quarter
+  /// fewer iterations where a fracture grows steadily.
   void predict(const StepContext &context, Unknowns &unknowns) const;
 
   unsigned int order() const;
