@@ -76,6 +76,10 @@ private:
   /// Share of the last piece at this end of a crack whose damage is at least so much.
   double damaged_share(unsigned int crack, CrackEnd end, double least, const State &) const;
 
+  /// Whether pressure or suction at this end of a crack, beyond the stress that closes it, is so
+  /// much greater than the strength that the latter does not matter.
+  bool fluid_overpowers(unsigned int crack, CrackEnd end, const State &) const;
+
   /// How far into the last piece at this end of a crack the fluid has come [m]: all of it, unless
   /// there is suction in it, as in viscous fluid, and the tip is bare. Then from its volume and
   /// that of the piece before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).

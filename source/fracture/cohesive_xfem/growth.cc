@@ -52,6 +52,28 @@ double CohesiveXFEM<dim>::damaged_share(const unsigned int crack,
 
 
 template <int dim>
+bool CohesiveXFEM<dim>::fluid_overpowers(const unsigned int crack,
+                                         const CrackEnd end,
+                                         const State &state) const
+{
+  if (!state.segment_pressure)
+    return false;
+  const auto &pieces = discontinuity.paths()[crack].pieces;
+  const unsigned int n = pieces.size();
+  double most = 0.;
+  for (unsigned int i = 0; i < std::min(2u, n); ++i)
+  {
+    const auto &piece = pieces[end == CrackEnd::first ? i : n - 1 - i];
+    const Tensor<1, dim> normal = piece.normal();
+    const double closing_stress = -(normal * (scene.in_situ_stress(piece.centre()) * normal));
+    most = std::max(
+      most, std::abs(state.segment_pressure(piece.key(scene.domain_size)) - closing_stress));
+  }
+  return most > 10. * law.strength;
+}
+
+
+template <int dim>
 double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
                                          const CrackEnd end,
                                          const State &state) const
@@ -133,8 +155,11 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     across[0] = -tips[i].direction[1];
     across[1] = tips[i].direction[0];
     // One intact cell is enough: where the fluid's pressure alone exceeds the strength, cutting
-    // would never end.
-    if (damaged_share(tips[i].crack, tips[i].end, 1e-12, state) == 0.)
+    // would never end. Where it does so by far, there is no cohesive zone worth the name: cells
+    // open by less than the fluid's aperture would be cut one after another.
+    const bool broken_here = damaged_share(tips[i].crack, tips[i].end, 1., state) >= 0.5;
+    if (damaged_share(tips[i].crack, tips[i].end, 1e-12, state) == 0. ||
+        (!broken_here && fluid_overpowers(tips[i].crack, tips[i].end, state)))
       continue;
     // Suction at the tip and the tension ahead, both many times the strength, leave a difference
     // that tells nothing: there the fluid has to have arrived.
@@ -159,7 +184,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     if (!parameters.straight)
       tips[i].direction = rounded_direction(direction);
     growing.push_back(tips[i]);
-    broken.push_back(damaged_share(tips[i].crack, tips[i].end, 1., state) >= 0.5);
+    broken.push_back(broken_here);
     pressures.push_back(pressure);
   }
 
@@ -218,6 +243,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
 }
 
 template double CohesiveXFEM<2>::damaged_share(unsigned int, CrackEnd, double, const State &) const;
+template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);
 } // namespace stockwork::cohesive_xfem
