@@ -240,7 +240,8 @@ void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
   if (bulk->matrix(context, anew, system.bulk,
                    discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
     ++stamps.displacement_values;
-  system.definite = !discretisation.has_pore_pressure;
+  system.elastic = !discretisation.has_pore_pressure;
+  system.definite = system.elastic;
   matrix_context = context;
   matrix_is_current = true;
   bulk_was_touched = false;

@@ -139,6 +139,7 @@ void SplitScheme::update_blocks(const LinearSystem &system, const SystemStamps &
       block.system.residual_bulk.block(0).reinit(system.residual_bulk.block(k));
       block.system.residual_bulk.collect_sizes();
       block.system.symmetric = system.symmetric;
+      block.system.elastic = k == 0;
       block.system.definite = k == 0 && system.symmetric;
     }
     if (new_values)

@@ -90,9 +90,7 @@ void TimeScheme::initialise(const Unknowns &unknowns)
   if (scheme != Kind::newmark)
     combine(previous, 1., unknowns, 0., unknowns);
   if (scheme == Kind::bdf2)
-  {
     combine(earlier, 1., unknowns, 0., unknowns);
-  }
   if (scheme == Kind::newmark)
   {
     combine(velocity, 0., unknowns, 0., unknowns);
@@ -185,9 +183,7 @@ void TimeScheme::accept(const StepContext &context,
   if (scheme == Kind::bdf2)
     std::swap(earlier, previous);
   if (scheme != Kind::newmark)
-  {
     combine(previous, 1., committed, 0., committed);
-  }
   earlier_dt = previous_dt;
   previous_dt = context.dt;
   ++n_accepted;

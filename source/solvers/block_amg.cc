@@ -207,7 +207,7 @@ BlockAmgSolver::BlockAmgSolver(const LinearSolverParameters &parameters,
   : parameters(parameters)
   , communicator(communicator)
   , extra(communicator,
-          [this](const auto &left, const auto &right) { return multiply(left, right); })
+          [this](const auto &left, const auto &right, bool) { return multiply(left, right); })
 {
 }
 

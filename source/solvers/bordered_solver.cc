@@ -21,7 +21,8 @@ BorderedSolver::BorderedSolver(const MPI_Comm communicator)
   , is_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   , direct(communicator)
   , schur(communicator,
-          [this](const auto &left, const auto &right) { return multiply(left, right); })
+          [this](const auto &left, const auto &right, const bool transposed)
+          { return multiply(left, right, transposed); })
 {
 }
 
@@ -29,22 +30,25 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
 {
   // The products belong to the old factor, whatever happens below.
   schur.forget();
+  const bool definite = op.system().definite;
   if (!factor || stamps.mesh != factor_stamps.mesh ||
       static_cast<unsigned int>(factor->size()) != op.n_bulk())
   {
-    factor = std::make_unique<Mumps>(communicator, Mumps::Kind::definite);
+    factor = std::make_unique<Mumps>(communicator,
+                                     definite ? Mumps::Kind::definite : Mumps::Kind::unsymmetric);
     std::vector<int> rows, columns;
-    append_bulk_indices(op, true, rows, columns);
+    append_bulk_indices(op, definite, rows, columns);
     factor->analyse(static_cast<int>(op.n_bulk()), std::move(rows), std::move(columns));
   }
   std::vector<double> values;
-  append_bulk_values(op, true, values);
+  append_bulk_values(op, definite, values);
   factor->factorise(values);
   factor_scaling = op.scaling();
   factor_stamps = stamps;
 }
 
-std::vector<double> BorderedSolver::solve_columns(const ExtraSchur::SparseVectors &right_hand_sides)
+std::vector<double> BorderedSolver::solve_columns(const ExtraSchur::SparseVectors &right_hand_sides,
+                                                  const bool transposed)
 {
   std::vector<int> starts = {1}, rows;
   std::vector<double> values;
@@ -58,14 +62,15 @@ std::vector<double> BorderedSolver::solve_columns(const ExtraSchur::SparseVector
     starts.push_back(static_cast<int>(rows.size()) + 1);
   }
   std::vector<double> x(is_root ? right_hand_sides.size() * factor->size() : 0);
-  factor->solve_sparse(starts, rows, values, x);
+  factor->solve_sparse(starts, rows, values, x, transposed);
   return x;
 }
 
 std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &left,
-                                             const ExtraSchur::SparseVectors &right)
+                                             const ExtraSchur::SparseVectors &right,
+                                             const bool transposed)
 {
-  const std::vector<double> x = solve_columns(right);
+  const std::vector<double> x = solve_columns(right, transposed);
   std::vector<double> result;
   result.reserve(left.size() * right.size());
   if (is_root)
@@ -134,7 +139,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
                                    dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                                    std::vector<double> &dx_extra)
 {
-  if (!system.definite)
+  if (!system.elastic)
     return direct.solve(system, stamps, tolerance, dx_bulk, dx_extra);
 
   const bool same_bulk =

@@ -13,10 +13,10 @@ namespace stockwork
 ///   [ A  B ]
 ///   [ C  D ],   S = D - C A^-1 B,
 ///
-/// with a sparse Cholesky factor of A that outlives Newton iterations, steps and growth of the
-/// fracture, and a small dense Schur complement (ExtraSchur). A Newton iteration then takes two
-/// back-substitutions and one dense factorisation. Systems whose bulk is not definite go to the
-/// direct solver.
+/// with a sparse factor of A, Cholesky's where A is definite, that outlives Newton iterations,
+/// steps and growth of the fracture, and a small dense Schur complement (ExtraSchur). A Newton
+/// iteration then takes two back-substitutions and one dense factorisation. Systems whose bulk has
+/// pore pressures go to the direct solver.
 class BorderedSolver : public LinearSolver
 {
 public:
@@ -31,12 +31,14 @@ public:
 private:
   void factorise(const SystemOperator &, const SystemStamps &);
 
-  /// x_k = A^-1 b_k (scaled), dense, on rank 0.
-  std::vector<double> solve_columns(const ExtraSchur::SparseVectors &right_hand_sides);
+  /// x_k = A^-1 b_k, or A^-T b_k (scaled), dense, on rank 0.
+  std::vector<double> solve_columns(const ExtraSchur::SparseVectors &right_hand_sides,
+                                    bool transposed);
 
   /// See ExtraSchur.
   std::vector<double> multiply(const ExtraSchur::SparseVectors &left,
-                               const ExtraSchur::SparseVectors &right);
+                               const ExtraSchur::SparseVectors &right,
+                               bool transposed);
 
   /// dx -= J^-1 r by block elimination.
   void

@@ -100,7 +100,7 @@ void ExtraSchur::forget_unused()
   products = std::move(few_products);
 }
 
-void ExtraSchur::update_products(const std::vector<Border> &borders)
+void ExtraSchur::update_products(const std::vector<Border> &borders, const bool symmetric_bulk)
 {
   // Known borders by their first entry and size: few candidates to compare in full.
   const auto key = [](const Border &b)
@@ -130,10 +130,11 @@ void ExtraSchur::update_products(const std::vector<Border> &borders)
       }
     }
 
-  // A is symmetric: rows of the product are solves with rows of the border as right-hand sides,
-  // and where the border is symmetric, they are the columns.
-  const bool symmetric = std::all_of(
-    known.begin(), known.end(), [](const Border &border) { return border.row == border.column; });
+  // Rows of the product are solves with A^T and rows of the border as right-hand sides; where all
+  // is symmetric, they are the columns.
+  const bool symmetric =
+    symmetric_bulk && std::all_of(known.begin(), known.end(),
+                                  [](const Border &border) { return border.row == border.column; });
   const unsigned int n = known.size();
   for (auto &row : products)
     row.resize(n);
@@ -152,8 +153,8 @@ void ExtraSchur::update_products(const std::vector<Border> &borders)
         new_columns.push_back(&known[i].column);
       }
     }
-    const auto columns = multiply(all_rows, new_columns);
-    const auto rows = symmetric ? columns : multiply(all_columns, new_rows);
+    const auto columns = multiply(all_rows, new_columns, false);
+    const auto rows = symmetric ? columns : multiply(all_columns, new_rows, !symmetric_bulk);
     for (unsigned int e = begin; e < end; ++e)
       for (unsigned int i = 0; i < n; ++i)
       {
@@ -196,7 +197,7 @@ void ExtraSchur::update(const SystemOperator &op,
                         const dealii::types::global_dof_index end,
                         const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
 {
-  update_products(gather_borders(op, end, bulk_scaling));
+  update_products(gather_borders(op, end, bulk_scaling), op.system().bulk_is_symmetric());
   const auto &corner = op.extra_extra();
   const bool same =
     has_factor && place == place_of_factor &&

@@ -12,7 +12,7 @@ namespace stockwork
 /// The Schur complement of the extra unknowns,
 ///
 ///   [ A  B ]
-///   [ C  D ],   S = D - C A^-1 B,   A symmetric,
+///   [ C  D ],   S = D - C A^-1 B,
 ///
 /// dense, on every rank. Of C A^-1 B only the rows and columns of new extra unknowns are computed;
 /// an unknown is known by the contents of its row and column, so renumbering costs nothing, and
@@ -25,9 +25,10 @@ public:
   using SparseVector = std::vector<std::pair<int, double>>;
   using SparseVectors = std::vector<const SparseVector *>;
 
-  /// left_i . A^-1 right_j of all pairs, on every rank, [j * left.size() + i].
-  using Multiply =
-    std::function<std::vector<double>(const SparseVectors &left, const SparseVectors &right)>;
+  /// left_i . A^-1 right_j of all pairs, or with A^-T, on every rank, [j * left.size() + i]. A that
+  /// is symmetric is never transposed.
+  using Multiply = std::function<std::vector<double>(
+    const SparseVectors &left, const SparseVectors &right, bool transposed)>;
 
   ExtraSchur(MPI_Comm communicator, Multiply multiply);
 
@@ -68,7 +69,7 @@ private:
 
   /// Find each border among the known ones, computing what is new. Unknowns without a border get
   /// no place (unsigned -1).
-  void update_products(const std::vector<Border> &borders);
+  void update_products(const std::vector<Border> &borders, bool symmetric_bulk);
 
   /// Drop known borders that are no longer in use.
   void forget_unused();

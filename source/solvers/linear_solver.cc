@@ -75,8 +75,8 @@ public:
         ? get<BlockAmgSolver>(iterative, parameters, communicator)
         :
         // Without a fracture as well: one may come, and the factor of the rock will serve.
-        system.definite ? get<BorderedSolver>(bordered, communicator)
-                        : get<DirectSolver>(direct, communicator);
+        system.elastic ? get<BorderedSolver>(bordered, communicator)
+                       : get<DirectSolver>(direct, communicator);
     return solver.solve(system, stamps, tolerance, dx_bulk, dx_extra);
   }
 
