@@ -329,10 +329,10 @@ TEST_CASE_TEMPLATE("patch test, linear: exact whatever the modulus",
 {
   constexpr int dim = D::value;
   const Quadratic<dim> linear(0.);
-  const unsigned int n = (dim == 2 ? 24 : 8);
+  const unsigned int n = (dim == 2 ? 24 : 6);
   for (const double poisson_ratio : {0.15, 0.25, 0.35})
     for (const double scale : {1., 1.1}) // this test cannot see a wrong modulus
-      for (const auto rule : {VolumeRule::exact, VolumeRule::isotropic, VolumeRule::ramp})
+      for (const auto rule : {VolumeRule::exact, VolumeRule::ramp})
         CHECK(patch_error(linear, rock(poisson_ratio), 3, rule, n, scale, false) < 1e-11);
 }
 
@@ -342,7 +342,7 @@ TEST_CASE_TEMPLATE("patch test, quadratic with body force",
                    std::integral_constant<int, 3>)
 {
   constexpr int dim = D::value;
-  const unsigned int n = (dim == 2 ? 24 : 8);
+  const unsigned int n = (dim == 2 ? 24 : 6);
   const Quadratic<dim> quadratic(1.);
   std::vector<RockProperties> rocks{rock(0.15), rock(0.25), rock(0.35)};
   if (dim == 2)

@@ -8,20 +8,24 @@ namespace stockwork::peridynamics
 {
 namespace
 {
-/// Neighbouring sites of a row in one register (or as many as that takes).
+/// Neighbouring sites of a row in one register. (deal.II's VectorizedArray has the width that the
+/// library was built for: of a distribution's, one.)
+#ifdef __AVX__
 using Lanes = double __attribute__((vector_size(32)));
+#else
+using Lanes = double __attribute__((vector_size(16)));
+#endif
 constexpr int n_lanes = sizeof(Lanes) / sizeof(double);
 
 /// Registers swept at once.
 constexpr int n_registers = 2;
 constexpr int sweep_width = n_registers * n_lanes;
 
+/// A value from and to an address that need not be aligned.
 template <typename Value>
-inline Value load(const double *const from)
+inline void load(Value &value, const double *const from)
 {
-  Value value;
   std::memcpy(&value, from, sizeof(Value));
-  return value;
 }
 
 template <typename Value>
@@ -163,7 +167,10 @@ void BondForces<dim>::sweep_dilatation(const LatticeField<dim> &u, const std::si
       for (unsigned int d = 0; d < dim; ++d)
       {
         const double *const at = u[d].data() + first + r * width;
-        theta[r] += pair.dilatation[d] * (load<Value>(at + pair.by) - load<Value>(at - pair.by));
+        Value ahead, behind;
+        load(ahead, at + pair.by);
+        load(behind, at - pair.by);
+        theta[r] += pair.dilatation[d] * (ahead - behind);
       }
   for (int r = 0; r < n; ++r)
     store(theta[r], dilatation.data() + first + r * width);
@@ -182,7 +189,7 @@ void BondForces<dim>::sweep(const LatticeField<dim> &u,
   {
     at[d] = u[d].data() + first;
     for (int r = 0; r < n; ++r)
-      own[d][r] = load<Value>(at[d] + r * width);
+      load(own[d][r], at[d] + r * width);
   }
   for (const Pair &pair : pairs)
     for (int r = 0; r < n; ++r)
@@ -191,8 +198,10 @@ void BondForces<dim>::sweep(const LatticeField<dim> &u,
       for (unsigned int d = 0; d < dim; ++d)
       {
         const double *const here = at[d] + r * width;
-        elongation += pair.direction[d] * ((load<Value>(here + pair.by) - own[d][r]) +
-                                           (load<Value>(here - pair.by) - own[d][r]));
+        Value ahead, behind;
+        load(ahead, here + pair.by);
+        load(behind, here - pair.by);
+        elongation += pair.direction[d] * ((ahead - own[d][r]) + (behind - own[d][r]));
       }
       for (unsigned int d = 0; d < dim; ++d)
         sum[d][r] += pair.force[d] * elongation;
@@ -202,8 +211,10 @@ void BondForces<dim>::sweep(const LatticeField<dim> &u,
       for (int r = 0; r < n; ++r)
       {
         const double *const theta = dilatation.data() + first + r * width;
-        const Value difference =
-          dilatation_stiffness * (load<Value>(theta + pair.by) - load<Value>(theta - pair.by));
+        Value ahead, behind;
+        load(ahead, theta + pair.by);
+        load(behind, theta - pair.by);
+        const Value difference = dilatation_stiffness * (ahead - behind);
         for (unsigned int d = 0; d < dim; ++d)
           sum[d][r] += pair.dilatation[d] * difference;
       }
