@@ -1,7 +1,5 @@
 #include "flow/network.h"
 
-#include <boost/serialization/map.hpp>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -473,131 +471,12 @@ void Network<dim>::assemble_segment(const unsigned int index,
 
 
 template <int dim>
-std::vector<double> Network<dim>::leaked_in_step(const StepContext &context,
-                                                 const Values &values) const
-{
-  std::vector<double> volumes(network.size(), 0.);
-  for (unsigned int i = 0; i < network.size(); ++i)
-    if (leak_off == LeakOff::carter)
-    {
-      const Exposure times = exposure(i, context, values);
-      volumes[i] = 2. * network[i].area * carter_volume(carter_coefficient, times.begin, times.end);
-    }
-    else
-      volumes[i] =
-        2. * network[i].area * leak_off_coefficient(i) * context.dt * values.cake_drop[i];
-  return volumes;
-}
-
-
-template <int dim>
-FluidBalance Network<dim>::balance(const StepContext &context,
-                                   const State &state,
-                                   const Collectives &collectives) const
-{
-  const Values values = evaluate(state, collectives);
-  const std::vector<double> leaked = leaked_in_step(context, values);
-  // Storage terms of the scheme, carried over from its effective time to that of the step.
-  const double scheme = context.dt * context.rate;
-  const double c_f = compressibility * context.pressure_rate / context.rate;
-
-  FluidBalance balance;
-  balance.step = all_wells.volumes(context, state);
-  for (unsigned int i = 0; i < network.size(); ++i)
-  {
-    const double area = network[i].area, w = values.aperture[i];
-    const double gain =
-      scheme * area *
-      (w - values.aperture_reference[i] +
-       std::max(w, 0.) * c_f * (values.pressure[i] - values.pressure_reference[i]));
-    balance.fracture_volume += area * w;
-    balance.step.in_fractures += gain;
-    balance.step.leaked += leaked[i];
-
-    if (network[i].has_given_pressure())
-    {
-      // What it takes is supplied from outside.
-      double supply = gain + leaked[i];
-      for (const Edge &edge : edges[i])
-      {
-        const unsigned int j = edge.other;
-        supply += context.dt *
-                  transmissibility(w, values.aperture[j], edge.distance, edge.other_distance,
-                                   edge.width, viscosity, minimum_aperture)
-                    .value *
-                  (values.pressure[i] - values.pressure[j]);
-      }
-      (supply > 0. ? balance.step.injected : balance.step.outflow) += std::abs(supply);
-    }
-  }
-
-  balance.total = total;
-  balance.total += balance.step;
-
-  // When nothing moves (after shut-in), compare with what moved on average so far.
-  const double moved =
-    std::max({balance.step.injected + balance.step.outflow, std::abs(balance.step.leaked),
-              context.time > 0. ? balance.total.injected * context.dt / context.time : 0.});
-  balance.relative_error = moved > 0. ? std::abs(balance.step.defect()) / moved : 0.;
-  return balance;
-}
-
-
-template <int dim>
-void Network<dim>::commit(const StepContext &context,
-                          const State &state,
-                          const Collectives &collectives)
-{
-  const Values values = evaluate(state, collectives);
-  const std::vector<double> leaked = leaked_in_step(context, values);
-  total = balance(context, state, collectives).total;
-  for (unsigned int i = 0; i < network.size(); ++i)
-  {
-    const double exposed = exposure(i, context, values).end;
-    History &entry = history[network[i].key];
-    entry.exposure = exposed;
-    entry.wetted = wetted_share(values.aperture[i], bare_aperture(i)).value;
-    entry.leaked += leaked[i];
-  }
-  rollback(); // nothing is on trial any more
-}
-
-
-template <int dim>
-std::vector<double> Network<dim>::leaked_volumes() const
-{
-  std::vector<double> result;
-  for (const auto &segment : network)
-  {
-    const auto entry = history.find(segment.key);
-    result.push_back(entry == history.end() ? 0. : entry->second.leaked);
-  }
-  return result;
-}
-
-
-template <int dim>
 std::vector<WellReport> Network<dim>::wells(const StepContext &context,
                                             const State &state,
                                             const Collectives &collectives) const
 {
   return all_wells.report(context, state, apertures(state.current, collectives),
                           pressures(state.current));
-}
-
-
-template <int dim>
-void Network<dim>::save(boost::archive::binary_oarchive &archive) const
-{
-  archive << history << total;
-}
-
-
-template <int dim>
-void Network<dim>::load(boost::archive::binary_iarchive &archive)
-{
-  archive >> history >> total;
-  rollback();
 }
 
 
