@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "mesh/gmsh_file.h"
+#include "mesh/partition.h"
 #include "mesh/spacing.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -433,7 +434,7 @@ void Geometry<dim>::create(Triangulation &triangulation) const
                        "more, unless the refinement boxes ask for smaller cells than is meant");
   }
   // A triangulation that shares its cells out on request only has not done so yet.
-  triangulation.repartition();
+  share_out(triangulation);
 }
 
 template <int dim>

@@ -1,0 +1,37 @@
+#include "mesh/partition.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork
+{
+using namespace dealii;
+
+template <int dim>
+void share_out(parallel::distributed::Triangulation<dim> &triangulation)
+{
+  triangulation.repartition();
+  if (dim < 3 || Utilities::MPI::n_mpi_processes(triangulation.get_communicator()) == 1)
+    return;
+
+  // A cell weighs what cells of its rank own on average, of the nodes of quadratic elements.
+  unsigned int weight;
+  {
+    DoFHandler<dim> nodes(triangulation);
+    nodes.distribute_dofs(FE_Q<dim>(2));
+    weight = static_cast<unsigned int>(
+      std::lround(1000. * nodes.n_locally_owned_dofs() /
+                  std::max(1u, triangulation.n_locally_owned_active_cells())));
+  }
+  const auto connection =
+    triangulation.signals.weight.connect([weight](const auto &, const auto) { return weight; });
+  triangulation.repartition();
+  connection.disconnect();
+}
+
+template void share_out(parallel::distributed::Triangulation<2> &);
+template void share_out(parallel::distributed::Triangulation<3> &);
+} // namespace stockwork
