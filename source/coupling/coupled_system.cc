@@ -236,12 +236,21 @@ template <int dim>
 void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
 {
   const auto scope = run.timers.scope("assembly");
-  const bool anew = !matrix_is_current || bulk_was_touched || model.requirements().changes_bulk;
+  const bool anew = !matrix_is_current || bulk_was_touched || model.requirements().changes_bulk ||
+                    model.bulk_version() != bulk_version;
   if (bulk->matrix(context, anew, system.bulk,
                    discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
+  {
+    SystemSink sink(increment_constraints, system, system.residual_bulk, linear_residual_extra,
+                    linear_extra_extra, true);
+    model.assemble_bulk(context, sink);
+    if (communication.max(sink.bulk_touched ? 1. : 0.) > 0.)
+      system.bulk.compress(VectorOperation::add);
     ++stamps.displacement_values;
+  }
+  bulk_version = model.bulk_version();
   system.elastic = !discretisation.has_pore_pressure;
-  system.definite = system.elastic;
+  system.definite = system.elastic && model.requirements().symmetric_bulk;
   matrix_context = context;
   matrix_is_current = true;
   bulk_was_touched = false;
@@ -257,7 +266,7 @@ void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State
     (discretisation.has_pore_pressure && (context.rate != matrix_context.rate ||
                                           context.pressure_rate != matrix_context.pressure_rate));
   if (!matrix_is_current || coefficients_changed || bulk_was_touched ||
-      model.requirements().changes_bulk)
+      model.requirements().changes_bulk || model.bulk_version() != bulk_version)
     assemble_bulk_matrix(context);
 
   const auto scope = run.timers.scope("assembly");

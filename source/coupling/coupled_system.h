@@ -191,6 +191,7 @@ private:
 
   bool matrix_is_current = false;
   bool bulk_was_touched = false;
+  unsigned int bulk_version = 0; ///< of the model's terms in the kept matrix
   StepContext matrix_context;
 };
 } // namespace stockwork

@@ -28,6 +28,7 @@ struct Requirements
 {
   bool pore_pressure = false; ///< cannot run in dry, elastic rock
   bool symmetric = true;      ///< its own terms keep the matrix symmetric
+  bool symmetric_bulk = true; ///< and so do those of assemble_bulk()
   bool changes_bulk = false;  ///< bulk_coefficients() has something to say
   bool newton = true;         ///< assemble() gives the exact derivative (else a secant)
   bool quasi_static_only = false;
@@ -110,7 +111,18 @@ public:
   {
   }
 
-  /// Add the model's own terms (cohesive tractions, bonds); not the fluid, not the bulk. A
+  /// Add the matrix of terms that are linear in the bulk unknowns and stay as they are for many
+  /// solves (bonds that hold); residuals do not count. It is kept until bulk_version() changes.
+  virtual void assemble_bulk(const StepContext &, Sink &) const
+  {
+  }
+
+  virtual unsigned int bulk_version() const
+  {
+    return 0;
+  }
+
+  /// Add the model's other terms (cohesive tractions, released stress); not the fluid, not the bulk. A
   /// function of committed history and of the state alone: it may be called any number of times.
   virtual void assemble(const StepContext &, const State &, Sink &) const
   {

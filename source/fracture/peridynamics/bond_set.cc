@@ -1,0 +1,105 @@
+#include "fracture/peridynamics/bond_set.h"
+
+#include <algorithm>
+
+namespace stockwork::peridynamics
+{
+template <int dim>
+void BondSet<dim>::reinit(const Zone<dim> &new_zone, const std::vector<StencilBond<dim>> &bonds)
+{
+  zone = &new_zone;
+  stencil = bonds;
+  index_of_offset.clear();
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+    index_of_offset[stencil[b].offset] = b;
+  number.assign(zone->sites().size(), dealii::numbers::invalid_unsigned_int);
+  unsigned int n = 0;
+  for (const unsigned int i : zone->peridynamic_sites())
+    number[i] = n++;
+  broken.assign(n * stencil.size(), false);
+}
+
+
+template <int dim>
+unsigned int BondSet<dim>::bond(const Place<dim> &offset) const
+{
+  const auto found = index_of_offset.find(offset);
+  return found == index_of_offset.end() ? dealii::numbers::invalid_unsigned_int : found->second;
+}
+
+
+template <int dim>
+unsigned int BondSet<dim>::reflected(const unsigned int b, const unsigned int mirrored) const
+{
+  if (mirrored == 0)
+    return b;
+  Place<dim> offset = stencil[b].offset;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (mirrored >> d & 1)
+      offset[d] = -offset[d];
+  return bond(offset);
+}
+
+
+template <int dim>
+void BondSet<dim>::set_broken(const unsigned int site, const unsigned int bond)
+{
+  for_each_view(site, bond, [&](const unsigned int s, const unsigned int b)
+                { broken[number[s] * stencil.size() + b] = true; });
+}
+
+
+template <int dim>
+double BondSet<dim>::damage(const unsigned int site) const
+{
+  double gone = 0., all = 0.;
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+  {
+    all += stencil[b].volume_fraction;
+    if (is_broken(site, b))
+      gone += stencil[b].volume_fraction;
+  }
+  return gone / all;
+}
+
+
+template <int dim>
+std::vector<BondPlaces<dim>> BondSet<dim>::places() const
+{
+  std::vector<BondPlaces<dim>> result;
+  if (zone == nullptr)
+    return result;
+  for (const unsigned int i : zone->peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (is_broken(i, b) && (b < stencil.size() / 2 || zone->far_end(i, b).mirrored != 0))
+      {
+        Place<dim> far = zone->sites()[i].place;
+        for (unsigned int d = 0; d < dim; ++d)
+          far[d] += stencil[b].offset[d];
+        result.emplace_back(zone->sites()[i].place, far);
+      }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+
+template <int dim>
+void BondSet<dim>::set_broken(const std::vector<BondPlaces<dim>> &places)
+{
+  for (const auto &[from, to] : places)
+  {
+    const unsigned int site = zone->find(from);
+    Place<dim> offset;
+    for (unsigned int d = 0; d < dim; ++d)
+      offset[d] = to[d] - from[d];
+    const unsigned int b = bond(offset);
+    if (site != dealii::numbers::invalid_unsigned_int && zone->sites()[site].peridynamic &&
+        b != dealii::numbers::invalid_unsigned_int)
+      set_broken(site, b);
+  }
+}
+
+
+template class BondSet<2>;
+template class BondSet<3>;
+} // namespace stockwork::peridynamics

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "fracture/peridynamics/bond_law.h"
+#include "fracture/peridynamics/zone.h"
+
+#include <utility>
+#include <vector>
+
+namespace stockwork::peridynamics
+{
+/// A bond, by the places of its ends; the second may lie beyond a plane of symmetry.
+template <int dim>
+using BondPlaces = std::pair<Place<dim>, Place<dim>>;
+
+/// Which bonds of the lattice are broken. A bond is seen from each of its ends that is
+/// peridynamic, and from both sides of a plane of symmetry; breaking it breaks all of these.
+template <int dim>
+class BondSet
+{
+public:
+  /// All whole. @p zone must not change meanwhile.
+  void reinit(const Zone<dim> &zone, const std::vector<StencilBond<dim>> &stencil);
+
+  unsigned int n_bonds() const
+  {
+    return stencil.size();
+  }
+
+  const std::vector<StencilBond<dim>> &bonds() const
+  {
+    return stencil;
+  }
+
+  /// Index of the bond with this offset; invalid if the stencil has none.
+  unsigned int bond(const Place<dim> &offset) const;
+
+  /// Of a peridynamic site.
+  bool is_broken(const unsigned int site, const unsigned int bond) const
+  {
+    return broken[number[site] * stencil.size() + bond];
+  }
+
+  bool can_break(const unsigned int site, const unsigned int bond) const
+  {
+    return zone->sites()[zone->far_end(site, bond).site].peridynamic;
+  }
+
+  /// Call `use(site, bond)` for the bond as it is seen from all its ends.
+  template <class Function>
+  void for_each_view(unsigned int site, unsigned int bond, const Function &use) const;
+
+  void set_broken(unsigned int site, unsigned int bond);
+
+  /// Share of a site's bonds that is broken, by volume.
+  double damage(unsigned int site) const;
+
+  /// All broken bonds, each at least once, sorted.
+  std::vector<BondPlaces<dim>> places() const;
+
+  /// Break bonds by the places of their ends; those that do not exist are ignored.
+  void set_broken(const std::vector<BondPlaces<dim>> &places);
+
+private:
+  /// The bond with direction d, or all in `mirrored`, reversed.
+  unsigned int reflected(unsigned int bond, unsigned int mirrored) const;
+
+  const Zone<dim> *zone = nullptr;
+  std::vector<StencilBond<dim>> stencil;
+  std::map<Place<dim>, unsigned int> index_of_offset;
+  std::vector<unsigned int> number; ///< of each site among the peridynamic ones
+  std::vector<bool> broken;
+};
+
+
+template <int dim>
+template <class Function>
+void BondSet<dim>::for_each_view(const unsigned int site,
+                                 const unsigned int bond,
+                                 const Function &use) const
+{
+  const FarEnd far = zone->far_end(site, bond);
+  use(site, bond);
+  if (!zone->sites()[far.site].peridynamic)
+    return;
+  const unsigned int back = reflected(opposite(bond, stencil.size()), far.mirrored);
+  use(far.site, back);
+  // The images of bonds of sites on planes of symmetry are bonds of these sites as well.
+  for (unsigned int m = 1; m < 1u << dim; ++m)
+  {
+    if ((zone->planes_of(site) & m) == m)
+      use(site, reflected(bond, m));
+    if ((zone->planes_of(far.site) & m) == m)
+      use(far.site, reflected(back, m));
+  }
+}
+} // namespace stockwork::peridynamics

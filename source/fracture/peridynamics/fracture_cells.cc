@@ -1,0 +1,229 @@
+#include "fracture/peridynamics/fracture_cells.h"
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include "stockwork/mesh/key.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::peridynamics
+{
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
+template <int dim>
+Place<dim> corner(const Place<dim> &cell, const unsigned int v)
+{
+  Place<dim> place = cell;
+  for (unsigned int d = 0; d < dim; ++d)
+    place[d] += v >> d & 1;
+  return place;
+}
+
+template <int dim>
+dealii::Point<dim> centre(const Zone<dim> &zone, const Place<dim> &cell)
+{
+  dealii::Point<dim> point = zone.position(cell);
+  for (unsigned int d = 0; d < dim; ++d)
+    point[d] += 0.5 * zone.spacing();
+  return point;
+}
+
+template <int dim>
+double sum_of_components(const Tensor<1, dim> &normal)
+{
+  double sum = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    sum += std::abs(normal[d]);
+  return sum;
+}
+
+/// Unit vector along which the second moment is greatest, rounded so that the sum's order does not
+/// show.
+template <int dim>
+Tensor<1, dim> principal_direction(SymmetricTensor<2, dim> moment)
+{
+  const double scale = trace(moment);
+  for (unsigned int i = 0; i < moment.n_independent_components; ++i)
+    moment.access_raw_entry(i) = std::round(1e9 * moment.access_raw_entry(i) / scale) * 1e-9;
+  Tensor<1, dim> normal = eigenvectors(moment)[0].second;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::abs(normal[d]) < 1e-8)
+      normal[d] = 0.;
+  for (int d = dim - 1; d >= 0; --d)
+    if (normal[d] != 0.)
+      return (normal[d] > 0. ? 1. : -1.) * normal / normal.norm();
+  return normal;
+}
+} // namespace
+
+
+template <int dim>
+std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const BondSet<dim> &bonds)
+{
+  constexpr unsigned int n_corners = 1 << dim;
+  constexpr double crossing = 0.3; // |e.n| of a bond that counts as crossing
+  std::vector<FractureCell<dim>> cells;
+  std::array<unsigned int, n_corners> site;
+  for (const Place<dim> &place : zone.cells())
+  {
+    for (unsigned int v = 0; v < n_corners; ++v)
+      site[v] = zone.find(corner<dim>(place, v));
+    const auto for_each_own = [&](const auto &use)
+    {
+      for (unsigned int v = 0; v < n_corners; ++v)
+        for (unsigned int w = v + 1; w < n_corners; ++w)
+        {
+          Place<dim> offset;
+          for (unsigned int d = 0; d < dim; ++d)
+            offset[d] = static_cast<int>(w >> d & 1) - static_cast<int>(v >> d & 1);
+          const unsigned int b = bonds.bond(offset);
+          if (b != none && bonds.is_broken(site[v], b))
+            use(bonds.bonds()[b].direction());
+        }
+    };
+    unsigned int n_broken = 0;
+    for_each_own([&](const Tensor<1, dim> &) { ++n_broken; });
+    if (n_broken < 2)
+      continue;
+
+    SymmetricTensor<2, dim> moment;
+    for (const unsigned int i : site)
+      for (unsigned int b = 0; b < bonds.n_bonds(); ++b)
+        if (bonds.is_broken(i, b))
+          moment += symmetrize(outer_product(bonds.bonds()[b].direction(),
+                                             bonds.bonds()[b].direction()));
+    FractureCell<dim> cell{place, principal_direction(moment)};
+    n_broken = 0;
+    for_each_own([&](const Tensor<1, dim> &e) { n_broken += std::abs(e * cell.normal) > crossing; });
+    if (n_broken >= 2)
+      cells.push_back(cell);
+  }
+  return cells;
+}
+
+
+template <int dim>
+double fracture_area(const Tensor<1, dim> &normal, const double spacing)
+{
+  return std::pow(spacing, dim - 1) / sum_of_components(normal);
+}
+
+
+template <int dim>
+LinearFunctional
+jump(const Zone<dim> &zone, const FractureCell<dim> &cell, const Tensor<1, dim> &direction)
+{
+  constexpr unsigned int n_corners = 1 << dim;
+  const double h = zone.spacing(), width = h * sum_of_components(cell.normal);
+  const double along = direction * cell.normal; // one, or zero for a direction in the fracture
+  LinearFunctional functional;
+  for (unsigned int v = 0; v < n_corners; ++v)
+  {
+    const Site<dim> &site = zone.sites()[zone.find(corner<dim>(cell.place, v))];
+    Tensor<1, dim> gradient; // of the shape function at the centre
+    for (unsigned int d = 0; d < dim; ++d)
+      gradient[d] = ((v >> d & 1) != 0u ? 1. : -1.) / (h * (n_corners / 2));
+    // n.eps.n along the normal; 2 t.eps.n across it.
+    const double by_normal = cell.normal * gradient,
+                 by_direction = (1. - std::abs(along)) * (direction * gradient);
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      functional.bulk.push_back(site.dofs[d]);
+      functional.bulk_coefficients.push_back(
+        width * (direction[d] * by_normal + cell.normal[d] * by_direction));
+    }
+  }
+  return functional;
+}
+
+
+template <int dim>
+std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
+                                        const std::vector<FractureCell<dim>> &cells)
+{
+  const double h = zone.spacing();
+  std::map<Place<dim>, unsigned int> index;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    index[cells[i].place] = i;
+
+  std::vector<Segment<dim>> segments(cells.size());
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    Segment<dim> &segment = segments[i];
+    segment.centre = centre<dim>(zone, cells[i].place);
+    segment.key = Key().add(segment.centre, 1e-4 * h);
+    segment.normal = cells[i].normal;
+    segment.area = fracture_area(cells[i].normal, h);
+    segment.opening = jump(zone, cells[i], cells[i].normal);
+    segment.pore_distance = 0.5 * h;
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+    {
+      const Site<dim> &site = zone.sites()[zone.find(corner<dim>(cells[i].place, v))];
+      if (site.pressure_dof == dealii::numbers::invalid_dof_index)
+        continue;
+      segment.pore_pressure.bulk.push_back(site.pressure_dof);
+      segment.pore_pressure.bulk_coefficients.push_back(1. / (1 << dim));
+    }
+  }
+
+  // Neighbours share a face; or an edge or corner, if no third one has a face in common with both.
+  const double edge = dim == 2 ? 1. : h;
+  const auto faces_of = [&](const Place<dim> &place)
+  {
+    std::vector<Place<dim>> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const int step : {-1, 1})
+      {
+        Place<dim> other = place;
+        other[d] += step;
+        result.push_back(other);
+      }
+    return result;
+  };
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    const auto connect = [&](const unsigned int j)
+    { segments[i].neighbours.push_back({segments[j].key, 0.5 * segments[i].area / edge, edge}); };
+    const auto near = faces_of(cells[i].place);
+    for (const auto &place : near)
+      if (const auto j = index.find(place); j != index.end())
+        connect(j->second);
+    if constexpr (dim == 2)
+      for (const int dx : {-1, 1})
+        for (const int dy : {-1, 1})
+        {
+          const Place<dim> place = {{cells[i].place[0] + dx, cells[i].place[1] + dy}};
+          const auto j = index.find(place);
+          if (j != index.end() &&
+              index.count({{place[0], cells[i].place[1]}}) == 0 &&
+              index.count({{cells[i].place[0], place[1]}}) == 0)
+            connect(j->second);
+        }
+    // Beyond a plane of symmetry, or of the boundary, it goes on.
+    bool at_boundary = false;
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+      at_boundary |= zone.planes_of(zone.find(corner<dim>(cells[i].place, v))) != 0;
+    segments[i].at_tip = dim == 2 && segments[i].neighbours.size() <= 1 && !at_boundary;
+  }
+  return segments;
+}
+
+
+#define INSTANTIATE(dim)                                                                           \
+  template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,                   \
+                                                              const BondSet<dim> &);               \
+  template double fracture_area(const Tensor<1, dim> &, const double);                             \
+  template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,                     \
+                                 const Tensor<1, dim> &);                                          \
+  template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                              \
+                                                   const std::vector<FractureCell<dim>> &);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics

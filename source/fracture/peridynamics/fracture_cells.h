@@ -1,0 +1,39 @@
+#pragma once
+
+#include "fracture/peridynamics/bond_set.h"
+#include "stockwork/fracture/segment.h"
+
+namespace stockwork::peridynamics
+{
+/// A cell that a fracture passes through.
+template <int dim>
+struct FractureCell
+{
+  Place<dim> place;
+  dealii::Tensor<1, dim> normal; ///< unit
+};
+
+/// The cells with at least two of their own bonds (between two of their corners) broken that cross
+/// the fracture. Its direction is that of most of the broken bonds of the cell's corners: for a
+/// straight fracture their second moment about the normal is greatest. In the order of the places.
+template <int dim>
+std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const BondSet<dim> &bonds);
+
+/// Area of the fracture in a cell, such that a long one has the right area in all [m^(dim-1)]: a
+/// plane passes through |n_x| + |n_y| (+ |n_z|) cells per area of a face.
+template <int dim>
+double fracture_area(const dealii::Tensor<1, dim> &normal, const double spacing);
+
+/// Jump of the displacement over a fracture cell in direction @p direction [m]: the cell's volume
+/// over the fracture's area times 2 direction.eps.n, or n.eps.n along the normal itself, eps being
+/// the strain at the centre. Then area times opening is volume times n.eps.n, and summed over the
+/// cells of a fracture it is what its faces enclose.
+template <int dim>
+LinearFunctional
+jump(const Zone<dim> &zone, const FractureCell<dim> &cell, const dealii::Tensor<1, dim> &direction);
+
+/// Segments of all fracture cells, with opening and pore pressure; pressures are left to the model.
+template <int dim>
+std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
+                                        const std::vector<FractureCell<dim>> &cells);
+} // namespace stockwork::peridynamics

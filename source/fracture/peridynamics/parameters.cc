@@ -1,0 +1,82 @@
+#include "fracture/peridynamics/parameters.h"
+
+#include "mesh/box_list.h"
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+#include <limits>
+
+namespace stockwork::peridynamics
+{
+namespace Patterns = dealii::Patterns;
+
+template <int dim>
+void Parameters<dim>::declare(dealii::ParameterHandler &prm)
+{
+  prm.declare_entry("Horizon", "3", Patterns::Integer(2, 6),
+                    "Radius of the neighbourhood that a node has bonds with, in cells.");
+  prm.declare_entry("Bond volumes", "exact", Patterns::Selection("exact|isotropic|full|ramp"),
+                    "How much of a cell counts as within the horizon. exact: its intersection with "
+                    "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
+                    "direction in the small. full: all of it if its centre is inside. ramp: a "
+                    "share that falls linearly over the last cell; the least accurate.");
+  prm.declare_entry("Margin", "", Patterns::Anything(),
+                    "Cells around the initial cracks that are peridynamic, at least the horizon and "
+                    "one; empty: the horizon and two.");
+  prm.declare_entry("Zone", "", Patterns::Anything(),
+                    "Boxes that are peridynamic besides, where cracks shall grow: "
+                    "'(0, -2 m) to (30 m, 2 m); …' [m].");
+  prm.declare_entry("Cell size", "0", Quantity(dimension::length, Range::non_negative()),
+                    "Wanted size of the cells in the zone and for a horizon around it, which must "
+                    "be squares (cubes) of one size [m]; zero: that of the given mesh.");
+  prm.declare_entry("Critical stretch factor", "", Patterns::Anything(),
+                    "Of the stretch at which bonds break, over the one that follows from the rock's "
+                    "energy release rate when sums are integrals. Empty: the one with which a crack "
+                    "on the lattice grows at that rate, 0.874 for a horizon of 3, 0.924 for 4.");
+  prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
+  prm.declare_entry("Bonds per pass", "20", Patterns::Integer(1),
+                    "Bonds that break, the most stretched first, before the step is solved again.");
+  prm.declare_entry("Most advances per step", "2", Patterns::Integer(1),
+                    "Cells by which a tip may advance within a time step, else it is taken again "
+                    "with half its length.");
+}
+
+
+template <int dim>
+Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
+{
+  const auto number = [&](const char *entry, const double otherwise)
+  {
+    const std::string text = prm.get(entry);
+    return text.empty() ? otherwise : parse_quantity(text, dimension::number);
+  };
+  const auto bad = [&](const char *entry, const std::string &allowed)
+  { return EntryError(std::string("Fracture/peridynamics/") + entry, prm.get(entry), allowed); };
+
+  Parameters p;
+  p.horizon = prm.get_integer("Horizon");
+  const std::string volumes = prm.get("Bond volumes");
+  p.volumes = volumes == "isotropic" ? VolumeRule::isotropic
+              : volumes == "full"    ? VolumeRule::full
+              : volumes == "ramp"    ? VolumeRule::ramp
+                                     : VolumeRule::exact;
+  p.margin = number("Margin", p.horizon + 2.);
+  if (!(p.margin >= p.horizon + 1.))
+    throw bad("Margin", "at least " + std::to_string(p.horizon + 1) +
+                          " cells: every bond that a crack cuts joins two peridynamic nodes");
+  for (const auto &labelled : parse_boxes<dim>(prm.get("Zone")))
+    p.boxes.push_back(labelled.box);
+  p.cell_size = get_quantity(prm, "Cell size", dimension::length);
+  p.stretch_factor =
+    number("Critical stretch factor", std::numeric_limits<double>::quiet_NaN());
+  if (p.stretch_factor <= 0.)
+    throw bad("Critical stretch factor", "a number > 0");
+  p.growth = prm.get_bool("Growth");
+  p.bonds_per_pass = prm.get_integer("Bonds per pass");
+  p.most_advances = prm.get_integer("Most advances per step");
+  return p;
+}
+
+template struct Parameters<2>;
+template struct Parameters<3>;
+} // namespace stockwork::peridynamics

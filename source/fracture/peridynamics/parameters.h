@@ -1,0 +1,31 @@
+#pragma once
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include "fracture/peridynamics/stencil.h"
+
+#include <vector>
+
+namespace stockwork::peridynamics
+{
+/// Settings of subsection Fracture/peridynamics. Moduli and toughness belong to the rock.
+template <int dim>
+struct Parameters
+{
+  unsigned int horizon;  ///< m, in lattice spacings
+  VolumeRule volumes;    ///< of the cells that the horizon cuts
+  double margin;         ///< of the zone around the initial cracks, in cells
+  std::vector<dealii::BoundingBox<dim>> boxes; ///< more of the zone
+  double cell_size;      ///< wanted in the zone [m]; zero: as the mesh is
+  double stretch_factor; ///< of the critical stretch; NaN: the lattice's own
+  bool growth;
+  unsigned int bonds_per_pass;
+  unsigned int most_advances; ///< cells per tip and step
+
+  static void declare(dealii::ParameterHandler &prm);
+
+  /// @throws InputError
+  static Parameters parse(dealii::ParameterHandler &prm);
+};
+} // namespace stockwork::peridynamics

@@ -1,0 +1,127 @@
+#pragma once
+
+#include "fracture/peridynamics/bond_set.h"
+#include "fracture/peridynamics/fracture_cells.h"
+#include "fracture/peridynamics/parameters.h"
+#include "stockwork/fracture/model.h"
+
+#include <memory>
+#include <set>
+
+namespace stockwork::peridynamics
+{
+/// Rock made of bonds between the vertices of uniform cells, in a zone around the cracks; finite
+/// elements everywhere else. After Sun et al. (2021), with the changes that README.md lists.
+template <int dim>
+class Peridynamics : public FractureModel<dim>
+{
+public:
+  using typename FractureModel<dim>::CellIterator;
+
+  Peridynamics(const Parameters<dim> &parameters, const Scene<dim> &scene);
+
+  Requirements requirements() const override;
+
+  void setup(const Discretization<dim> &discretization, const Collectives &collectives) override;
+
+  void begin_step(const StepContext &context) override;
+
+  dealii::ArrayView<const Segment<dim>> segments() const override;
+
+  CellRole<dim> role(const CellIterator &cell) const override;
+
+  void add_couplings(const std::function<void(const std::vector<dealii::types::global_dof_index> &)>
+                       &couple) const override;
+
+  void assemble_bulk(const StepContext &context, Sink &sink) const override;
+
+  unsigned int bulk_version() const override
+  {
+    return version;
+  }
+
+  void assemble(const StepContext &context, const State &state, Sink &sink) const override;
+
+  Verdict
+  advance(const StepContext &context, const State &state, const Collectives &collectives) override;
+
+  void commit(const StepContext &context, const State &state) override;
+
+  void rollback() override;
+
+  std::vector<std::string> take_messages() override;
+
+  void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                        std::vector<float> &sizes) const override;
+
+  void save(boost::archive::binary_oarchive &archive) const override;
+
+  void load(boost::archive::binary_iarchive &archive) override;
+
+  FractureSummary summary(const State &state, const Collectives &collectives) const override;
+
+  void write_fields(const State &state, FieldSink<dim> &sink) const override;
+
+private:
+  /// Break the bonds that the initial open cracks pass through.
+  void cut_initial_cracks();
+
+  /// Fracture cells and segments follow the broken bonds. The normal of a cell that has been in an
+  /// accepted step does not change any more.
+  void refresh_segments();
+
+  /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
+  double in_situ_stretch(const dealii::Point<dim> &middle, unsigned int bond) const;
+
+  /// A bond that is stretched too far.
+  struct Candidate
+  {
+    double stretch; ///< over the critical one, rounded
+    unsigned int site, bond;
+  };
+
+  /// The most stretched first. `at_rim`: some cannot break, for they lead out of the zone.
+  std::vector<Candidate> overstretched(const std::vector<double> &displacement, bool &at_rim) const;
+
+  /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
+  double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
+
+  /// Stiffness that a broken bond keeps, of its own: a little where a site has hardly any other.
+  double remaining_stiffness(unsigned int site, unsigned int bond) const;
+
+  Parameters<dim> parameters;
+  const Scene<dim> &scene;
+  ZoneShape<dim> shape;
+  std::vector<StencilBond<dim>> stencil;
+
+  Zone<dim> zone;
+  BondLaw law;
+  std::vector<BondCoefficients<dim>> coefficients;
+  double critical_stretch = 0.;
+  unsigned int rank = 0;
+  bool in_situ_is_zero = true;
+
+  BondSet<dim> bonds;
+  std::vector<FractureCell<dim>> cells;
+  std::vector<Segment<dim>> all_segments;   ///< of all ranks
+  std::vector<Segment<dim>> owned_segments; ///< their openings are known here
+  std::vector<unsigned int> owned_cells;    ///< indices of the same among `cells`
+  std::vector<std::string> messages;
+  unsigned int version = 0; ///< of the bonds
+
+  // Committed.
+  std::vector<BondPlaces<dim>> committed_bonds;
+  std::map<Place<dim>, std::vector<double>> committed_normals;
+  double committed_energy = 0.;
+  bool started = false; ///< the initial cracks are cut
+  bool told_of_rim = false;
+
+  // Of the current step.
+  std::size_t n_messages_before = 0;
+  std::size_t n_segments_before = 0, n_tips_before = 0;
+  unsigned int passes = 0;
+  double dissipated = 0.; ///< since the start [J/m]
+  bool told_of_rim_before = false;
+  std::map<std::uint64_t, double> initial_pressure; ///< of new segments, by key
+};
+} // namespace stockwork::peridynamics

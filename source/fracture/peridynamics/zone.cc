@@ -1,0 +1,424 @@
+#include "fracture/peridynamics/zone.h"
+
+#include <deal.II/dofs/dof_accessor.h>
+
+#include <boost/serialization/array.hpp>
+
+#include "stockwork/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+
+namespace
+{
+/// Marks a rank that knows a site's values, but does not own them.
+constexpr unsigned int not_owner = 1u << 31;
+constexpr int no_mirror = std::numeric_limits<int>::min();
+
+template <int dim>
+double distance_from_polyline(const Point<dim> &x, const std::vector<Point<dim>> &corners)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (unsigned int i = 0; i + 1 < corners.size(); ++i)
+  {
+    const auto along = corners[i + 1] - corners[i];
+    const double length = along.norm_square();
+    const double t =
+      length > 0. ? std::clamp((x - corners[i]) * along / length, 0., 1.) : 0.;
+    nearest = std::min(nearest, x.distance(corners[i] + t * along));
+  }
+  return nearest;
+}
+
+template <int dim>
+double distance_from_box(const Point<dim> &x, const dealii::BoundingBox<dim> &box)
+{
+  double sum = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    const double outside = std::max({box.lower_bound(d) - x[d], x[d] - box.upper_bound(d), 0.});
+    sum += outside * outside;
+  }
+  return std::sqrt(sum);
+}
+
+/// Is the cell a cube? If so, its edge; else zero.
+template <int dim>
+double edge_of_cube(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell)
+{
+  const auto diagonal = cell->vertex((1 << dim) - 1) - cell->vertex(0);
+  const double edge = diagonal[0];
+  for (const unsigned int v : cell->vertex_indices())
+    for (unsigned int d = 0; d < dim; ++d)
+      if (std::abs(cell->vertex(v)[d] - cell->vertex(0)[d] - (v >> d & 1) * edge) > 1e-6 * edge)
+        return 0.;
+  return edge;
+}
+} // namespace
+
+
+template <int dim>
+bool ZoneShape<dim>::contains(const Point<dim> &point,
+                              const double spacing,
+                              const double enlarged_by) const
+{
+  const double tolerance = 1e-6;
+  for (const auto &crack : cracks)
+    if (distance_from_polyline(point, crack) <= (margin + enlarged_by + tolerance) * spacing)
+      return true;
+  for (const auto &box : boxes)
+    if (distance_from_box(point, box) <= (enlarged_by + tolerance) * spacing)
+      return true;
+  return false;
+}
+
+
+template <int dim>
+void Zone<dim>::set_origin(const Point<dim> &point)
+{
+  corner = point;
+  has_corner = true;
+}
+
+
+template <int dim>
+Point<dim> Zone<dim>::position(const Place<dim> &place) const
+{
+  Point<dim> point = corner;
+  for (unsigned int d = 0; d < dim; ++d)
+    point[d] += place[d] * h;
+  return point;
+}
+
+
+template <int dim>
+unsigned int Zone<dim>::find(const Place<dim> &place) const
+{
+  const auto found =
+    std::lower_bound(all_sites.begin(), all_sites.end(), place,
+                     [](const Site<dim> &site, const Place<dim> &p) { return site.place < p; });
+  return found != all_sites.end() && found->place == place
+           ? found - all_sites.begin()
+           : dealii::numbers::invalid_unsigned_int;
+}
+
+
+template <int dim>
+unsigned int Zone<dim>::planes_of(const unsigned int site) const
+{
+  unsigned int planes = 0;
+  for (unsigned int d = 0; d < dim; ++d)
+    for (const int m : mirrors[d])
+      if (m == all_sites[site].place[d])
+        planes |= 1u << d;
+  return planes;
+}
+
+
+template <int dim>
+void Zone<dim>::find_spacing(const ZoneShape<dim> &shape,
+                             const Discretization<dim> &discretization,
+                             const Collectives &collectives)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const double edge = cell->minimum_vertex_distance();
+      if (shape.contains(cell->center(), 0.) ||
+          shape.contains(cell->center(), edge, 0.5 - shape.margin))
+        smallest = std::min(smallest, edge);
+    }
+  h = collectives.min(smallest);
+  if (!std::isfinite(h))
+    throw InputError("No cell of the mesh is in the peridynamic zone.");
+}
+
+
+template <int dim>
+void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
+                             const unsigned int reach,
+                             const Discretization<dim> &discretization,
+                             const Collectives &collectives)
+{
+  const auto &dof_handler = discretization.dof_handler;
+  const auto &constraints = discretization.constraints;
+
+  // The domain, and a vertex of the lattice to count from: the lowest of all in the zone.
+  Point<dim> lower, upper, first;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = std::numeric_limits<double>::infinity();
+    upper[d] = -lower[d];
+    first[d] = lower[d];
+  }
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const unsigned int v : cell->vertex_indices())
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::min(lower[d], cell->vertex(v)[d]);
+          upper[d] = std::max(upper[d], cell->vertex(v)[d]);
+          if (shape.contains(cell->vertex(v), h))
+            first[d] = std::min(first[d], cell->vertex(v)[d]);
+        }
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = collectives.min(lower[d]);
+    upper[d] = collectives.max(upper[d]);
+    first[d] = collectives.min(first[d]);
+  }
+  domain = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
+  if (!has_corner)
+    set_origin(first);
+
+  const auto place_of = [&](const Point<dim> &point)
+  {
+    Place<dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = static_cast<int>(std::lround((point[d] - corner[d]) / h));
+    return place;
+  };
+
+  std::map<Place<dim>, Site<dim>> mine;
+  std::vector<std::array<int, 3>> my_mirrors; // direction, side, place
+  std::vector<double> odd_cell;               // centre of a cell in the zone that is of another size
+  owned_cells.clear();
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && shape.contains(cell->center(), h, reach + 2.))
+    {
+      const double edge = edge_of_cube<dim>(cell);
+      const Place<dim> place = place_of(cell->vertex(0));
+      if (std::abs(edge - h) > 1e-6 * h ||
+          position(place).distance(cell->vertex(0)) > 1e-4 * h)
+      {
+        for (const unsigned int v : cell->vertex_indices())
+          if (odd_cell.empty() && shape.contains(cell->vertex(v), h))
+          {
+            odd_cell.push_back(edge);
+            for (unsigned int d = 0; d < dim; ++d)
+              odd_cell.push_back(cell->center()[d]);
+          }
+        continue;
+      }
+      owned_cells[place] = cell->active_cell_index();
+      for (const unsigned int v : cell->vertex_indices())
+      {
+        Site<dim> site;
+        site.place = place;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          site.place[d] += v >> d & 1;
+          site.dofs[d] = cell->vertex_dof_index(v, d);
+        }
+        if (discretization.has_pore_pressure)
+          site.pressure_dof = cell->vertex_dof_index(v, dim);
+        // Rows are assembled where they are stored.
+        site.owner = dof_handler.locally_owned_dofs().is_element(site.dofs[0])
+                       ? collectives.rank()
+                       : collectives.rank() | not_owner;
+        mine.emplace(site.place, site);
+      }
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+        {
+          const unsigned int normal = f / 2;
+          bool rolls = true, slides = false;
+          for (const unsigned int v : cell->vertex_indices())
+            if ((v >> normal & 1) == f % 2)
+              for (unsigned int d = 0; d < dim; ++d)
+              {
+                const bool constrained = constraints.is_constrained(cell->vertex_dof_index(v, d));
+                if (d == normal)
+                  rolls &= constrained;
+                else
+                  slides |= !constrained;
+              }
+          if (rolls && slides)
+            my_mirrors.push_back({{static_cast<int>(normal), static_cast<int>(f % 2),
+                                   place[normal] + static_cast<int>(f % 2)}});
+        }
+    }
+
+  if (const std::vector<double> odd = collectives.gather(odd_cell); !odd.empty())
+  {
+    std::ostringstream message;
+    message << "Cells in the peridynamic zone must be squares (cubes) of one size, " << h
+            << " m; the one at (";
+    for (unsigned int d = 0; d < dim; ++d)
+      message << odd[1 + d] << (d + 1 < dim ? ", " : "");
+    message << ") m is not. Change the spacing in subsection Mesh, or set 'Cell size'.";
+    throw InputError(message.str());
+  }
+
+  for (auto &m : mirrors)
+    m = {{no_mirror, no_mirror}};
+  for (const auto &m : collectives.gather(my_mirrors))
+    mirrors[m[0]][m[1]] = m[2];
+
+  std::vector<Site<dim>> contributions;
+  for (const auto &[place, site] : mine)
+    contributions.push_back(site);
+  contributions = collectives.gather(contributions);
+  // Of a site that several ranks know, the owner's word counts.
+  std::stable_sort(contributions.begin(), contributions.end(),
+                   [](const auto &a, const auto &b)
+                   { return std::tie(a.place, a.owner) < std::tie(b.place, b.owner); });
+  all_sites.clear();
+  for (Site<dim> &site : contributions)
+    if (all_sites.empty() || all_sites.back().place != site.place)
+    {
+      site.owner &= ~not_owner;
+      all_sites.push_back(site);
+    }
+}
+
+
+template <int dim>
+void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil)
+{
+  far_ends.clear();
+  inner_sites.clear();
+  first_far_end.assign(all_sites.size(), 0);
+  for (unsigned int i = 0; i < all_sites.size(); ++i)
+  {
+    Site<dim> &site = all_sites[i];
+    const unsigned int planes = planes_of(i);
+    site.share = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (planes >> d & 1)
+        site.share *= 0.5;
+    if (!site.peridynamic)
+      continue;
+    inner_sites.push_back(i);
+    first_far_end[i] = far_ends.size();
+    for (const StencilBond<dim> &bond : stencil)
+    {
+      FarEnd end;
+      Place<dim> place = site.place;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        place[d] += bond.offset[d];
+        for (const unsigned int side : {0u, 1u})
+          if (const int m = mirrors[d][side];
+              m != no_mirror && (side == 0 ? place[d] < m : place[d] > m))
+          {
+            place[d] = 2 * m - place[d];
+            end.mirrored |= 1 << d;
+          }
+      }
+      end.site = find(place);
+      if (end.site == dealii::numbers::invalid_unsigned_int)
+      {
+        const Point<dim> far = position(place);
+        bool outside = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          outside |= far[d] < domain.lower_bound(d) - 1e-6 * h ||
+                     far[d] > domain.upper_bound(d) + 1e-6 * h;
+        std::ostringstream message;
+        message << "The horizon of the peridynamic node at (" << position(site.place) << ") m ";
+        if (outside)
+          message << "is cut by the boundary of the domain, which there is no plane of symmetry "
+                     "('Roller'). Leave as many cells between zone and boundary as the horizon "
+                     "has.";
+        else
+          message << "leaves the cells of size " << h
+                  << " m. Uniform cells must go on for the horizon around the zone; change the "
+                     "spacing in subsection Mesh, or set 'Cell size'.";
+        throw InputError(message.str());
+      }
+      far_ends.push_back(end);
+    }
+  }
+}
+
+
+template <int dim>
+void Zone<dim>::setup(const ZoneShape<dim> &shape,
+                      const double spacing,
+                      const std::vector<StencilBond<dim>> &stencil,
+                      const Discretization<dim> &discretization,
+                      const Collectives &collectives)
+{
+  rank = collectives.rank();
+  int reach = 0;
+  for (const StencilBond<dim> &bond : stencil)
+    for (unsigned int d = 0; d < dim; ++d)
+      reach = std::max(reach, std::abs(bond.offset[d]));
+  if (h == 0.)
+  {
+    h = spacing;
+    if (h == 0.)
+      find_spacing(shape, discretization, collectives);
+  }
+  gather_sites(shape, reach, discretization, collectives);
+  for (Site<dim> &site : all_sites)
+    site.peridynamic = shape.contains(position(site.place), h);
+  find_far_ends(stencil);
+
+  patterns.assign(1u << (1u << dim), std::vector<bool>(1 << dim, false));
+  for (unsigned int pattern = 0; pattern < patterns.size(); ++pattern)
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+      patterns[pattern][v] = pattern >> v & 1;
+  pattern_of_cell.assign(discretization.triangulation.n_active_cells(), 0);
+  const auto corner_site = [&](const Place<dim> &cell, const unsigned int v)
+  {
+    Place<dim> place = cell;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] += v >> d & 1;
+    return find(place);
+  };
+  for (const auto &[place, index] : owned_cells)
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+      if (all_sites[corner_site(place, v)].peridynamic)
+        pattern_of_cell[index] |= 1u << v;
+
+  inner_cells.clear();
+  for (const unsigned int i : inner_sites)
+  {
+    bool all = true;
+    for (unsigned int v = 1; v < 1u << dim; ++v)
+    {
+      const unsigned int other = corner_site(all_sites[i].place, v);
+      all &= other != dealii::numbers::invalid_unsigned_int && all_sites[other].peridynamic;
+    }
+    if (all)
+      inner_cells.push_back(all_sites[i].place);
+  }
+}
+
+
+template <int dim>
+const std::vector<bool> *Zone<dim>::skipped_rows(const unsigned int active_cell_index) const
+{
+  if (active_cell_index >= pattern_of_cell.size() || pattern_of_cell[active_cell_index] == 0)
+    return nullptr;
+  return &patterns[pattern_of_cell[active_cell_index]];
+}
+
+
+template <int dim>
+std::vector<double> Zone<dim>::displacement(const dealii::TrilinosWrappers::MPI::BlockVector &bulk,
+                                            const Collectives &collectives) const
+{
+  std::vector<double> u(all_sites.size() * dim, 0.);
+  for (unsigned int i = 0; i < all_sites.size(); ++i)
+    if (all_sites[i].owner == rank)
+      for (unsigned int d = 0; d < dim; ++d)
+        u[i * dim + d] = bulk(all_sites[i].dofs[d]);
+  collectives.sum(u);
+  return u;
+}
+
+
+template struct ZoneShape<2>;
+template struct ZoneShape<3>;
+template class Zone<2>;
+template class Zone<3>;
+} // namespace stockwork::peridynamics

@@ -1,0 +1,182 @@
+#pragma once
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
+#include "fracture/peridynamics/stencil.h"
+#include "stockwork/fracture/collectives.h"
+#include "stockwork/fracture/scene.h"
+#include "stockwork/mesh/discretization.h"
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace stockwork::peridynamics
+{
+/// Place of a vertex on the lattice, in spacings from its origin.
+template <int dim>
+using Place = std::array<int, dim>;
+
+/// Where rock is made of bonds: around the initial cracks, and in boxes that the deck names.
+template <int dim>
+struct ZoneShape
+{
+  std::vector<std::vector<dealii::Point<dim>>> cracks; ///< polylines
+  std::vector<dealii::BoundingBox<dim>> boxes;
+  double margin; ///< of cells around the cracks
+
+  /// At lattice spacing h [m], enlarged by so many cells.
+  bool contains(const dealii::Point<dim> &point, double spacing, double enlarged_by = 0.) const;
+};
+
+/// A vertex of the uniform cells in the zone or around it.
+template <int dim>
+struct Site
+{
+  Place<dim> place;
+  std::array<dealii::types::global_dof_index, dim> dofs;
+  dealii::types::global_dof_index pressure_dof = dealii::numbers::invalid_dof_index;
+  unsigned int owner = 0;       ///< the rank that gives its values; of a peridynamic site, of its rows
+  bool peridynamic = false; ///< its momentum rows are bonds'
+  double share = 1.;        ///< of its cell that lies in the domain: a half on a plane of symmetry
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &place &dofs &pressure_dof &owner &share;
+  }
+};
+
+/// The far end of a bond. Beyond a plane of symmetry (a roller boundary) it is the image of a site
+/// of the domain, with the components of displacement in `mirrored` reversed.
+struct FarEnd
+{
+  unsigned int site;
+  unsigned char mirrored = 0; ///< bit d: reflected in direction d
+};
+
+/// The lattice: vertices of the cells that are uniform in and around the zone, and which of them
+/// are peridynamic. The same on every rank, so that a horizon may cross any number of them; the
+/// zone is a thin one around the cracks.
+template <int dim>
+class Zone
+{
+public:
+  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  /// @param spacing [m]; zero: the edge of the smallest cell in the zone
+  /// @throws InputError where cells in the zone differ, or a horizon leaves the domain through a
+  /// boundary that is not a plane of symmetry
+  void setup(const ZoneShape<dim> &shape,
+             double spacing,
+             const std::vector<StencilBond<dim>> &stencil,
+             const Discretization<dim> &discretization,
+             const Collectives &collectives);
+
+  /// Where place 0 is; of an earlier run, before the first setup().
+  void set_origin(const dealii::Point<dim> &point);
+
+  const dealii::Point<dim> &origin() const
+  {
+    return corner;
+  }
+
+  double spacing() const
+  {
+    return h;
+  }
+
+  /// Whether a point is inside the domain, and by so much.
+  bool is_inside(const dealii::Point<dim> &point, const double distance) const
+  {
+    bool inside = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      inside = inside && point[d] > domain.lower_bound(d) + distance &&
+               point[d] < domain.upper_bound(d) - distance;
+    return inside;
+  }
+
+  /// Sorted by place.
+  const std::vector<Site<dim>> &sites() const
+  {
+    return all_sites;
+  }
+
+  /// Numbers of those sites that are peridynamic.
+  const std::vector<unsigned int> &peridynamic_sites() const
+  {
+    return inner_sites;
+  }
+
+  /// Invalid if there is none.
+  unsigned int find(const Place<dim> &place) const;
+
+  dealii::Point<dim> position(const Place<dim> &place) const;
+
+  /// Far end of a bond of a peridynamic site.
+  FarEnd far_end(const unsigned int site, const unsigned int bond) const
+  {
+    return far_ends[first_far_end[site] + bond];
+  }
+
+  /// Planes of symmetry that a site lies on: bit d, one normal to direction d.
+  unsigned int planes_of(const unsigned int site) const;
+
+  /// Lower corners of the cells whose corners are all peridynamic.
+  const std::vector<Place<dim>> &cells() const
+  {
+    return inner_cells;
+  }
+
+  /// Whether this rank owns that cell.
+  bool owns(const Place<dim> &cell) const
+  {
+    return owned_cells.count(cell) != 0;
+  }
+
+  /// Active cell index of a cell that this rank owns.
+  unsigned int active_cell_index(const Place<dim> &cell) const
+  {
+    return owned_cells.at(cell);
+  }
+
+  unsigned int n_active_cells() const
+  {
+    return pattern_of_cell.size();
+  }
+
+  /// Which of the cell's vertices are peridynamic, or null for none of them.
+  const std::vector<bool> *skipped_rows(const unsigned int active_cell_index) const;
+
+  /// Displacement of all sites, [site * dim + component]. Collective.
+  std::vector<double> displacement(const dealii::TrilinosWrappers::MPI::BlockVector &bulk,
+                                   const Collectives &collectives) const;
+
+private:
+  void find_spacing(const ZoneShape<dim> &, const Discretization<dim> &, const Collectives &);
+  void gather_sites(const ZoneShape<dim> &,
+                    unsigned int reach,
+                    const Discretization<dim> &,
+                    const Collectives &);
+  void find_far_ends(const std::vector<StencilBond<dim>> &stencil);
+
+  dealii::Point<dim> corner;
+  bool has_corner = false;
+  double h = 0.;
+
+  std::vector<Site<dim>> all_sites;
+  std::vector<unsigned int> inner_sites;
+  std::vector<FarEnd> far_ends;            ///< of the peridynamic sites, by bond
+  std::vector<std::size_t> first_far_end;  ///< of each site
+  std::vector<Place<dim>> inner_cells;
+  std::map<Place<dim>, unsigned int> owned_cells;
+  std::vector<unsigned int> pattern_of_cell; ///< by active cell index, bit v: vertex v
+  std::vector<std::vector<bool>> patterns;
+
+  /// Planes of symmetry, if any: the place along each direction, of the lower and of the upper one.
+  std::array<std::array<int, 2>, dim> mirrors;
+  dealii::BoundingBox<dim> domain;
+  unsigned int rank = 0;
+};
+} // namespace stockwork::peridynamics
