@@ -49,6 +49,10 @@ Discretisation parse_discretisation(ParameterHandler &prm,
   prm.enter_subsection("Discretisation");
   const std::string elements = prm.get("Elements");
   discretisation.displacement_degree = elements.substr(0, 2) == "Q2" ? 2 : 1;
+  if (requirements.linear_elements && discretisation.displacement_degree > 1)
+    throw EntryError("Discretisation/Elements", elements,
+                     "Q1-Q1 stabilised or Q1-Q1, because the nodes of the fracture model are the "
+                     "vertices of cells");
   if (elements == "Q1-Q1 stabilised")
     discretisation.stabilisation = PressureStabilisation::projection;
   prm.leave_subsection();
@@ -225,6 +229,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   control.parse_parameters(prm);
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
+
+  if (model->requirements().quasi_static_only && scheme.kind() == TimeScheme::Kind::newmark)
+    throw EntryError("Time/Scheme", "Newmark",
+                     "a quasi-static scheme, because the fracture model has no inertia");
 
   CouplingParameters coupling;
   coupling.parse_parameters(prm);

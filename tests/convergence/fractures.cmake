@@ -22,6 +22,11 @@ stockwork_case_test(NAME convergence/clusters/without_friction DECK prm/clusters
   SET "Resolution=coarse" "Time/End time=5 s" "Wells/Well 1/Perforation friction=0"
   EXPECT "final/well_1_perforation_1_rate > 4.9e-4" "final/well_1_perforation_2_rate < 0.1e-4"
          "fluid_balance/relative_error < 1e-8")
+stockwork_case_test(NAME convergence/kgd/toughness/peridynamics
+  DECK prm/kgd/toughness/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=10 s"
+  EXPECT "errors/fracture_length/final < 0.2" "errors/inlet_aperture/final < 0.15"
+         "fluid_balance/relative_error < 1e-8")
 # Static cracks.
 stockwork_case_test(NAME convergence/sneddon DECK prm/sneddon/prescribed.prm NEGATIVE
   SET "Resolution=coarse"
@@ -31,6 +36,8 @@ stockwork_case_test(NAME convergence/sneddon/fine DECK prm/sneddon/prescribed.pr
   SET "Resolution=fine"
   EXPECT "errors/fracture_volume/final < 0.001" "errors/stress_intensity_I/final < 0.001"
          "errors/displacement/final < 0.001" "unknowns < 50000")
+stockwork_case_test(NAME convergence/sneddon/peridynamics DECK prm/sneddon/peridynamics.prm NEGATIVE
+  SET "Resolution=medium" EXPECT "errors/fracture_volume/final < 0.02")
 stockwork_case_test(NAME convergence/sneddon/box DECK prm/sneddon/box/prescribed.prm NEGATIVE
   SET "Resolution=coarse"
   EXPECT "errors/fracture_volume/final < 0.01" "errors/stress_intensity_I/final < 0.005")

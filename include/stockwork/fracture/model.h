@@ -32,6 +32,7 @@ struct Requirements
   bool changes_bulk = false;  ///< bulk_coefficients() has something to say
   bool newton = true;         ///< assemble() gives the exact derivative (else a secant)
   bool quasi_static_only = false;
+  bool linear_elements = false; ///< displacements live at vertices only
 };
 
 /// What a model says about a converged solution.
@@ -122,8 +123,9 @@ public:
     return 0;
   }
 
-  /// Add the model's other terms (cohesive tractions, released stress); not the fluid, not the bulk. A
-  /// function of committed history and of the state alone: it may be called any number of times.
+  /// Add the model's other terms (cohesive tractions, released stress); not the fluid, not the
+  /// bulk. A function of committed history and of the state alone: it may be called any number of
+  /// times.
   virtual void assemble(const StepContext &, const State &, Sink &) const
   {
   }

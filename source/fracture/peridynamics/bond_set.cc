@@ -44,7 +44,8 @@ unsigned int BondSet<dim>::reflected(const unsigned int b, const unsigned int mi
 template <int dim>
 void BondSet<dim>::set_broken(const unsigned int site, const unsigned int bond)
 {
-  for_each_view(site, bond, [&](const unsigned int s, const unsigned int b)
+  for_each_view(site, bond,
+                [&](const unsigned int s, const unsigned int b)
                 { broken[number[s] * stencil.size() + b] = true; });
 }
 

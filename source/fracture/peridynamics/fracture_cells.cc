@@ -43,15 +43,15 @@ double sum_of_components(const Tensor<1, dim> &normal)
   return sum;
 }
 
-/// Unit vector along which the second moment is greatest, rounded so that the sum's order does not
-/// show.
+/// Unit vector along which a second moment is greatest or least, rounded so that the order of the
+/// sum does not show.
 template <int dim>
-Tensor<1, dim> principal_direction(SymmetricTensor<2, dim> moment)
+Tensor<1, dim> axis(SymmetricTensor<2, dim> moment, const bool greatest)
 {
   const double scale = trace(moment);
   for (unsigned int i = 0; i < moment.n_independent_components; ++i)
     moment.access_raw_entry(i) = std::round(1e9 * moment.access_raw_entry(i) / scale) * 1e-9;
-  Tensor<1, dim> normal = eigenvectors(moment)[0].second;
+  Tensor<1, dim> normal = eigenvectors(moment)[greatest ? 0 : dim - 1].second;
   for (unsigned int d = 0; d < dim; ++d)
     if (std::abs(normal[d]) < 1e-8)
       normal[d] = 0.;
@@ -82,13 +82,12 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
           Place<dim> offset;
           for (unsigned int d = 0; d < dim; ++d)
             offset[d] = static_cast<int>(w >> d & 1) - static_cast<int>(v >> d & 1);
-          const unsigned int b = bonds.bond(offset);
-          if (b != none && bonds.is_broken(site[v], b))
-            use(bonds.bonds()[b].direction());
+          if (const unsigned int b = bonds.bond(offset); b != none)
+            use(bonds.bonds()[b].direction(), bonds.is_broken(site[v], b));
         }
     };
     unsigned int n_broken = 0;
-    for_each_own([&](const Tensor<1, dim> &) { ++n_broken; });
+    for_each_own([&](const Tensor<1, dim> &, const bool broken) { n_broken += broken; });
     if (n_broken < 2)
       continue;
 
@@ -96,15 +95,81 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
     for (const unsigned int i : site)
       for (unsigned int b = 0; b < bonds.n_bonds(); ++b)
         if (bonds.is_broken(i, b))
-          moment += symmetrize(outer_product(bonds.bonds()[b].direction(),
-                                             bonds.bonds()[b].direction()));
-    FractureCell<dim> cell{place, principal_direction(moment)};
+          moment +=
+            symmetrize(outer_product(bonds.bonds()[b].direction(), bonds.bonds()[b].direction()));
+    FractureCell<dim> cell{place, axis(moment, true)};
     n_broken = 0;
-    for_each_own([&](const Tensor<1, dim> &e) { n_broken += std::abs(e * cell.normal) > crossing; });
+    for_each_own([&](const Tensor<1, dim> &e, const bool broken)
+                 { n_broken += broken && std::abs(e * cell.normal) > crossing; });
     if (n_broken >= 2)
       cells.push_back(cell);
   }
   return cells;
+}
+
+
+template <int dim>
+void align_normals(std::vector<FractureCell<dim>> &cells, const unsigned int radius)
+{
+  constexpr double thin = 0.3; // of what is a band: its width over its length, squared
+  std::map<Place<dim>, unsigned int> index;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    index[cells[i].place] = i;
+  const int r = radius, n_around = static_cast<int>(std::pow(2 * r + 1, dim) + 0.5);
+  for (FractureCell<dim> &cell : cells)
+  {
+    std::vector<Tensor<1, dim>> around;
+    Tensor<1, dim> mean;
+    for (int k = 0; k < n_around; ++k)
+    {
+      Place<dim> place = cell.place;
+      Tensor<1, dim> offset;
+      for (int d = 0, rest = k; d < dim; ++d, rest /= 2 * r + 1)
+      {
+        offset[d] = rest % (2 * r + 1) - r;
+        place[d] += rest % (2 * r + 1) - r;
+      }
+      if (offset.norm() < r + 0.5 && index.count(place) != 0)
+      {
+        around.push_back(offset);
+        mean += offset;
+      }
+    }
+    mean /= around.size();
+    SymmetricTensor<2, dim> spread;
+    for (const Tensor<1, dim> &offset : around)
+      spread += symmetrize(outer_product(offset - mean, offset - mean));
+    if (around.size() < dim || trace(spread) == 0.)
+      continue;
+    const auto values = eigenvalues(spread);
+    if (values[dim - 1] < thin * values[dim - 2])
+      cell.normal = axis(spread, false);
+  }
+}
+
+
+template <int dim>
+double broken_share(const Zone<dim> &zone, const BondSet<dim> &bonds, const FractureCell<dim> &cell)
+{
+  unsigned int n_broken = 0, n_crossing = 0;
+  for (unsigned int v = 0; v < 1u << dim; ++v)
+  {
+    const unsigned int site = zone.find(corner<dim>(cell.place, v));
+    double here = 0.; // distances from the fracture, in spacings
+    for (unsigned int d = 0; d < dim; ++d)
+      here += cell.normal[d] * ((v >> d & 1) != 0u ? 0.5 : -0.5);
+    for (unsigned int b = 0; b < bonds.n_bonds(); ++b)
+    {
+      double there = here;
+      for (unsigned int d = 0; d < dim; ++d)
+        there += cell.normal[d] * bonds.bonds()[b].offset[d];
+      if ((here > 0.) == (there > 0.))
+        continue;
+      ++n_crossing;
+      n_broken += bonds.is_broken(site, b);
+    }
+  }
+  return double(n_broken) / n_crossing;
 }
 
 
@@ -188,8 +253,9 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
   };
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    const auto connect = [&](const unsigned int j)
-    { segments[i].neighbours.push_back({segments[j].key, 0.5 * segments[i].area / edge, edge}); };
+    const auto connect = [&](const unsigned int j) {
+      segments[i].neighbours.push_back({segments[j].key, 0.5 * segments[i].area / edge, edge});
+    };
     const auto near = faces_of(cells[i].place);
     for (const auto &place : near)
       if (const auto j = index.find(place); j != index.end())
@@ -200,8 +266,7 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
         {
           const Place<dim> place = {{cells[i].place[0] + dx, cells[i].place[1] + dy}};
           const auto j = index.find(place);
-          if (j != index.end() &&
-              index.count({{place[0], cells[i].place[1]}}) == 0 &&
+          if (j != index.end() && index.count({{place[0], cells[i].place[1]}}) == 0 &&
               index.count({{cells[i].place[0], place[1]}}) == 0)
             connect(j->second);
         }
@@ -215,13 +280,16 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
 }
 
 
-#define INSTANTIATE(dim)                                                                           \
-  template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,                   \
-                                                              const BondSet<dim> &);               \
-  template double fracture_area(const Tensor<1, dim> &, const double);                             \
-  template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,                     \
-                                 const Tensor<1, dim> &);                                          \
-  template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                              \
+#define INSTANTIATE(dim)                                                             \
+  template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,     \
+                                                              const BondSet<dim> &); \
+  template void align_normals(std::vector<FractureCell<dim>> &, const unsigned int); \
+  template double broken_share(const Zone<dim> &, const BondSet<dim> &,              \
+                               const FractureCell<dim> &);                           \
+  template double fracture_area(const Tensor<1, dim> &, const double);               \
+  template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,       \
+                                 const Tensor<1, dim> &);                            \
+  template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                \
                                                    const std::vector<FractureCell<dim>> &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -14,10 +14,23 @@ struct FractureCell
 };
 
 /// The cells with at least two of their own bonds (between two of their corners) broken that cross
-/// the fracture. Its direction is that of most of the broken bonds of the cell's corners: for a
-/// straight fracture their second moment about the normal is greatest. In the order of the places.
+/// the fracture. Its normal is the direction of most of the broken bonds of the cell's corners. In
+/// the order of the places.
 template <int dim>
-std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const BondSet<dim> &bonds);
+std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone,
+                                                   const BondSet<dim> &bonds);
+
+/// Where the fracture cells within @p radius cells lie along a line (plane), normals are those of
+/// that line: what is broken around a tip alone is too few bonds to tell, and a normal that is
+/// wrong there loads the faces unevenly and turns the fracture.
+template <int dim>
+void align_normals(std::vector<FractureCell<dim>> &cells, const unsigned int radius);
+
+/// Share of the bonds of the cell's corners that lead across the fracture and are broken: one where
+/// nothing holds any more, less within a horizon of a tip.
+template <int dim>
+double
+broken_share(const Zone<dim> &zone, const BondSet<dim> &bonds, const FractureCell<dim> &cell);
 
 /// Area of the fracture in a cell, such that a long one has the right area in all [m^(dim-1)]: a
 /// plane passes through |n_x| + |n_y| (+ |n_z|) cells per area of a face.

@@ -46,8 +46,8 @@ double Peridynamics<dim>::in_situ_stretch(const Point<dim> &middle, const unsign
     effective += rock.biot_coefficient * scene.in_situ_pore_pressure(middle) *
                  dealii::unit_symmetric_tensor<dim>();
   const SymmetricTensor<2, dim> strain =
-    (effective - lambda / (dim * lambda + 2. * mu) * trace(effective) *
-                   dealii::unit_symmetric_tensor<dim>()) /
+    (effective -
+     lambda / (dim * lambda + 2. * mu) * trace(effective) * dealii::unit_symmetric_tensor<dim>()) /
     (2. * mu);
   const Tensor<1, dim> &e = coefficients[bond].direction;
   return e * (strain * e);
@@ -131,7 +131,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   for (unsigned int k = 0; k < candidates.size(); ++k)
   {
     if (k >= parameters.bonds_per_pass &&
-        candidates[k].stretch < candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * resolution)
+        candidates[k].stretch <
+          candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * resolution)
       break;
     const auto [stretch, site, bond] = candidates[k];
     if (bonds.is_broken(site, bond))
@@ -142,8 +143,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                           if (bonds.is_broken(s, b))
                             return;
                           const double length = stretch * critical_stretch * coefficients[b].length;
-                          dissipated += 0.25 * zone.sites()[s].share * coefficients[b].stiffness *
-                                        length * length;
+                          dissipated +=
+                            0.25 * zone.sites()[s].share * stiffness(s, b) * length * length;
                         });
     bonds.set_broken(site, bond);
   }
@@ -165,13 +166,13 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   return verdict;
 }
 
-#define INSTANTIATE(dim)                                                                           \
-  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                        \
-                                                const std::vector<double> &) const;                \
-  template double Peridynamics<dim>::in_situ_stretch(const Point<dim> &, unsigned int) const;      \
-  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(             \
-    const std::vector<double> &, bool &) const;                                                    \
-  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,                  \
+#define INSTANTIATE(dim)                                                                      \
+  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                   \
+                                                const std::vector<double> &) const;           \
+  template double Peridynamics<dim>::in_situ_stretch(const Point<dim> &, unsigned int) const; \
+  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(        \
+    const std::vector<double> &, bool &) const;                                               \
+  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,             \
                                               const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -20,19 +20,25 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
                     "direction in the small. full: all of it if its centre is inside. ramp: a "
                     "share that falls linearly over the last cell; the least accurate.");
-  prm.declare_entry("Margin", "", Patterns::Anything(),
-                    "Cells around the initial cracks that are peridynamic, at least the horizon and "
-                    "one; empty: the horizon and two.");
+  prm.declare_entry(
+    "Margin", "", Patterns::Anything(),
+    "Cells around the initial cracks that are peridynamic, at least the horizon and "
+    "one; empty: the horizon and two.");
   prm.declare_entry("Zone", "", Patterns::Anything(),
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
   prm.declare_entry("Cell size", "0", Quantity(dimension::length, Range::non_negative()),
                     "Wanted size of the cells in the zone and for a horizon around it, which must "
                     "be squares (cubes) of one size [m]; zero: that of the given mesh.");
-  prm.declare_entry("Critical stretch factor", "", Patterns::Anything(),
-                    "Of the stretch at which bonds break, over the one that follows from the rock's "
-                    "energy release rate when sums are integrals. Empty: the one with which a crack "
-                    "on the lattice grows at that rate, 0.874 for a horizon of 3, 0.924 for 4.");
+  prm.declare_entry(
+    "Critical stretch factor", "", Patterns::Anything(),
+    "Of the stretch at which bonds break, over the one that follows from the rock's "
+    "energy release rate when sums are integrals. Empty: the one with which a crack "
+    "on the lattice grows at that rate, 0.874 for a horizon of 3, 0.924 for 4.");
+  prm.declare_entry("Surface correction", "true", Patterns::Bool(),
+                    "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
+                    "which makes its faces too soft. With the correction, the bonds that are left "
+                    "are stiffer, in proportion.");
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry("Bonds per pass", "20", Patterns::Integer(1),
                     "Bonds that break, the most stretched first, before the step is solved again.");
@@ -67,10 +73,10 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   for (const auto &labelled : parse_boxes<dim>(prm.get("Zone")))
     p.boxes.push_back(labelled.box);
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
-  p.stretch_factor =
-    number("Critical stretch factor", std::numeric_limits<double>::quiet_NaN());
+  p.stretch_factor = number("Critical stretch factor", std::numeric_limits<double>::quiet_NaN());
   if (p.stretch_factor <= 0.)
     throw bad("Critical stretch factor", "a number > 0");
+  p.surface_correction = prm.get_bool("Surface correction");
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   p.most_advances = prm.get_integer("Most advances per step");

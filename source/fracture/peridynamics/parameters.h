@@ -13,12 +13,13 @@ namespace stockwork::peridynamics
 template <int dim>
 struct Parameters
 {
-  unsigned int horizon;  ///< m, in lattice spacings
-  VolumeRule volumes;    ///< of the cells that the horizon cuts
-  double margin;         ///< of the zone around the initial cracks, in cells
+  unsigned int horizon;                        ///< m, in lattice spacings
+  VolumeRule volumes;                          ///< of the cells that the horizon cuts
+  double margin;                               ///< of the zone around the initial cracks, in cells
   std::vector<dealii::BoundingBox<dim>> boxes; ///< more of the zone
-  double cell_size;      ///< wanted in the zone [m]; zero: as the mesh is
-  double stretch_factor; ///< of the critical stretch; NaN: the lattice's own
+  double cell_size;                            ///< wanted in the zone [m]; zero: as the mesh is
+  double stretch_factor;                       ///< of the critical stretch; NaN: the lattice's own
+  bool surface_correction;
   bool growth;
   unsigned int bonds_per_pass;
   unsigned int most_advances; ///< cells per tip and step

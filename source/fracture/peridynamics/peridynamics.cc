@@ -8,7 +8,9 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace stockwork::peridynamics
@@ -19,9 +21,18 @@ using dealii::Tensor;
 
 namespace
 {
+std::string text(const double number)
+{
+  std::ostringstream stream;
+  stream << number;
+  return stream.str();
+}
+
 /// Stiffness that broken bonds keep where a site has lost nearly all of them.
 constexpr double remaining_share = 1e-6;
 constexpr double nearly_detached = 0.9;
+/// Of the bonds' stiffness at a free face, where about half of them are gone.
+constexpr double most_correction = 2.;
 } // namespace
 
 
@@ -34,7 +45,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   const RockProperties &rock = scene.rock.main();
   const double nu = bond_based_poisson_ratio(rock.plane_stress);
   if (std::abs(rock.poisson_ratio - nu) > 1e-6)
-    throw EntryError("Rock/Poisson ratio", std::to_string(rock.poisson_ratio),
+    throw EntryError("Rock/Poisson ratio", text(rock.poisson_ratio),
                      (rock.plane_stress ? std::string("1/3") : std::string("0.25")) +
                        " with bond-based peridynamics" +
                        (rock.plane_stress ? " in plane stress" : ""));
@@ -57,6 +68,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.symmetric = false;
   requirements.symmetric_bulk = false;
   requirements.quasi_static_only = true;
+  requirements.linear_elements = true;
   return requirements;
 }
 
@@ -65,10 +77,6 @@ template <int dim>
 void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
                               const Collectives &collectives)
 {
-  if (discretization.dof_handler.get_fe().base_element(0).degree != 1)
-    throw EntryError("Discretisation/Elements", "Q2-Q1",
-                     "Q1-Q1 stabilised or Q1-Q1 with peridynamics, whose nodes are the vertices of "
-                     "cells");
   rank = collectives.rank();
   zone.setup(shape, parameters.cell_size, stencil, discretization, collectives);
   bonds.reinit(zone, stencil);
@@ -82,8 +90,8 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
                                                             : parameters.stretch_factor);
   in_situ_is_zero = true;
   for (const unsigned int i : zone.peridynamic_sites())
-    in_situ_is_zero = in_situ_is_zero &&
-                      scene.in_situ_stress(zone.position(zone.sites()[i].place)).norm() == 0.;
+    in_situ_is_zero =
+      in_situ_is_zero && scene.in_situ_stress(zone.position(zone.sites()[i].place)).norm() == 0.;
 
   if (started)
     bonds.set_broken(committed_bonds);
@@ -91,6 +99,7 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
   {
     cut_initial_cracks();
     committed_bonds = bonds.places();
+    set_initial_normals();
     started = true;
   }
   ++version;
@@ -119,8 +128,7 @@ void Peridynamics<dim>::cut_initial_cracks()
           for (unsigned int b = 0; b < stencil.size(); ++b)
           {
             const Point<dim> from = zone.position(zone.sites()[i].place);
-            const Tensor<1, dim> xi =
-              zone.spacing() * stencil[b].length() * stencil[b].direction();
+            const Tensor<1, dim> xi = zone.spacing() * stencil[b].length() * stencil[b].direction();
             // A node on the crack belongs to its left side.
             const double s = side(from), t = side(from + xi);
             if ((s >= -reach) == (t >= -reach) || !bonds.can_break(i, b))
@@ -131,7 +139,8 @@ void Peridynamics<dim>::cut_initial_cracks()
             const bool after_start = place > (c == 0 && !at_wall(start) ? reach : -reach);
             const bool before_end =
               place <
-              length + (c + 2 == crack.points.size() && !at_wall(crack.points.back()) ? -reach : reach);
+              length +
+                (c + 2 == crack.points.size() && !at_wall(crack.points.back()) ? -reach : reach);
             if (after_start && before_end)
               bonds.set_broken(i, b);
           }
@@ -141,9 +150,39 @@ void Peridynamics<dim>::cut_initial_cracks()
 
 
 template <int dim>
+void Peridynamics<dim>::set_initial_normals()
+{
+  if constexpr (dim == 2)
+    for (const FractureCell<dim> &cell : find_fracture_cells(zone, bonds))
+    {
+      Point<dim> centre = zone.position(cell.place);
+      for (unsigned int d = 0; d < dim; ++d)
+        centre[d] += 0.5 * zone.spacing();
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto &crack : scene.cracks)
+        for (unsigned int c = 0; c + 1 < crack.points.size(); ++c)
+        {
+          const std::vector<Point<dim>> piece{crack.points[c], crack.points[c + 1]};
+          const double distance = distance_from_polyline(centre, piece);
+          if (crack.kind != InitialCrack<dim>::Kind::open || distance >= nearest)
+            continue;
+          nearest = distance;
+          const Tensor<1, dim> along = (piece[1] - piece[0]) / piece[0].distance(piece[1]);
+          const double upward = along[0] >= 0. ? 1. : -1.;
+          committed_normals[cell.place] = {-upward * along[1], upward * along[0]};
+        }
+    }
+}
+
+
+template <int dim>
 void Peridynamics<dim>::refresh_segments()
 {
+  damage.assign(zone.sites().size(), 0.);
+  for (const unsigned int i : zone.peridynamic_sites())
+    damage[i] = bonds.damage(i);
   cells = find_fracture_cells(zone, bonds);
+  align_normals(cells, parameters.horizon + 1);
   for (FractureCell<dim> &cell : cells)
     if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
       for (unsigned int d = 0; d < dim; ++d)
@@ -157,10 +196,9 @@ void Peridynamics<dim>::refresh_segments()
     const auto &n = segment.normal;
     segment.given_pressure = scene.crack_pressure;
     const auto carried = initial_pressure.find(segment.key);
-    segment.initial_pressure =
-      carried != initial_pressure.end()
-        ? carried->second
-        : std::max(0., -(n * (scene.in_situ_stress(segment.centre) * n)));
+    segment.initial_pressure = carried != initial_pressure.end()
+                                 ? carried->second
+                                 : std::max(0., -(n * (scene.in_situ_stress(segment.centre) * n)));
     if (segment.pore_pressure.bulk.empty())
     {
       segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
@@ -212,15 +250,16 @@ void Peridynamics<dim>::add_couplings(
 
 
 template <int dim>
-double Peridynamics<dim>::remaining_stiffness(const unsigned int site,
-                                              const unsigned int bond) const
+double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int bond) const
 {
-  if (!bonds.is_broken(site, bond))
-    return 1.;
-  return bonds.damage(site) > nearly_detached ||
-             bonds.damage(zone.far_end(site, bond).site) > nearly_detached
-           ? remaining_share
-           : 0.;
+  const double here = damage[site], there = damage[zone.far_end(site, bond).site];
+  const double whole = coefficients[bond].stiffness;
+  if (bonds.is_broken(site, bond))
+    return std::max(here, there) > nearly_detached ? remaining_share * whole : 0.;
+  if (!parameters.surface_correction)
+    return whole;
+  const auto share_lost = [](const double d) { return std::min(1. / (1. - d), most_correction); };
+  return 0.5 * (share_lost(here) + share_lost(there)) * whole;
 }
 
 
@@ -236,8 +275,7 @@ void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &sink) const
       continue;
     for (unsigned int b = 0; b < stencil.size(); ++b)
     {
-      const double k =
-        site.share * coefficients[b].stiffness * remaining_stiffness(i, b);
+      const double k = site.share * stiffness(i, b);
       if (k == 0.)
         continue;
       // The force on this end; that on the other is in its own row.
@@ -309,9 +347,15 @@ void Peridynamics<dim>::commit(const StepContext &, const State &)
   if (passes > 0)
     committed_bonds = bonds.places();
   committed_energy = dissipated;
-  for (const FractureCell<dim> &cell : cells)
-    committed_normals.emplace(
-      cell.place, std::vector<double>(cell.normal.begin_raw(), cell.normal.end_raw()));
+  const double settled = (parameters.horizon + 1.5) * zone.spacing();
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    if (std::none_of(all_segments.begin(), all_segments.end(),
+                     [&](const Segment<dim> &other) {
+                       return other.at_tip &&
+                              other.centre.distance(all_segments[i].centre) < settled;
+                     }))
+      committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
+                                                                    cells[i].normal.end_raw()));
   initial_pressure.clear();
 }
 
@@ -398,12 +442,12 @@ template <int dim>
 FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) const
 {
   FractureSummary result;
-  for (const Segment<dim> &segment : all_segments)
+  for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    result.length += segment.area;
-    result.n_tips += segment.at_tip;
+    result.length += all_segments[i].area;
+    result.broken_length += broken_share(zone, bonds, cells[i]) * all_segments[i].area;
+    result.n_tips += all_segments[i].at_tip;
   }
-  result.broken_length = result.length;
   result.dissipated_energy = dissipated;
   return result;
 }
@@ -412,10 +456,7 @@ FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) c
 template <int dim>
 void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
 {
-  std::vector<double> damage_of_site(zone.sites().size(), 0.);
-  for (const unsigned int i : zone.peridynamic_sites())
-    damage_of_site[i] = bonds.damage(i);
-  std::vector<double> damage(zone.n_active_cells(), 0.);
+  std::vector<double> mean_damage(zone.n_active_cells(), 0.);
   for (const Place<dim> &cell : zone.cells())
     if (zone.owns(cell))
     {
@@ -425,28 +466,28 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
         Place<dim> place = cell;
         for (unsigned int d = 0; d < dim; ++d)
           place[d] += v >> d & 1;
-        sum += damage_of_site[zone.find(place)];
+        sum += damage[zone.find(place)];
       }
-      damage[zone.active_cell_index(cell)] = sum / (1 << dim);
+      mean_damage[zone.active_cell_index(cell)] = sum / (1 << dim);
     }
-  sink.add_cell_field("damage", damage);
+  sink.add_cell_field("damage", mean_damage);
 
   if constexpr (dim == 2)
     for (const Segment<dim> &segment : owned_segments)
     {
       double aperture = 0.;
       for (unsigned int k = 0; k < segment.opening.bulk.size(); ++k)
-        aperture += segment.opening.bulk_coefficients[k] *
-                    state.current.bulk(segment.opening.bulk[k]);
+        aperture +=
+          segment.opening.bulk_coefficients[k] * state.current.bulk(segment.opening.bulk[k]);
       std::vector<std::pair<std::string, double>> values{{"aperture", aperture}, {"damage", 1.}};
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(segment.key));
       Tensor<1, dim> along;
       along[0] = segment.normal[1];
       along[1] = -segment.normal[0];
-      sink.add_fracture_piece({segment.centre - 0.5 * segment.area * along,
-                               segment.centre + 0.5 * segment.area * along},
-                              values);
+      sink.add_fracture_piece(
+        {segment.centre - 0.5 * segment.area * along, segment.centre + 0.5 * segment.area * along},
+        values);
     }
 }
 

@@ -66,8 +66,11 @@ private:
   /// Break the bonds that the initial open cracks pass through.
   void cut_initial_cracks();
 
-  /// Fracture cells and segments follow the broken bonds. The normal of a cell that has been in an
-  /// accepted step does not change any more.
+  /// The fracture cells of initial cracks have the cracks' own normals.
+  void set_initial_normals();
+
+  /// Fracture cells and segments follow the broken bonds. The normal of a cell that tips have
+  /// left behind does not change any more.
   void refresh_segments();
 
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
@@ -86,8 +89,10 @@ private:
   /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
   double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
 
-  /// Stiffness that a broken bond keeps, of its own: a little where a site has hardly any other.
-  double remaining_stiffness(unsigned int site, unsigned int bond) const;
+  /// Of a bond, force per elongation [N/m]. Where bonds are broken the others are stiffer by the
+  /// mean of V/V_left of both ends, so that a free face is not too soft (Le and Bobaru 2018, the
+  /// volume method); a site with hardly any bond left keeps a little of the broken ones.
+  double stiffness(unsigned int site, unsigned int bond) const;
 
   Parameters<dim> parameters;
   const Scene<dim> &scene;
@@ -102,6 +107,7 @@ private:
   bool in_situ_is_zero = true;
 
   BondSet<dim> bonds;
+  std::vector<double> damage; ///< of all sites
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;   ///< of all ranks
   std::vector<Segment<dim>> owned_segments; ///< their openings are known here

@@ -21,19 +21,9 @@ namespace
 constexpr unsigned int not_owner = 1u << 31;
 constexpr int no_mirror = std::numeric_limits<int>::min();
 
-template <int dim>
-double distance_from_polyline(const Point<dim> &x, const std::vector<Point<dim>> &corners)
+EntryError unsuitable_mesh(const std::string &why)
 {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (unsigned int i = 0; i + 1 < corners.size(); ++i)
-  {
-    const auto along = corners[i + 1] - corners[i];
-    const double length = along.norm_square();
-    const double t =
-      length > 0. ? std::clamp((x - corners[i]) * along / length, 0., 1.) : 0.;
-    nearest = std::min(nearest, x.distance(corners[i] + t * along));
-  }
-  return nearest;
+  return EntryError("Fracture/Model", "peridynamics", "a model that suits the mesh. " + why);
 }
 
 template <int dim>
@@ -61,6 +51,21 @@ double edge_of_cube(const typename dealii::DoFHandler<dim>::active_cell_iterator
   return edge;
 }
 } // namespace
+
+
+template <int dim>
+double distance_from_polyline(const Point<dim> &x, const std::vector<Point<dim>> &corners)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (unsigned int i = 0; i + 1 < corners.size(); ++i)
+  {
+    const auto along = corners[i + 1] - corners[i];
+    const double length = along.norm_square();
+    const double t = length > 0. ? std::clamp((x - corners[i]) * along / length, 0., 1.) : 0.;
+    nearest = std::min(nearest, x.distance(corners[i] + t * along));
+  }
+  return nearest;
+}
 
 
 template <int dim>
@@ -103,9 +108,8 @@ unsigned int Zone<dim>::find(const Place<dim> &place) const
   const auto found =
     std::lower_bound(all_sites.begin(), all_sites.end(), place,
                      [](const Site<dim> &site, const Place<dim> &p) { return site.place < p; });
-  return found != all_sites.end() && found->place == place
-           ? found - all_sites.begin()
-           : dealii::numbers::invalid_unsigned_int;
+  return found != all_sites.end() && found->place == place ? found - all_sites.begin()
+                                                           : dealii::numbers::invalid_unsigned_int;
 }
 
 
@@ -137,7 +141,7 @@ void Zone<dim>::find_spacing(const ZoneShape<dim> &shape,
     }
   h = collectives.min(smallest);
   if (!std::isfinite(h))
-    throw InputError("No cell of the mesh is in the peridynamic zone.");
+    throw unsuitable_mesh("No cell is in the zone.");
 }
 
 
@@ -188,15 +192,14 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
 
   std::map<Place<dim>, Site<dim>> mine;
   std::vector<std::array<int, 3>> my_mirrors; // direction, side, place
-  std::vector<double> odd_cell;               // centre of a cell in the zone that is of another size
+  std::vector<double> odd_cell; // centre of a cell in the zone that is of another size
   owned_cells.clear();
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && shape.contains(cell->center(), h, reach + 2.))
     {
       const double edge = edge_of_cube<dim>(cell);
       const Place<dim> place = place_of(cell->vertex(0));
-      if (std::abs(edge - h) > 1e-6 * h ||
-          position(place).distance(cell->vertex(0)) > 1e-4 * h)
+      if (std::abs(edge - h) > 1e-6 * h || position(place).distance(cell->vertex(0)) > 1e-4 * h)
       {
         for (const unsigned int v : cell->vertex_indices())
           if (odd_cell.empty() && shape.contains(cell->vertex(v), h))
@@ -254,7 +257,7 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
     for (unsigned int d = 0; d < dim; ++d)
       message << odd[1 + d] << (d + 1 < dim ? ", " : "");
     message << ") m is not. Change the spacing in subsection Mesh, or set 'Cell size'.";
-    throw InputError(message.str());
+    throw unsuitable_mesh(message.str());
   }
 
   for (auto &m : mirrors)
@@ -319,8 +322,8 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil)
         const Point<dim> far = position(place);
         bool outside = false;
         for (unsigned int d = 0; d < dim; ++d)
-          outside |= far[d] < domain.lower_bound(d) - 1e-6 * h ||
-                     far[d] > domain.upper_bound(d) + 1e-6 * h;
+          outside |=
+            far[d] < domain.lower_bound(d) - 1e-6 * h || far[d] > domain.upper_bound(d) + 1e-6 * h;
         std::ostringstream message;
         message << "The horizon of the peridynamic node at (" << position(site.place) << ") m ";
         if (outside)
@@ -331,7 +334,7 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil)
           message << "leaves the cells of size " << h
                   << " m. Uniform cells must go on for the horizon around the zone; change the "
                      "spacing in subsection Mesh, or set 'Cell size'.";
-        throw InputError(message.str());
+        throw unsuitable_mesh(message.str());
       }
       far_ends.push_back(end);
     }
@@ -417,6 +420,8 @@ std::vector<double> Zone<dim>::displacement(const dealii::TrilinosWrappers::MPI:
 }
 
 
+template double distance_from_polyline(const Point<2> &, const std::vector<Point<2>> &);
+template double distance_from_polyline(const Point<3> &, const std::vector<Point<3>> &);
 template struct ZoneShape<2>;
 template struct ZoneShape<3>;
 template class Zone<2>;

@@ -30,6 +30,10 @@ struct ZoneShape
   bool contains(const dealii::Point<dim> &point, double spacing, double enlarged_by = 0.) const;
 };
 
+template <int dim>
+double distance_from_polyline(const dealii::Point<dim> &x,
+                              const std::vector<dealii::Point<dim>> &corners);
+
 /// A vertex of the uniform cells in the zone or around it.
 template <int dim>
 struct Site
@@ -37,7 +41,7 @@ struct Site
   Place<dim> place;
   std::array<dealii::types::global_dof_index, dim> dofs;
   dealii::types::global_dof_index pressure_dof = dealii::numbers::invalid_dof_index;
-  unsigned int owner = 0;       ///< the rank that gives its values; of a peridynamic site, of its rows
+  unsigned int owner = 0;   ///< the rank that gives its values; of a peridynamic site, of its rows
   bool peridynamic = false; ///< its momentum rows are bonds'
   double share = 1.;        ///< of its cell that lies in the domain: a half on a plane of symmetry
 
@@ -167,8 +171,8 @@ private:
 
   std::vector<Site<dim>> all_sites;
   std::vector<unsigned int> inner_sites;
-  std::vector<FarEnd> far_ends;            ///< of the peridynamic sites, by bond
-  std::vector<std::size_t> first_far_end;  ///< of each site
+  std::vector<FarEnd> far_ends;           ///< of the peridynamic sites, by bond
+  std::vector<std::size_t> first_far_end; ///< of each site
   std::vector<Place<dim>> inner_cells;
   std::map<Place<dim>, unsigned int> owned_cells;
   std::vector<unsigned int> pattern_of_cell; ///< by active cell index, bit v: vertex v
