@@ -286,8 +286,6 @@ TEST_CASE("without calibration the bulk modulus converges with the square of the
 
 TEST_CASE("trapping falls with the horizon")
 {
-  CHECK(trapping_factor(3) == doctest::Approx(0.874).epsilon(1e-3));
-  CHECK(trapping_factor(4) == doctest::Approx(0.924).epsilon(1e-3));
   for (unsigned int m = 2; m < 6; ++m)
     CHECK(trapping_factor(m) < trapping_factor(m + 1));
   CHECK(trapping_factor(6) < 1.);

@@ -124,10 +124,11 @@ continuum_critical_stretch(const RockProperties &rock, const double horizon, con
 
 double trapping_factor(const unsigned int m)
 {
-  const double driving_force = m <= 2   ? 1.78
-                               : m == 3 ? 1.31
-                               : m == 4 ? 1.17
-                                        : 1. + 0.17 * 16. / (m * m);
+  const double driving_force = m <= 2   ? 1.785
+                               : m == 3 ? 1.477
+                               : m == 4 ? 1.38
+                               : m == 5 ? 1.215
+                                        : 1. + 0.157 * 36. / (m * m);
   return 1. / std::sqrt(driving_force);
 }
 
