@@ -34,7 +34,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Critical stretch factor", "", Patterns::Anything(),
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
-    "on the lattice grows at that rate, 0.874 for a horizon of 3, 0.924 for 4.");
+    "on the lattice grows at that rate, 0.823 for a horizon of 3, 0.851 for 4.");
   prm.declare_entry("Surface correction", "true", Patterns::Bool(),
                     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
                     "which makes its faces too soft. With the correction, the bonds that are left "
