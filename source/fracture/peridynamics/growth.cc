@@ -73,7 +73,11 @@ Peridynamics<dim>::overstretched(const std::vector<double> &u, bool &at_rim) con
         stretch += in_situ_stretch(zone.position(zone.sites()[i].place) +
                                      0.5 * coefficients[b].length * coefficients[b].direction,
                                    b);
-      const double ratio = std::round(stretch / critical_stretch / resolution) * resolution;
+      // What breaks a bond is its energy; bonds beside a crack are stiffer.
+      const double energy = stiffness(i, b) / coefficients[b].stiffness * stretch * stretch;
+      const double ratio =
+        stretch > 0. ? std::round(std::sqrt(energy) / critical_stretch / resolution) * resolution
+                     : 0.;
       if (ratio < 1.)
         continue;
       if (breakable)
@@ -143,8 +147,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                           if (bonds.is_broken(s, b))
                             return;
                           const double length = stretch * critical_stretch * coefficients[b].length;
-                          dissipated +=
-                            0.25 * zone.sites()[s].share * stiffness(s, b) * length * length;
+                          dissipated += 0.25 * zone.sites()[s].share * coefficients[b].stiffness *
+                                        length * length;
                         });
     bonds.set_broken(site, bond);
   }

@@ -79,7 +79,7 @@ private:
   /// A bond that is stretched too far.
   struct Candidate
   {
-    double stretch; ///< over the critical one, rounded
+    double stretch; ///< an intact one of the same energy has it, over the critical one, rounded
     unsigned int site, bond;
   };
 
