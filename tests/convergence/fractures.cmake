@@ -22,7 +22,7 @@ stockwork_case_test(NAME convergence/clusters/without_friction DECK prm/clusters
   SET "Resolution=coarse" "Time/End time=5 s" "Wells/Well 1/Perforation friction=0"
   EXPECT "final/well_1_perforation_1_rate > 4.9e-4" "final/well_1_perforation_2_rate < 0.1e-4"
          "fluid_balance/relative_error < 1e-8")
-stockwork_case_test(NAME convergence/kgd/toughness/peridynamics
+stockwork_case_test(NAME convergence/kgd/toughness/peridynamics NEGATIVE
   DECK prm/kgd/toughness/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=15 s"
   EXPECT "errors/fracture_length/mean < 0.13" "errors/inlet_aperture/mean < 0.05"
@@ -83,3 +83,7 @@ stockwork_case_test(NAME convergence/dcb DECK prm/dcb/cohesive_xfem.prm NEGATIVE
   SET "Resolution=coarse"
   EXPECT "errors/peak_load/final < 0.03" "errors/dissipated_energy/final < 0.025"
          "final/energy_balance_error < 0.02")
+stockwork_case_test(NAME convergence/dcb/medium DECK prm/dcb/cohesive_xfem.prm
+  SET "Resolution=medium"
+  EXPECT "errors/peak_load/final < 0.005" "errors/load/final < 0.01"
+         "errors/dissipated_energy/final < 0.012")

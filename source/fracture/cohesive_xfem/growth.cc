@@ -158,7 +158,8 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     // would never end. Where it does so by far, there is no cohesive zone worth the name: cells
     // open by less than the fluid's aperture would be cut one after another.
     const bool broken_here = damaged_share(tips[i].crack, tips[i].end, 1., state) >= 0.5;
-    if (damaged_share(tips[i].crack, tips[i].end, 1e-12, state) == 0. ||
+    // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
+    if ((pressure != 0. && damaged_share(tips[i].crack, tips[i].end, 1e-12, state) == 0.) ||
         (!broken_here && fluid_overpowers(tips[i].crack, tips[i].end, state)))
       continue;
     // Suction at the tip and the tension ahead, both many times the strength, leave a difference

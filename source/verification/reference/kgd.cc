@@ -108,6 +108,7 @@ public:
                       const unsigned int wings,
                       const std::string &title)
     : kgd(parameters, last_time)
+    , leaks(parameters.leak_off_coefficient > 0.)
     , wings(wings)
     , title(title)
   {
@@ -120,15 +121,19 @@ public:
 
   std::map<std::string, double> values(const double time) const override
   {
-    return {{"fracture_length", wings * kgd.half_length(time)},
-            {"inlet_aperture", kgd.inlet_opening(time)},
-            {"inlet_pressure", kgd.inlet_pressure(time)},
-            {"fracture_volume", 0.5 * wings * kgd.fracture_volume(time)},
-            {"leaked_volume", 0.5 * wings * kgd.leaked_volume(time)}};
+    std::map<std::string, double> result = {
+      {"fracture_length", wings * kgd.half_length(time)},
+      {"inlet_aperture", kgd.inlet_opening(time)},
+      {"inlet_pressure", kgd.inlet_pressure(time)},
+      {"fracture_volume", 0.5 * wings * kgd.fracture_volume(time)}};
+    if (leaks)
+      result["leaked_volume"] = 0.5 * wings * kgd.leaked_volume(time);
+    return result;
   }
 
 private:
   analytical::HydraulicFracture kgd;
+  bool leaks;
   unsigned int wings;
   std::string title;
 };
