@@ -152,7 +152,6 @@ void CoupledSystem<dim>::setup_mesh(const double time)
     structure.dim = dim;
     structure.has_pore_pressure = discretisation.has_pore_pressure;
     structure.n_dofs = dof_handler.n_dofs();
-    structure.elastic_constant = !discretisation.has_pore_pressure;
     if (coupling_parameters.scheme == CouplingParameters::Scheme::monolithic)
       solver = make_linear_solver(solver_parameters, structure, run.communicator);
     else

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deal.II/fe/fe_system.h>
+#include <deal.II/lac/full_matrix.h>
 
 #include "stockwork/base/run_context.h"
 #include "stockwork/fracture/model.h"

@@ -27,7 +27,6 @@ struct BulkStructure
   unsigned int dim = 2;
   bool has_pore_pressure = false;
   dealii::types::global_dof_index n_dofs = 0; ///< bulk unknowns of all ranks
-  bool elastic_constant = false;              ///< definite, and the same in all steps
 };
 
 /// Subsection "Linear solver".
