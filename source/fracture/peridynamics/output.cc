@@ -1,0 +1,67 @@
+#include "fracture/peridynamics/peridynamics.h"
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+using dealii::Tensor;
+
+template <int dim>
+FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) const
+{
+  FractureSummary result;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    result.length += all_segments[i].area;
+    result.broken_length += broken_share(zone, bonds, cells[i]) * all_segments[i].area;
+    result.n_tips += all_segments[i].at_tip;
+  }
+  result.dissipated_energy = dissipated;
+  return result;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
+{
+  std::vector<double> mean_damage(zone.n_active_cells(), 0.);
+  for (const Place<dim> &cell : zone.cells())
+    if (zone.owns(cell))
+    {
+      double sum = 0.;
+      for (unsigned int v = 0; v < 1u << dim; ++v)
+      {
+        Place<dim> place = cell;
+        for (unsigned int d = 0; d < dim; ++d)
+          place[d] += v >> d & 1;
+        sum += damage[zone.find(place)];
+      }
+      mean_damage[zone.active_cell_index(cell)] = sum / (1 << dim);
+    }
+  sink.add_cell_field("damage", mean_damage);
+
+  if constexpr (dim == 2)
+    for (const Segment<dim> &segment : owned_segments)
+    {
+      double aperture = 0.;
+      for (unsigned int k = 0; k < segment.opening.bulk.size(); ++k)
+        aperture +=
+          segment.opening.bulk_coefficients[k] * state.current.bulk(segment.opening.bulk[k]);
+      std::vector<std::pair<std::string, double>> values{{"aperture", aperture}, {"damage", 1.}};
+      if (state.segment_pressure)
+        values.emplace_back("fluid_pressure", state.segment_pressure(segment.key));
+      Tensor<1, dim> along;
+      along[0] = segment.normal[1];
+      along[1] = -segment.normal[0];
+      sink.add_fracture_piece(
+        {segment.centre - 0.5 * segment.area * along, segment.centre + 0.5 * segment.area * along},
+        values);
+    }
+}
+
+#define INSTANTIATE(dim)                                                                         \
+  template FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) const; \
+  template void Peridynamics<dim>::write_fields(const State &, FieldSink<dim> &) const;
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics
