@@ -207,7 +207,7 @@ BlockAmgSolver::BlockAmgSolver(const LinearSolverParameters &parameters,
   : parameters(parameters)
   , communicator(communicator)
   , extra(communicator,
-          [this](const auto &left, const auto &right, bool) { return multiply(left, right); })
+          [this](const auto &left, const auto &right) { return multiply(left, right); })
 {
 }
 
@@ -289,7 +289,8 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   if (new_mesh || stamps.displacement_values != built_for.displacement_values)
     extra.forget();
   if (op.n_extra() > 0)
-    extra.update(op, stiffness->m());
+    // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
+    extra.update(op, op.border(), stiffness->m(), true);
   built_for = stamps;
   report.setup_seconds = stopwatch.seconds();
 

@@ -2,9 +2,12 @@
 
 #include "solvers/bulk_transfer.h"
 #include "solvers/stopwatch.h"
+#include "stockwork/base/all_gather.h"
 #include "stockwork/base/error.h"
 
 #include <deal.II/base/mpi.h>
+
+#include <Epetra_CrsMatrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +17,34 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int max_refinements = 4;
+/// Right-hand sides solved for at once: a dense solution each.
+constexpr unsigned int batch = 32;
+/// Rows of a changed bulk matrix, above which it is factorised anew.
+constexpr unsigned int most_changes = 256;
+/// Entries by which a row differs, over its diagonal entry, that are rounding errors.
+constexpr double same_entry = 1e-14;
+/// Memory for solutions that are kept, at least [numbers].
+constexpr std::size_t least_memory = 1 << 26;
+
+/// Values of this rank's rows of the bulk, not scaled.
+std::vector<double> bulk_values(const LinearSystem &system)
+{
+  std::vector<double> result;
+  for (unsigned int b = 0; b < system.bulk.n_block_rows(); ++b)
+    for (unsigned int c = 0; c < system.bulk.n_block_cols(); ++c)
+    {
+      const Epetra_CrsMatrix &matrix = system.bulk.block(b, c).trilinos_matrix();
+      for (int i = 0; i < matrix.NumMyRows(); ++i)
+      {
+        int n_entries;
+        double *values;
+        int *indices;
+        matrix.ExtractMyRowView(i, n_entries, values, indices);
+        result.insert(result.end(), values, values + n_entries);
+      }
+    }
+  return result;
+}
 } // namespace
 
 BorderedSolver::BorderedSolver(const MPI_Comm communicator)
@@ -21,8 +52,7 @@ BorderedSolver::BorderedSolver(const MPI_Comm communicator)
   , is_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   , direct(communicator)
   , schur(communicator,
-          [this](const auto &left, const auto &right, const bool transposed)
-          { return multiply(left, right, transposed); })
+          [this](const auto &left, const auto &right) { return multiply(left, right); })
 {
 }
 
@@ -45,10 +75,74 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   factor->factorise(values);
   factor_scaling = op.scaling();
   factor_stamps = stamps;
+
+  solutions.clear();
+  most_solutions = 0;
+  values_with_changes = stamps.bulk_values;
+  n_changes = 0;
+  change_columns.clear();
+  change_rows.clear();
+  factor_values = definite ? std::vector<double>() : bulk_values(op.system());
 }
 
-std::vector<double> BorderedSolver::solve_columns(const ExtraSchur::SparseVectors &right_hand_sides,
-                                                  const bool transposed)
+bool BorderedSolver::find_changes(const SystemOperator &op)
+{
+  const std::vector<double> now = bulk_values(op.system());
+  change_columns.clear();
+  change_rows.clear();
+  std::vector<int> rows, columns;
+  std::vector<dealii::types::global_dof_index> changed;
+  for (std::size_t k = 0; k < now.size(); ++k)
+    if (now[k] != factor_values[k])
+    {
+      if (rows.empty())
+        append_bulk_indices(op, false, rows, columns);
+      const dealii::types::global_dof_index row = rows[k] - 1;
+      const auto [block, local] = op.locate(row);
+      const double d = SystemOperator::entry(factor_scaling.bulk, block, local);
+      if (!(std::abs(now[k] - factor_values[k]) * d * d > same_entry))
+        continue;
+      if (changed.empty() || changed.back() != row)
+      {
+        changed.push_back(row);
+        change_columns.add(row, 0, 1. / d);
+      }
+      change_rows.add(row, columns[k] - 1, d * (factor_values[k] - now[k]));
+    }
+  // Where the bulk has several blocks, a row comes once for each.
+  std::vector<dealii::types::global_dof_index> all = all_gather(communicator, changed);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  n_changes = all.size();
+  if (n_changes > most_changes)
+    return false;
+  const auto number = [&](const auto row)
+  { return std::lower_bound(all.begin(), all.end(), row) - all.begin(); };
+  for (std::size_t k = 0; k < change_columns.rows.size(); ++k)
+    change_columns.columns[k] = number(change_columns.rows[k]);
+  for (auto &row : change_rows.rows)
+    row = number(row);
+  return true;
+}
+
+SystemOperator::Border BorderedSolver::border_with_changes(const SystemOperator &op) const
+{
+  SystemOperator::Border border = op.border();
+  if (n_changes == 0)
+    return border;
+  Triplets columns = change_columns, rows = change_rows, corner;
+  for (auto &column : columns.columns)
+    column += op.n_extra();
+  for (auto &row : rows.rows)
+    row += op.n_extra();
+  if (is_root)
+    for (unsigned int i = 0; i < n_changes; ++i)
+      corner.add(op.n_extra() + i, op.n_extra() + i, 1.);
+  op.extend(border, op.n_extra() + n_changes, columns, rows, corner);
+  return border;
+}
+
+std::vector<double> BorderedSolver::solve_columns(const ExtraSchur::SparseVectors &right_hand_sides)
 {
   std::vector<int> starts = {1}, rows;
   std::vector<double> values;
@@ -62,33 +156,55 @@ std::vector<double> BorderedSolver::solve_columns(const ExtraSchur::SparseVector
     starts.push_back(static_cast<int>(rows.size()) + 1);
   }
   std::vector<double> x(is_root ? right_hand_sides.size() * factor->size() : 0);
-  factor->solve_sparse(starts, rows, values, x, transposed);
+  factor->solve_sparse(starts, rows, values, x);
   return x;
 }
 
 std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &left,
-                                             const ExtraSchur::SparseVectors &right,
-                                             const bool transposed)
+                                             const ExtraSchur::SparseVectors &right)
 {
-  const std::vector<double> x = solve_columns(right, transposed);
-  std::vector<double> result;
-  result.reserve(left.size() * right.size());
-  if (is_root)
-    for (std::size_t j = 0; j < right.size(); ++j)
-      for (const auto *vector : left)
-      {
-        const double *solution = x.data() + j * factor->size();
-        double sum = 0.;
-        for (const auto &[i, value] : *vector)
-          sum += value * solution[i];
-        result.push_back(sum);
-      }
-  result.resize(left.size() * right.size());
+  const bool keep = !factor_values.empty();
+  const std::size_t n = factor->size();
+  std::vector<double> result(left.size() * right.size());
+  const auto multiply_one = [&](const std::size_t j, const double *solution)
+  {
+    for (std::size_t l = 0; l < left.size(); ++l)
+    {
+      double sum = 0.;
+      for (const auto &[i, value] : *left[l])
+        sum += value * solution[i];
+      result[j * left.size() + l] = sum;
+    }
+  };
+  std::vector<std::size_t> wanted;
+  for (std::size_t j = 0; j < right.size(); ++j)
+    if (const auto known = solutions.find(*right[j]); known == solutions.end())
+      wanted.push_back(j);
+    else if (is_root)
+      multiply_one(j, known->second.data());
+  for (std::size_t begin = 0; begin < wanted.size(); begin += batch)
+  {
+    const std::size_t n_now = std::min<std::size_t>(batch, wanted.size() - begin);
+    ExtraSchur::SparseVectors columns;
+    for (std::size_t k = 0; k < n_now; ++k)
+      columns.push_back(right[wanted[begin + k]]);
+    const std::vector<double> x = solve_columns(columns);
+    for (std::size_t k = 0; k < n_now; ++k)
+    {
+      if (is_root)
+        multiply_one(wanted[begin + k], x.data() + k * n);
+      if (keep)
+        solutions[*columns[k]] = is_root
+                                   ? std::vector<double>(x.begin() + k * n, x.begin() + (k + 1) * n)
+                                   : std::vector<double>();
+    }
+  }
   MPI_Bcast(result.data(), static_cast<int>(result.size()), MPI_DOUBLE, 0, communicator);
   return result;
 }
 
 void BorderedSolver::eliminate(const SystemOperator &op,
+                               const SystemOperator::Border &border,
                                const SystemVector &r,
                                SystemVector &dx,
                                const bool skip_bulk_load)
@@ -104,14 +220,14 @@ void BorderedSolver::eliminate(const SystemOperator &op,
   };
 
   SystemVector load = r;
-  if (op.n_extra() > 0)
+  if (border.n > 0)
   {
     // S z = r_extra - C A^-1 r_bulk
-    std::vector<double> z(op.n_extra(), 0.);
+    std::vector<double> z(border.n, 0.);
     if (!skip_bulk_load)
     {
       solve_bulk(r);
-      for (const auto &e : op.extra_bulk())
+      for (const auto &e : border.extra_bulk)
       {
         const auto [block, local] = op.locate(e.column);
         z[e.row] -= e.value * SystemOperator::entry(y.bulk, block, local);
@@ -123,7 +239,7 @@ void BorderedSolver::eliminate(const SystemOperator &op,
     schur.solve(z);
     for (unsigned int i = 0; i < op.n_extra(); ++i)
       dx.extra[i] -= z[i];
-    for (const auto &e : op.bulk_extra())
+    for (const auto &e : border.bulk_extra)
     {
       const auto [block, local] = op.locate(e.row);
       SystemOperator::entry(load.bulk, block, local) -= e.value * z[e.column];
@@ -142,27 +258,44 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
   if (!system.elastic)
     return direct.solve(system, stamps, tolerance, dx_bulk, dx_extra);
 
-  const bool same_bulk =
-    factor && stamps.mesh == factor_stamps.mesh && stamps.bulk_values == factor_stamps.bulk_values;
-  const SystemOperator op(system, communicator, same_bulk ? &factor_scaling.bulk : nullptr);
+  const Stopwatch stopwatch;
+  const bool has_factor = factor && stamps.mesh == factor_stamps.mesh;
+  const bool same_bulk = has_factor && stamps.bulk_values == values_with_changes;
+  const bool may_keep = has_factor && !factor_values.empty() &&
+                        solutions.size() <= std::max(most_solutions, least_memory / factor->size());
+  auto op = std::make_unique<SystemOperator>(
+    system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);
   LinearReport report;
+  SystemOperator::Border border;
   const auto prepare = [&](const bool anew)
   {
     if (anew)
-      factorise(op, stamps);
+    {
+      if (same_bulk || may_keep) // its scaling is the old factor's
+        op = std::make_unique<SystemOperator>(system, communicator);
+      factorise(*op, stamps);
+    }
     report.factorised |= anew;
-    if (op.n_extra() == 0)
+    border = border_with_changes(*op);
+    if (border.n == 0)
       return;
-    schur.update(op, op.n_bulk(), &factor_scaling.bulk);
+    schur.update(*op, border, op->n_bulk(), system.definite, &factor_scaling.bulk);
+    if (anew)
+      most_solutions = 2 * solutions.size();
   };
-  const Stopwatch stopwatch;
-  prepare(!same_bulk);
+  bool anew = !same_bulk;
+  if (!same_bulk && may_keep)
+  {
+    anew = !find_changes(*op);
+    values_with_changes = stamps.bulk_values;
+  }
+  prepare(anew);
   report.setup_seconds = stopwatch.seconds();
 
-  SystemVector dx = op.make_vector(), r = op.make_vector();
+  SystemVector dx = op->make_vector(), r = op->make_vector();
   r.bulk = system.residual_bulk;
   r.extra = system.residual_extra;
-  const double size = op.scaled_norm(r);
+  const double size = op->scaled_norm(r);
   double last = size;
   if (size == 0.)
     report.converged = true;
@@ -170,13 +303,13 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
   {
     // In a Newton iteration after the first, the bulk is in equilibrium already: its load would
     // be rounding errors.
-    SystemVector bulk_only = op.make_vector();
+    SystemVector bulk_only = op->make_vector();
     bulk_only.bulk = r.bulk;
-    const bool in_balance = op.scaled_norm(bulk_only) <= 1e-2 * tolerance * size;
-    eliminate(op, r, dx, in_balance);
+    const bool in_balance = op->scaled_norm(bulk_only) <= 1e-2 * tolerance * size;
+    eliminate(*op, border, r, dx, in_balance);
 
-    op.residual(r, dx);
-    const double now = op.scaled_norm(r);
+    op->residual(r, dx);
+    const double now = op->scaled_norm(r);
     report.iterations = k;
     report.relative_residual = now / size;
     report.converged = now <= tolerance * size;
@@ -185,7 +318,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
       if (report.factorised)
         break;
       prepare(true); // the values have changed behind the stamps' back
-      dx = op.make_vector();
+      dx = op->make_vector();
       r.bulk = system.residual_bulk;
       r.extra = system.residual_extra;
       last = size;

@@ -6,6 +6,8 @@
 #include "solvers/mumps.h"
 #include "solvers/system_operator.h"
 
+#include <map>
+
 namespace stockwork
 {
 /// For elastic rock with a fracture: block elimination of the bulk,
@@ -15,8 +17,10 @@ namespace stockwork
 ///
 /// with a sparse factor of A, Cholesky's where A is definite, that outlives Newton iterations,
 /// steps and growth of the fracture, and a small dense Schur complement (ExtraSchur). A Newton
-/// iteration then takes two back-substitutions and one dense factorisation. Systems whose bulk has
-/// pore pressures go to the direct solver.
+/// iteration then takes two back-substitutions and one dense factorisation. Where few rows of A
+/// have changed since it was factorised (bonds broke), the factor is kept as well (Woodbury):
+/// A + E dA is A with one more extra unknown f = dA u per changed row. Systems whose bulk has pore
+/// pressures go to the direct solver.
 class BorderedSolver : public LinearSolver
 {
 public:
@@ -31,18 +35,26 @@ public:
 private:
   void factorise(const SystemOperator &, const SystemStamps &);
 
-  /// x_k = A^-1 b_k, or A^-T b_k (scaled), dense, on rank 0.
-  std::vector<double> solve_columns(const ExtraSchur::SparseVectors &right_hand_sides,
-                                    bool transposed);
+  /// Find the rows of A that have changed since it was factorised.
+  /// @return false: too many have
+  bool find_changes(const SystemOperator &);
+
+  /// The border of the system, and of the changed rows of A.
+  SystemOperator::Border border_with_changes(const SystemOperator &) const;
+
+  /// A^-1 b_k (scaled), one after another, dense, on rank 0.
+  std::vector<double> solve_columns(const ExtraSchur::SparseVectors &right_hand_sides);
 
   /// See ExtraSchur.
   std::vector<double> multiply(const ExtraSchur::SparseVectors &left,
-                               const ExtraSchur::SparseVectors &right,
-                               bool transposed);
+                               const ExtraSchur::SparseVectors &right);
 
   /// dx -= J^-1 r by block elimination.
-  void
-  eliminate(const SystemOperator &op, const SystemVector &r, SystemVector &dx, bool skip_bulk_load);
+  void eliminate(const SystemOperator &op,
+                 const SystemOperator::Border &border,
+                 const SystemVector &r,
+                 SystemVector &dx,
+                 bool skip_bulk_load);
 
   MPI_Comm communicator;
   bool is_root;
@@ -51,6 +63,16 @@ private:
   std::unique_ptr<Mumps> factor;
   SystemStamps factor_stamps;
   SystemVector factor_scaling;
+  std::vector<double> factor_values; ///< of this rank's rows; empty where A is definite
+
+  unsigned int values_with_changes = 0; ///< stamp of the values that `changes` belong to
+  unsigned int n_changes = 0;           ///< rows, of all ranks
+  Triplets change_columns, change_rows; ///< E/d and -d dA, d the scaling; rows numbered from zero
+
+  /// A^-1 of columns of the border, where A is not symmetric. Dense, on rank 0; the same keys on
+  /// every rank.
+  std::map<ExtraSchur::SparseVector, std::vector<double>> solutions;
+  std::size_t most_solutions = 0;
 
   ExtraSchur schur;
 };

@@ -17,9 +17,6 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int no_place = -1;
-/// Right-hand sides solved for at once: a dense solution each.
-constexpr unsigned int batch = 32;
-
 } // namespace
 
 void ExtraSchur::throw_singular()
@@ -44,6 +41,7 @@ void ExtraSchur::forget()
 
 std::vector<ExtraSchur::Border>
 ExtraSchur::gather_borders(const SystemOperator &op,
+                           const SystemOperator::Border &border,
                            const dealii::types::global_dof_index end,
                            const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling) const
 {
@@ -58,20 +56,20 @@ ExtraSchur::gather_borders(const SystemOperator &op,
       bulk_scaling != nullptr ? SystemOperator::entry(*bulk_scaling, block, local) : 1.;
     to.insert(to.end(), {double(extra), double(i), factor * value});
   };
-  for (const auto &e : op.bulk_extra())
+  for (const auto &e : border.bulk_extra)
     add(mine[0], e.column, e.row, e.value);
-  for (const auto &e : op.extra_bulk())
+  for (const auto &e : border.extra_bulk)
     add(mine[1], e.row, e.column, e.value);
 
-  std::vector<Border> borders(op.n_extra());
+  std::vector<Border> borders(border.n);
   for (const bool rows : {false, true})
   {
     const std::vector<double> all = all_gather(communicator, mine[rows]);
     for (std::size_t i = 0; i < all.size(); i += 3)
       if (all[i + 2] != 0.)
       {
-        Border &border = borders[static_cast<unsigned int>(all[i])];
-        (rows ? border.row : border.column).emplace_back(static_cast<int>(all[i + 1]), all[i + 2]);
+        Border &one = borders[static_cast<unsigned int>(all[i])];
+        (rows ? one.row : one.column).emplace_back(static_cast<int>(all[i + 1]), all[i + 2]);
       }
   }
   return borders;
@@ -130,51 +128,49 @@ void ExtraSchur::update_products(const std::vector<Border> &borders, const bool 
       }
     }
 
-  // Rows of the product are solves with A^T and rows of the border as right-hand sides; where all
-  // is symmetric, they are the columns.
+  // Of a symmetric A, rows of the product are solves with rows of the border as right-hand sides;
+  // where the border is symmetric, too, they are the columns.
   const bool symmetric =
     symmetric_bulk && std::all_of(known.begin(), known.end(),
                                   [](const Border &border) { return border.row == border.column; });
   const unsigned int n = known.size();
+  if (n == n_old)
+    return;
   for (auto &row : products)
     row.resize(n);
   products.resize(n, std::vector<double>(n));
-  for (unsigned int begin = n_old; begin < n; begin += batch)
+  SparseVectors all_rows, all_columns;
+  for (const Border &border : known)
   {
-    const unsigned int end = std::min(begin + batch, n);
-    SparseVectors all_rows, all_columns, new_rows, new_columns;
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      all_rows.push_back(&known[i].row);
-      all_columns.push_back(&known[i].column);
-      if (i >= begin && i < end)
-      {
-        new_rows.push_back(&known[i].row);
-        new_columns.push_back(&known[i].column);
-      }
-    }
-    const auto columns = multiply(all_rows, new_columns, false);
-    const auto rows = symmetric ? columns : multiply(all_columns, new_rows, !symmetric_bulk);
-    for (unsigned int e = begin; e < end; ++e)
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        products[i][e] = columns[(e - begin) * n + i];
-        products[e][i] = rows[(e - begin) * n + i];
-      }
+    all_rows.push_back(&border.row);
+    all_columns.push_back(&border.column);
   }
+  const SparseVectors new_rows(all_rows.begin() + n_old, all_rows.end()),
+    new_columns(all_columns.begin() + n_old, all_columns.end());
+  const unsigned int n_new = n - n_old;
+  const std::vector<double> columns = multiply(all_rows, new_columns);
+  for (unsigned int e = 0; e < n_new; ++e)
+    for (unsigned int i = 0; i < n; ++i)
+      products[i][n_old + e] = columns[e * n + i];
+  const std::vector<double> rows = symmetric        ? columns
+                                   : symmetric_bulk ? multiply(all_columns, new_rows)
+                                                    : multiply(new_rows, all_columns);
+  for (unsigned int e = 0; e < n_new; ++e)
+    for (unsigned int i = 0; i < n; ++i)
+      products[n_old + e][i] = symmetric_bulk ? rows[e * n + i] : rows[i * n_new + e];
   if (known.size() > 2 * borders.size() + 100)
     forget_unused();
 }
 
-void ExtraSchur::factorise(const SystemOperator &op)
+void ExtraSchur::factorise(const SystemOperator::Border &border)
 {
-  const unsigned int n = op.n_extra();
-  corner_of_factor = op.extra_extra();
+  const unsigned int n = border.n;
+  corner_of_factor = border.extra_extra;
   place_of_factor = place;
   has_factor = false;
 
   dealii::FullMatrix<double> s(n, n);
-  for (const auto &e : op.extra_extra())
+  for (const auto &e : border.extra_extra)
     s(e.row, e.column) += e.value;
   for (unsigned int i = 0; i < n; ++i)
     if (place[i] != no_place)
@@ -194,18 +190,20 @@ void ExtraSchur::factorise(const SystemOperator &op)
 }
 
 void ExtraSchur::update(const SystemOperator &op,
+                        const SystemOperator::Border &border,
                         const dealii::types::global_dof_index end,
+                        const bool symmetric_bulk,
                         const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
 {
-  update_products(gather_borders(op, end, bulk_scaling), op.system().bulk_is_symmetric());
-  const auto &corner = op.extra_extra();
+  update_products(gather_borders(op, border, end, bulk_scaling), symmetric_bulk);
+  const auto &corner = border.extra_extra;
   const bool same =
     has_factor && place == place_of_factor &&
     std::equal(corner.begin(), corner.end(), corner_of_factor.begin(), corner_of_factor.end(),
                [](const auto &a, const auto &b)
                { return a.row == b.row && a.column == b.column && a.value == b.value; });
   if (!same)
-    factorise(op);
+    factorise(border);
 }
 
 void ExtraSchur::solve(std::vector<double> &x) const

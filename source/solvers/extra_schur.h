@@ -25,20 +25,23 @@ public:
   using SparseVector = std::vector<std::pair<int, double>>;
   using SparseVectors = std::vector<const SparseVector *>;
 
-  /// left_i . A^-1 right_j of all pairs, or with A^-T, on every rank, [j * left.size() + i]. A that
-  /// is symmetric is never transposed.
-  using Multiply = std::function<std::vector<double>(
-    const SparseVectors &left, const SparseVectors &right, bool transposed)>;
+  /// left_i . A^-1 right_j of all pairs, on every rank, [j * left.size() + i].
+  using Multiply =
+    std::function<std::vector<double>(const SparseVectors &left, const SparseVectors &right)>;
 
   ExtraSchur(MPI_Comm communicator, Multiply multiply);
 
   /// A is another one.
   void forget();
 
-  /// Compute what is new and factorise. Borders are taken between A's unknowns below `end`, scaled
-  /// if a scaling is given. Throws SolveError when S is singular. Collective.
+  /// Compute what is new of the Schur complement of a border and factorise. Borders are taken
+  /// between A's unknowns below `end`, scaled if a scaling is given. Where A is not symmetric,
+  /// products of new rows with all columns are asked for: whoever solves then keeps the solutions.
+  /// Throws SolveError when S is singular. Collective.
   void update(const SystemOperator &op,
+              const SystemOperator::Border &border,
               dealii::types::global_dof_index end,
+              bool symmetric_bulk,
               const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
 
   /// x <- S^-1 x
@@ -64,6 +67,7 @@ private:
   };
 
   std::vector<Border> gather_borders(const SystemOperator &,
+                                     const SystemOperator::Border &,
                                      dealii::types::global_dof_index end,
                                      const dealii::TrilinosWrappers::MPI::BlockVector *) const;
 
@@ -74,7 +78,7 @@ private:
   /// Drop known borders that are no longer in use.
   void forget_unused();
 
-  void factorise(const SystemOperator &);
+  void factorise(const SystemOperator::Border &);
 
   MPI_Comm communicator;
   Multiply multiply;

@@ -64,11 +64,6 @@ struct LinearSystem
   bool symmetric = true; ///< as assembled
   bool elastic = false;  ///< the bulk is displacement alone, so it has a factor without the rest
   bool definite = false; ///< the bulk alone is symmetric positive definite
-
-  bool bulk_is_symmetric() const
-  {
-    return definite || !elastic; // rows of displacement may be taken over, coupling is symmetric
-  }
 };
 
 /// What has changed since a solver last looked. A number grows when the thing it names changes.

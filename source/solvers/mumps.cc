@@ -136,12 +136,10 @@ void Mumps::solve(std::vector<double> &x, const int n_right_hand_sides)
 void Mumps::solve_sparse(std::vector<int> &column_starts,
                          std::vector<int> &rows,
                          std::vector<double> &values,
-                         std::vector<double> &x,
-                         const bool transposed)
+                         std::vector<double> &x)
 {
   auto &data = instance->data;
   instance->icntl(20) = 1;
-  instance->icntl(9) = transposed ? 2 : 1;
   // The number of columns is known on rank 0 only.
   int n_columns = static_cast<int>(column_starts.size()) - 1;
   MPI_Bcast(&n_columns, 1, MPI_INT, 0, instance->communicator);
@@ -153,9 +151,7 @@ void Mumps::solve_sparse(std::vector<int> &column_starts,
   data.irhs_sparse = instance->is_root ? rows.data() : nullptr;
   data.rhs_sparse = instance->is_root ? values.data() : nullptr;
   data.rhs = x.data();
-  const int code = instance->run(solve_job);
-  instance->icntl(9) = 1;
-  if (code < no_error)
+  if (instance->run(solve_job) < no_error)
     instance->fail("solving");
 }
 

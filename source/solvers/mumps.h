@@ -47,13 +47,11 @@ public:
   void solve(std::vector<double> &x, int n_right_hand_sides = 1);
 
   /// A few sparse right-hand sides, column by column as in a compressed column matrix (indices
-  /// from one), given on rank 0; the solutions are dense, on rank 0. With the transposed matrix if
-  /// so wanted.
+  /// from one), given on rank 0; the solutions are dense, on rank 0.
   void solve_sparse(std::vector<int> &column_starts,
                     std::vector<int> &rows,
                     std::vector<double> &values,
-                    std::vector<double> &x,
-                    bool transposed = false);
+                    std::vector<double> &x);
 
   int size() const;
 

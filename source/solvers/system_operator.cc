@@ -121,23 +121,34 @@ SystemOperator::SystemOperator(const LinearSystem &system,
   scale.bulk.reinit(system.residual_bulk);
   scale.extra.resize(system.residual_extra.size());
   if (n_extra() > 0)
-  {
-    const Owners owner(system.residual_bulk, offsets, communicator);
-    upper =
-      send_to_owners(system.bulk_extra, communicator, [&](const Entry &e) { return owner(e.row); });
-    lower = send_to_owners(system.extra_bulk, communicator,
-                           [&](const Entry &e) { return owner(e.column); });
-    corner = send_to_all(system.extra_extra, communicator);
-    sort_and_sum(upper, true);
-    sort_and_sum(lower, false);
-    sort_and_sum(corner, false);
-  }
+    extend(own_border, n_extra(), system.bulk_extra, system.extra_bulk, system.extra_extra);
   if (bulk_scaling != nullptr)
     scale.bulk = *bulk_scaling;
   else
     scale_bulk();
   if (n_extra() > 0)
     scale_extra();
+}
+
+void SystemOperator::extend(Border &border,
+                            const unsigned int n,
+                            const Triplets &bulk_extra,
+                            const Triplets &extra_bulk,
+                            const Triplets &extra_extra) const
+{
+  const Owners owner(linear_system->residual_bulk, offsets, communicator);
+  const auto add = [](Entries &to, const Entries &from, const bool columns_first)
+  {
+    to.insert(to.end(), from.begin(), from.end());
+    sort_and_sum(to, columns_first);
+  };
+  border.n = n;
+  add(border.bulk_extra,
+      send_to_owners(bulk_extra, communicator, [&](const Entry &e) { return owner(e.row); }), true);
+  add(border.extra_bulk,
+      send_to_owners(extra_bulk, communicator, [&](const Entry &e) { return owner(e.column); }),
+      false);
+  add(border.extra_extra, send_to_all(extra_extra, communicator), false);
 }
 
 double &SystemOperator::entry(dealii::TrilinosWrappers::MPI::BlockVector &vector,
@@ -210,20 +221,20 @@ void SystemOperator::scale_bulk()
 void SystemOperator::scale_extra()
 {
   std::vector<double> size(n_extra(), 0.);
-  for (const Entry &e : lower)
+  for (const Entry &e : own_border.extra_bulk)
   {
     const auto [block, local] = locate(e.column);
     size[e.row] = std::max(size[e.row], std::abs(e.value) * entry(scale.bulk, block, local));
   }
   dealii::Utilities::MPI::max(dealii::make_array_view(std::as_const(size)), communicator,
                               dealii::make_array_view(size));
-  for (const Entry &e : corner)
+  for (const Entry &e : own_border.extra_extra)
     if (e.row == e.column)
       size[e.row] = std::max(size[e.row], std::sqrt(std::abs(e.value)));
   for (unsigned int i = 0; i < n_extra(); ++i)
     scale.extra[i] = size[i] > 0. ? 1. / size[i] : 0.;
   // What is coupled to other extra unknowns only, and has no diagonal.
-  for (const Entry &e : corner)
+  for (const Entry &e : own_border.extra_extra)
     if (size[e.row] == 0. && scale.extra[e.column] > 0. && size[e.column] > 0.)
       scale.extra[e.row] =
         scale.extra[e.row] == 0.
@@ -240,19 +251,19 @@ void SystemOperator::vmult(SystemVector &dst, const SystemVector &src) const
   if (n_extra() == 0)
     return;
 
-  for (const Entry &e : upper)
+  for (const Entry &e : own_border.bulk_extra)
   {
     const auto [block, local] = locate(e.row);
     entry(dst.bulk, block, local) += e.value * src.extra[e.column];
   }
   std::fill(dst.extra.begin(), dst.extra.end(), 0.);
-  for (const Entry &e : lower)
+  for (const Entry &e : own_border.extra_bulk)
   {
     const auto [block, local] = locate(e.column);
     dst.extra[e.row] += e.value * entry(src.bulk, block, local);
   }
   dealii::Utilities::MPI::sum(dst.extra, communicator, dst.extra);
-  for (const Entry &e : corner)
+  for (const Entry &e : own_border.extra_extra)
     dst.extra[e.row] += e.value * src.extra[e.column];
 }
 

@@ -33,6 +33,15 @@ public:
     double value;
   };
 
+  /// What couples extra unknowns to the bulk and to one another.
+  struct Border
+  {
+    unsigned int n = 0;             ///< extra unknowns
+    std::vector<Entry> bulk_extra;  ///< in rows of this rank, by column, then row
+    std::vector<Entry> extra_bulk;  ///< in columns of this rank, by row, then column
+    std::vector<Entry> extra_extra; ///< all, on every rank
+  };
+
   /// `bulk_scaling`: of an earlier system with the same bulk, or null.
   SystemOperator(const LinearSystem &,
                  MPI_Comm,
@@ -55,22 +64,34 @@ public:
     return scale;
   }
 
+  const Border &border() const
+  {
+    return own_border;
+  }
+
+  /// Add entries that may be anybody's to a border of @p n unknowns. Collective.
+  void extend(Border &border,
+              unsigned int n,
+              const Triplets &bulk_extra,
+              const Triplets &extra_bulk,
+              const Triplets &extra_extra) const;
+
   /// Entries in rows of this rank, by column, then row.
   const std::vector<Entry> &bulk_extra() const
   {
-    return upper;
+    return own_border.bulk_extra;
   }
 
   /// Entries in columns of this rank, by row, then column.
   const std::vector<Entry> &extra_bulk() const
   {
-    return lower;
+    return own_border.extra_bulk;
   }
 
   /// All entries, on every rank.
   const std::vector<Entry> &extra_extra() const
   {
-    return corner;
+    return own_border.extra_extra;
   }
 
   unsigned int n_extra() const
@@ -114,7 +135,7 @@ private:
   const LinearSystem *linear_system;
   MPI_Comm communicator;
   std::vector<dealii::types::global_dof_index> offsets; ///< of the blocks, and the end
-  std::vector<Entry> upper, lower, corner;
+  Border own_border;
   SystemVector scale;
 };
 } // namespace stockwork
