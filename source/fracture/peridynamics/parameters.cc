@@ -30,6 +30,10 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Cell size", "0", Quantity(dimension::length, Range::non_negative()),
                     "Wanted size of the cells in the zone and for a horizon around it, which must "
                     "be squares (cubes) of one size [m]; zero: that of the given mesh.");
+  prm.declare_entry("Cell growth", "0.3", Patterns::Double(0.),
+                    "Where 'Cell size' is given, cells outside the zone may be larger than those "
+                    "inside by this share of their distance from it. The elements there are "
+                    "bilinear: coarse ones make the rock too stiff.");
   prm.declare_entry(
     "Critical stretch factor", "", Patterns::Anything(),
     "Of the stretch at which bonds break, over the one that follows from the rock's "
@@ -73,6 +77,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   for (const auto &labelled : parse_boxes<dim>(prm.get("Zone")))
     p.boxes.push_back(labelled.box);
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
+  p.cell_growth = prm.get_double("Cell growth");
   p.stretch_factor = number("Critical stretch factor", std::numeric_limits<double>::quiet_NaN());
   if (p.stretch_factor <= 0.)
     throw bad("Critical stretch factor", "a number > 0");

@@ -217,11 +217,13 @@ void Peridynamics<dim>::wanted_cell_size(
   if (h == 0.)
     return;
   for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() &&
-        shape.contains(cell->center(), h, parameters.horizon + 2. + 0.5 * cell->diameter() / h))
+    if (cell->is_locally_owned())
     {
+      const double outside = shape.distance(cell->center(), h) - 0.5 * cell->diameter();
+      const double wanted =
+        h + parameters.cell_growth * std::max(0., outside - (parameters.horizon + 2.) * h);
       float &size = sizes[cell->active_cell_index()];
-      size = std::min(size, static_cast<float>(h));
+      size = std::min(size, static_cast<float>(wanted));
     }
 }
 

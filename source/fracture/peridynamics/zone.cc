@@ -69,18 +69,24 @@ double distance_from_polyline(const Point<dim> &x, const std::vector<Point<dim>>
 
 
 template <int dim>
+double ZoneShape<dim>::distance(const Point<dim> &point, const double spacing) const
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto &crack : cracks)
+    nearest = std::min(nearest, distance_from_polyline(point, crack) - margin * spacing);
+  for (const auto &box : boxes)
+    nearest = std::min(nearest, distance_from_box(point, box));
+  return nearest;
+}
+
+
+template <int dim>
 bool ZoneShape<dim>::contains(const Point<dim> &point,
                               const double spacing,
                               const double enlarged_by) const
 {
   const double tolerance = 1e-6;
-  for (const auto &crack : cracks)
-    if (distance_from_polyline(point, crack) <= (margin + enlarged_by + tolerance) * spacing)
-      return true;
-  for (const auto &box : boxes)
-    if (distance_from_box(point, box) <= (enlarged_by + tolerance) * spacing)
-      return true;
-  return false;
+  return distance(point, spacing) <= (enlarged_by + tolerance) * spacing;
 }
 
 

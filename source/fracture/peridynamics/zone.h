@@ -26,6 +26,9 @@ struct ZoneShape
   std::vector<dealii::BoundingBox<dim>> boxes;
   double margin; ///< of cells around the cracks
 
+  /// How far a point is outside, at lattice spacing h [m]; negative or zero inside.
+  double distance(const dealii::Point<dim> &point, double spacing) const;
+
   /// At lattice spacing h [m], enlarged by so many cells.
   bool contains(const dealii::Point<dim> &point, double spacing, double enlarged_by = 0.) const;
 };
