@@ -55,9 +55,61 @@ double Peridynamics<dim>::in_situ_stretch(const Point<dim> &middle, const unsign
 
 
 template <int dim>
-std::vector<typename Peridynamics<dim>::Candidate>
-Peridynamics<dim>::overstretched(const std::vector<double> &u, bool &at_rim) const
+std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
+                                                        const Collectives &collectives) const
 {
+  std::vector<double> result(cells.size(), 0.);
+  if (!parameters.effective_stretch || !state.segment_pressure)
+    return result;
+  const RockProperties &rock = scene.rock.main();
+  const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
+  if (scene.has_pore_pressure)
+  {
+    for (unsigned int i = 0; i < owned_cells.size(); ++i)
+    {
+      const LinearFunctional &pore = owned_segments[i].pore_pressure;
+      double pressure = pore.constant;
+      for (unsigned int k = 0; k < pore.bulk.size(); ++k)
+        pressure += pore.bulk_coefficients[k] * state.current.bulk(pore.bulk[k]);
+      result[owned_cells[i]] = -rock.biot_coefficient * compliance * pressure;
+    }
+    collectives.sum(result);
+  }
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    result[i] += compliance * state.segment_pressure(all_segments[i].key);
+  return result;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::relief_at(const Point<dim> &place,
+                                    const std::vector<double> &relief) const
+{
+  double nearest = parameters.horizon + 1., result = 0.;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    double square = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      square += std::pow(place[d] - cells[i].place[d] - 0.5, 2);
+    // Of several equally near, the one that relieves most, whatever their order.
+    const double distance = std::sqrt(square);
+    if (distance < nearest - resolution || (distance < nearest + resolution && relief[i] > result))
+    {
+      nearest = std::min(nearest, distance);
+      result = relief[i];
+    }
+  }
+  return result;
+}
+
+
+template <int dim>
+std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
+  const std::vector<double> &u, const std::vector<double> &relief, bool &at_rim) const
+{
+  double most_relief = 0.;
+  for (const double r : relief)
+    most_relief = std::max(most_relief, r);
   std::vector<Candidate> candidates;
   const unsigned int half = stencil.size() / 2;
   for (const unsigned int i : zone.peridynamic_sites())
@@ -74,10 +126,15 @@ Peridynamics<dim>::overstretched(const std::vector<double> &u, bool &at_rim) con
                                      0.5 * coefficients[b].length * coefficients[b].direction,
                                    b);
       // What breaks a bond is its energy; bonds beside a crack are stiffer.
-      const double energy = stiffness(i, b) / coefficients[b].stiffness * stretch * stretch;
-      const double ratio =
-        stretch > 0. ? std::round(std::sqrt(energy) / critical_stretch / resolution) * resolution
-                     : 0.;
+      const double share = std::sqrt(stiffness(i, b) / coefficients[b].stiffness);
+      const auto ratio_with = [&](const double more)
+      { return std::round(share * (stretch + more) / critical_stretch / resolution) * resolution; };
+      if (ratio_with(most_relief) < 1.)
+        continue;
+      Point<dim> middle;
+      for (unsigned int d = 0; d < dim; ++d)
+        middle[d] = zone.sites()[i].place[d] + 0.5 * stencil[b].offset[d];
+      const double ratio = ratio_with(relief_at(middle, relief));
       if (ratio < 1.)
         continue;
       if (breakable)
@@ -106,7 +163,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
 
   const std::vector<double> u = zone.displacement(state.current.bulk, collectives);
   bool at_rim = false;
-  const std::vector<Candidate> candidates = overstretched(u, at_rim);
+  const std::vector<Candidate> candidates =
+    overstretched(u, pressure_stretch(state, collectives), at_rim);
   if (at_rim && !told_of_rim)
   {
     messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
@@ -170,13 +228,17 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   return verdict;
 }
 
-#define INSTANTIATE(dim)                                                                      \
-  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                   \
-                                                const std::vector<double> &) const;           \
-  template double Peridynamics<dim>::in_situ_stretch(const Point<dim> &, unsigned int) const; \
-  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(        \
-    const std::vector<double> &, bool &) const;                                               \
-  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,             \
+#define INSTANTIATE(dim)                                                                        \
+  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                     \
+                                                const std::vector<double> &) const;             \
+  template double Peridynamics<dim>::in_situ_stretch(const Point<dim> &, unsigned int) const;   \
+  template std::vector<double> Peridynamics<dim>::pressure_stretch(const State &,               \
+                                                                   const Collectives &) const;  \
+  template double Peridynamics<dim>::relief_at(const Point<dim> &, const std::vector<double> &) \
+    const;                                                                                      \
+  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(          \
+    const std::vector<double> &, const std::vector<double> &, bool &) const;                    \
+  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,               \
                                               const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -39,6 +39,12 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
     "on the lattice grows at that rate, 0.823 for a horizon of 3, 0.851 for 4.");
+  prm.declare_entry("Stretch", "total", Patterns::Selection("total|effective"),
+                    "What breaks a bond. total: its stretch. effective: as if the fluid in the "
+                    "nearest piece of the fracture pressed on the rock from all sides no longer, "
+                    "as it does at the tip of a pressurised fracture. With a horizon of 3, the "
+                    "fluid in the last cell, ahead of the elastic tip, makes up for that pressure: "
+                    "total is the better choice there.");
   prm.declare_entry("Surface correction", "true", Patterns::Bool(),
                     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
                     "which makes its faces too soft. With the correction, the bonds that are left "
@@ -82,6 +88,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   if (p.stretch_factor <= 0.)
     throw bad("Critical stretch factor", "a number > 0");
   p.surface_correction = prm.get_bool("Surface correction");
+  p.effective_stretch = prm.get("Stretch") == "effective";
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   p.most_advances = prm.get_integer("Most advances per step");

@@ -21,6 +21,7 @@ struct Parameters
   double cell_growth;                          ///< size over distance outside the zone
   double stretch_factor;                       ///< of the critical stretch; NaN: the lattice's own
   bool surface_correction;
+  bool effective_stretch; ///< bonds break by effective stress
   bool growth;
   unsigned int bonds_per_pass;
   unsigned int most_advances; ///< cells per tip and step

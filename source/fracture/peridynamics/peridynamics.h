@@ -84,7 +84,17 @@ private:
   };
 
   /// The most stretched first. `at_rim`: some cannot break, for they lead out of the zone.
-  std::vector<Candidate> overstretched(const std::vector<double> &displacement, bool &at_rim) const;
+  std::vector<Candidate> overstretched(const std::vector<double> &displacement,
+                                       const std::vector<double> &relief,
+                                       bool &at_rim) const;
+
+  /// Of each fracture cell, the stretch that bonds would gain if its fluid pressed on the rock from
+  /// all sides no longer: at the tip of a crack with pressure p the stress is that of its
+  /// intensity and -p I. What pressure the pores carry is part of the effective stress already.
+  std::vector<double> pressure_stretch(const State &state, const Collectives &collectives) const;
+
+  /// That of the cell nearest to a place in the lattice, if one is within a horizon.
+  double relief_at(const dealii::Point<dim> &place, const std::vector<double> &relief) const;
 
   /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
   double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
