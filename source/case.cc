@@ -176,6 +176,8 @@ template <int dim>
 void set_crack_load(const Scene<dim> &scene, ReferenceInput<dim> &input)
 {
   input.crack_pressure = scene.crack_pressure;
+  if (const auto &disc = scene.cracks[0].disc)
+    input.crack_pressure += disc->normal * (scene.in_situ_stress(disc->centre) * disc->normal);
   if constexpr (dim == 2)
   {
     const auto &crack = scene.cracks[0].points;
@@ -212,10 +214,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   scene.cracks = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
   scene.domain_size = geometry.diameter();
-  std::vector<std::vector<Point<dim>>> polylines;
-  for (const auto &crack : scene.cracks)
-    polylines.push_back(crack.points);
-  network.check_perforations(polylines);
+  network.check_perforations(scene.cracks);
   scene.crack_pressure = given_crack_pressure(prm);
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
@@ -242,7 +241,11 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   input.has_pore_pressure = discretisation.has_pore_pressure;
   input.end_time = control.end_time;
   for (const InitialCrack<dim> &crack : scene.cracks)
+  {
     input.cracks.push_back(crack.points);
+    if (crack.disc)
+      input.discs.push_back(*crack.disc);
+  }
   input.injection_rate = network.rate_of_first_well(control.end_time);
   prm.enter_subsection("Fracture flow");
   if (prm.get("Leak-off") == "carter")

@@ -3,9 +3,13 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
+#include "mesh/box_list.h"
+
 #include <deal.II/base/utilities.h>
 
 #include <limits>
+#include <regex>
+#include <sstream>
 
 namespace stockwork
 {
@@ -20,7 +24,9 @@ void declare_initial_cracks(ParameterHandler &prm)
     prm.declare_entry(name, "", Patterns::Anything(),
                       std::string("Cracks ") + meaning +
                         ". Corners of polylines, 'x, y', separated by '->'; cracks separated by "
-                        "';': '0, 0 -> 2 m, 0; 5, 1 -> 6, 2' [m].");
+                        "';': '0, 0 -> 2 m, 0; 5, 1 -> 6, 2' [m]. In 3-D flat, round cracks: "
+                        "'disc (0, 0, 0) normal (0, 0, 1) radius 2 m', with centre and radius [m] "
+                        "and any vector across the crack.");
   prm.declare_entry(
     "Fluid pressure", "", Patterns::Anything(),
     "In all cracks, where it is given [Pa]; '0' in a dry case. Empty: computed from "
@@ -39,6 +45,42 @@ double given_crack_pressure(ParameterHandler &prm)
 }
 
 
+namespace
+{
+void parse_geometry(const std::string &text, InitialCrack<2> &crack)
+{
+  for (const std::string &corner : Utilities::split_string_list(text, "->"))
+  {
+    if (Utilities::split_string_list(corner, ',').size() != 2)
+      throw EntryError(crack.entry, text, "corners with 2 coordinates each");
+    crack.points.push_back(parse_point<2>(corner));
+  }
+  if (crack.points.size() < 2)
+    throw EntryError(crack.entry, text, "at least two corners");
+}
+
+
+void parse_geometry(const std::string &text, InitialCrack<3> &crack)
+{
+  static const std::regex pattern(
+    R"(\s*disc\s*(\([^)]*\))\s*normal\s*\(([^)]*)\)\s*radius\s*(.*\S)\s*)");
+  std::smatch match;
+  const auto numbers = [&]() { return split_list(match[2]); };
+  if (!std::regex_match(text, match, pattern) || numbers().size() != 3)
+    throw EntryError(crack.entry, text, "'disc (0, 0, 0) normal (0, 0, 1) radius 2 m' in 3-D");
+  Disc<3> disc;
+  disc.centre = parse_point<3>(match[1]);
+  for (unsigned int d = 0; d < 3; ++d)
+    disc.normal[d] = parse_quantity(numbers()[d], dimension::number);
+  disc.radius = parse_quantity(match[3], dimension::length);
+  if (!(disc.normal.norm() > 0.) || !(disc.radius > 0.))
+    throw EntryError(crack.entry, text, "a normal other than (0, 0, 0) and a radius > 0");
+  disc.normal /= disc.normal.norm();
+  crack.disc = disc;
+}
+} // namespace
+
+
 template <int dim>
 std::vector<InitialCrack<dim>>
 parse_initial_cracks(ParameterHandler &prm, const Point<dim> &lower, const Point<dim> &upper)
@@ -55,26 +97,26 @@ parse_initial_cracks(ParameterHandler &prm, const Point<dim> &lower, const Point
       crack.kind = kind;
       crack.entry = std::string("Cracks/") + entry;
       crack.text = text;
-      for (const std::string &corner : Utilities::split_string_list(text, "->"))
-      {
-        const auto numbers = Utilities::split_string_list(corner, ',');
-        if (numbers.size() != dim)
-          throw EntryError(std::string("Cracks/") + entry, text,
-                           "corners with " + std::to_string(dim) + " coordinates each");
-        Point<dim> point;
+      parse_geometry(text, crack);
+      std::vector<Point<dim>> within = crack.points;
+      if (crack.disc)
+        within = {crack.disc->centre};
+      for (const Point<dim> &point : within)
         for (unsigned int d = 0; d < dim; ++d)
-        {
-          point[d] = parse_quantity(numbers[d], dimension::length);
           if (point[d] < lower[d] || point[d] > upper[d])
-            throw EntryError(std::string("Cracks/") + entry, text,
+          {
+            std::string where;
+            for (unsigned int e = 0; e < dim; ++e)
+            {
+              std::ostringstream coordinate;
+              coordinate << point[e];
+              where += (e > 0 ? ", " : "") + coordinate.str();
+            }
+            throw EntryError(crack.entry, text,
                              "a crack inside the domain; coordinate " + std::to_string(d + 1) +
-                               " of (" + corner + ") is not between " + std::to_string(lower[d]) +
+                               " of (" + where + ") is not between " + std::to_string(lower[d]) +
                                " and " + std::to_string(upper[d]) + " m");
-        }
-        crack.points.push_back(point);
-      }
-      if (crack.points.size() < 2)
-        throw EntryError(std::string("Cracks/") + entry, text, "at least two corners");
+          }
       cracks.push_back(crack);
     }
   prm.leave_subsection();

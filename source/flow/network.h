@@ -111,7 +111,7 @@ public:
   }
 
   /// @throws InputError when a perforation lies on no crack of the deck
-  void check_perforations(const std::vector<std::vector<dealii::Point<dim>>> &cracks) const
+  void check_perforations(const std::vector<InitialCrack<dim>> &cracks) const
   {
     all_wells.check(cracks);
   }

@@ -368,21 +368,14 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
 
 
 template <int dim>
-void Wells<dim>::check(const std::vector<std::vector<dealii::Point<dim>>> &cracks) const
+void Wells<dim>::check(const std::vector<InitialCrack<dim>> &cracks) const
 {
   for (const Well &well : wells)
     for (const Perforation &perforation : well.perforations)
     {
       bool on_crack = false;
-      for (const auto &corners : cracks)
-        for (unsigned int i = 0; i + 1 < corners.size(); ++i)
-        {
-          const dealii::Tensor<1, dim> edge = corners[i + 1] - corners[i];
-          const double along =
-            std::clamp(((perforation.point - corners[i]) * edge) / edge.norm_square(), 0., 1.);
-          on_crack = on_crack || perforation.point.distance(corners[i] + along * edge) <
-                                   0.1 * corners.front().distance(corners.back());
-        }
+      for (const InitialCrack<dim> &crack : cracks)
+        on_crack = on_crack || crack.distance(perforation.point) < 0.1 * crack.size();
       if (!on_crack)
         throw perforation_error(well, perforation, "none. Give an initial crack there");
     }

@@ -10,6 +10,7 @@
 #include "flow/time_history.h"
 #include "stockwork/base/error.h"
 #include "stockwork/fracture/extra_unknown.h"
+#include "stockwork/fracture/scene.h"
 #include "stockwork/fracture/sink.h"
 #include "stockwork/fracture/state.h"
 
@@ -61,7 +62,7 @@ public:
   /// The same from the cracks of the deck, before there is a mesh: a perforation farther from every
   /// crack than a tenth of its length cannot lie on one.
   /// @throws EntryError naming the point
-  void check(const std::vector<std::vector<dealii::Point<dim>>> &cracks) const;
+  void check(const std::vector<InitialCrack<dim>> &cracks) const;
 
   std::vector<ExtraUnknown> unknowns() const;
 

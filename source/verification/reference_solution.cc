@@ -27,6 +27,7 @@ const Entry table[] = {
   {"bar wave", reference::make_bar_wave<2>, reference::make_bar_wave<3>},
   {"porous wave", reference::make_porous_wave<2>, reference::make_porous_wave<3>},
   {"line crack", reference::make_line_crack, nullptr},
+  {"penny crack", nullptr, reference::make_penny_crack},
   {"crack in box", reference::make_crack_in_box, nullptr},
   {"parallel cracks", reference::make_parallel_cracks, nullptr},
   {"double cantilever", reference::make_double_cantilever, nullptr},
@@ -60,7 +61,7 @@ void declare_reference_parameters(ParameterHandler &prm)
     "the rest of the deck. column: along the last axis, loaded at the top. mandel: "
     "quarter x, y >= 0, moved at the top. cryer: octant of a ball, deleeuw: quarter of a "
     "disc, loaded and drained at the surface. bar wave, porous wave: along the last "
-    "axis, loaded at the top. line crack: in an infinite body; crack in "
+    "axis, loaded at the top. line crack, penny crack (3-D): in an infinite body; crack in "
     "box: with rollers all round. double cantilever: beams along x joined by a cohesive "
     "layer, a crack from the left, ends moved apart by equal displacements. kgd: at the deck's own "
     "toughness and viscosity; "

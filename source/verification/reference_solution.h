@@ -4,6 +4,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include "stockwork/biot/rock.h"
+#include "stockwork/fracture/scene.h"
 
 #include <functional>
 #include <limits>
@@ -65,6 +66,9 @@ struct ReferenceInput
 
   /// Corners of the cracks that are there at the start.
   std::vector<std::vector<dealii::Point<dim>>> cracks = {};
+
+  /// The flat, round ones among them.
+  std::vector<Disc<dim>> discs = {};
 
   /// Rate of the first well, of the whole fracture (both wings) [m^2/s], [m^3/s] in 3-D.
   double injection_rate = 0.;

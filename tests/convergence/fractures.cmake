@@ -43,6 +43,11 @@ stockwork_case_test(NAME convergence/sneddon/fine DECK prm/sneddon/prescribed.pr
          "errors/displacement/final < 0.001" "unknowns < 50000")
 stockwork_case_test(NAME convergence/sneddon/peridynamics DECK prm/sneddon/peridynamics.prm NEGATIVE
   SET "Resolution=medium" EXPECT "errors/fracture_volume/final < 0.02")
+stockwork_case_test(NAME convergence/sneddon/penny/peridynamics NEGATIVE
+  DECK prm/sneddon/penny/peridynamics.prm SET "Resolution=medium"
+  EXPECT "errors/fracture_volume/final < 0.045")
+stockwork_case_test(NAME convergence/peridynamics/bar_3d DECK tests/data/peridynamic_bar.prm
+  EXPECT "final/load > 4999999.999" "final/load < 5000000.001")
 stockwork_case_test(NAME convergence/sneddon/box/peridynamics NEGATIVE
   DECK prm/sneddon/box/peridynamics.prm SET "Resolution=medium"
   EXPECT "errors/fracture_volume/final < 0.02")

@@ -136,6 +136,68 @@ TEST_CASE("line crack: the displacement field jumps by opening and slip and is i
   CHECK(std::abs(force[1]) < 1e-4 * scale);
 }
 
+TEST_CASE("penny crack: the displacement field opens the crack, is in equilibrium and fades")
+{
+  const double nu = 0.2, radius = 0.7;
+  const PennyCrack crack({1e10, nu, radius, 2e6});
+  for (const double r : {0., 0.3, 0.65})
+    CHECK(2. * crack.displacement(r, 1e-12)[1] == doctest::Approx(crack.opening(r)).epsilon(1e-6));
+  CHECK(std::abs(crack.displacement(0.8, 1e-12)[1]) < 1e-9 * crack.opening(0.));
+
+  const auto at = [&](const double x, const double y, const double z)
+  {
+    const double r = std::hypot(x, y);
+    const auto u = crack.displacement(r, z);
+    return std::array<double, 3>{{u[0] * x / r, u[0] * y / r, u[1]}};
+  };
+  // Navier's equation by central differences, beside and above the crack's edge.
+  const double h = 1e-3;
+  for (const double z : {0.4, -0.2})
+  {
+    const auto u = [&](const int i, const int j, const int k, const int component)
+    { return at(0.5 + i * h, 0.3 + j * h, z + k * h)[component]; };
+    const auto second = [&](const int a, const int b, const int component)
+    {
+      const auto moved = [&](const int s, const int t)
+      {
+        int by[3] = {0, 0, 0};
+        by[a] += s;
+        by[b] += t;
+        return u(by[0], by[1], by[2], component);
+      };
+      return a == b ? moved(1, 0) - 2. * moved(0, 0) + moved(-1, 0)
+                    : 0.25 * (moved(1, 1) - moved(1, -1) - moved(-1, 1) + moved(-1, -1));
+    };
+    for (const int c : {0, 1, 2})
+    {
+      double force = 0., scale = 0.;
+      for (const int d : {0, 1, 2})
+      {
+        force += second(c, d, d) / (1. - 2. * nu) + second(d, d, c);
+        scale = std::max(scale, std::abs(second(d, d, c)));
+      }
+      CHECK(std::abs(force) < 1e-4 * scale);
+    }
+  }
+
+  // No shear on the crack's plane, and p on its faces.
+  const double lambda = 1e10 * nu / ((1. + nu) * (1. - 2. * nu)), G = 1e10 / (2. * (1. + nu));
+  const double d = 1e-5, z = 2e-5;
+  const auto slope = [&](const int c, const int axis)
+  {
+    const double x = 0.3, y = 0.1;
+    const auto ahead = at(x + (axis == 0) * d, y + (axis == 1) * d, z + (axis == 2) * d);
+    const auto behind = at(x - (axis == 0) * d, y - (axis == 1) * d, z - (axis == 2) * d);
+    return (ahead[c] - behind[c]) / (2. * d);
+  };
+  const double divergence = slope(0, 0) + slope(1, 1) + slope(2, 2);
+  CHECK(lambda * divergence + 2. * G * slope(2, 2) == doctest::Approx(-2e6).epsilon(1e-3));
+  CHECK(std::abs(G * (slope(0, 2) + slope(2, 0))) < 1e-3 * 2e6);
+
+  // Far away as 1/r^2.
+  CHECK(at(0., 40., 30.)[2] == doctest::Approx(0.25 * at(0., 20., 15.)[2]).epsilon(0.01));
+}
+
 TEST_CASE("crack between rollers")
 {
   const ReferenceTable table("crack_box_rollers");

@@ -5,13 +5,25 @@
 
 #include "stockwork/biot/rock.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace stockwork
 {
+/// Where a flat, round crack is.
+template <int dim>
+struct Disc
+{
+  dealii::Point<dim> centre;
+  dealii::Tensor<1, dim> normal; ///< unit
+  double radius;                 ///< [m]
+};
+
 /// A crack, notch or natural fracture that is there at the start. Geometry belongs to the case and
 /// is the same for every fracture model.
 template <int dim>
@@ -23,10 +35,37 @@ struct InitialCrack
     cohesive ///< the rock's own strength, not yet damaged
   };
 
-  std::vector<dealii::Point<dim>> points; ///< polyline in 2-D
+  std::vector<dealii::Point<dim>> points; ///< corners of a polyline in 2-D
+  std::optional<Disc<dim>> disc;          ///< in 3-D
   Kind kind = Kind::open;
   std::string entry; ///< of the deck, for messages: "Cracks/Open"
   std::string text;  ///< what the deck says there
+
+  /// Of a point from the crack [m].
+  double distance(const dealii::Point<dim> &point) const
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i + 1 < points.size(); ++i)
+    {
+      const auto along = points[i + 1] - points[i];
+      const double length = along.norm_square();
+      const double t = length > 0. ? std::clamp((point - points[i]) * along / length, 0., 1.) : 0.;
+      nearest = std::min(nearest, point.distance(points[i] + t * along));
+    }
+    if (disc)
+    {
+      const double above = (point - disc->centre) * disc->normal;
+      const double aside = (point - disc->centre - above * disc->normal).norm();
+      nearest = std::min(nearest, std::hypot(above, std::max(0., aside - disc->radius)));
+    }
+    return nearest;
+  }
+
+  /// Distance of its ends, or diameter [m].
+  double size() const
+  {
+    return disc ? 2. * disc->radius : points.front().distance(points.back());
+  }
 };
 
 /// What a fracture model may know of the case. Everything outlives the model.

@@ -1,5 +1,7 @@
 #include "fracture/peridynamics/peridynamics.h"
 
+#include <cmath>
+#include <functional>
 #include <limits>
 
 namespace stockwork::peridynamics
@@ -7,44 +9,72 @@ namespace stockwork::peridynamics
 using dealii::Point;
 using dealii::Tensor;
 
+namespace
+{
+constexpr double resolution = 1e-6; // of places, in spacings
+}
+
+
 template <int dim>
 void Peridynamics<dim>::cut_initial_cracks()
 {
-  if constexpr (dim == 2)
-    for (const auto &crack : scene.cracks)
+  for (const auto &crack : scene.cracks)
+  {
+    if (crack.kind != InitialCrack<dim>::Kind::open)
+      continue;
+    if (crack.disc)
+      cut_along_plane(crack.disc->centre, crack.disc->normal,
+                      [&](const Point<dim> &crossing)
+                      {
+                        // As at a tip: a bond right at the edge holds.
+                        return crossing.distance(crack.disc->centre) <
+                               crack.disc->radius - resolution * zone.spacing();
+                      });
+    if constexpr (dim == 2)
     {
-      if (crack.kind != InitialCrack<dim>::Kind::open)
-        continue;
       const auto at_wall = [&](const Point<dim> &x)
-      { return !zone.is_inside(x, 1e-6 * zone.spacing()); };
+      { return !zone.is_inside(x, resolution * zone.spacing()); };
       for (unsigned int c = 0; c + 1 < crack.points.size(); ++c)
       {
         const Point<dim> &start = crack.points[c];
         const Tensor<1, dim> along = crack.points[c + 1] - start;
-        const double length = along.norm(), reach = 1e-6 * zone.spacing();
-        const auto side = [&](const Point<dim> &x)
-        { return (along[0] * (x[1] - start[1]) - along[1] * (x[0] - start[0])) / length; };
-        for (const unsigned int i : zone.peridynamic_sites())
-          for (unsigned int b = 0; b < stencil.size(); ++b)
-          {
-            const Point<dim> from = zone.position(zone.sites()[i].place);
-            const Tensor<1, dim> xi = zone.spacing() * stencil[b].length() * stencil[b].direction();
-            // A node on the crack belongs to its left side.
-            const double s = side(from), t = side(from + xi);
-            if ((s >= -reach) == (t >= -reach) || !bonds.can_break(i, b))
-              continue;
-            const Point<dim> crossing = from + s / (s - t) * xi;
-            const double place = (crossing - start) * along / length;
-            // A bond right at a tip holds, or the crack would be longer by half a cell.
-            const bool after_start = place > (c == 0 && !at_wall(start) ? reach : -reach);
-            const bool before_end =
-              place <
-              length +
-                (c + 2 == crack.points.size() && !at_wall(crack.points.back()) ? -reach : reach);
-            if (after_start && before_end)
-              bonds.set_broken(i, b);
-          }
+        const double length = along.norm(), reach = resolution * zone.spacing();
+        // A bond right at a tip holds, or the crack would be longer by half a cell.
+        const double first = c == 0 && !at_wall(start) ? reach : -reach;
+        const double last =
+          length + (c + 2 == crack.points.size() && !at_wall(crack.points.back()) ? -reach : reach);
+        Tensor<1, dim> normal;
+        normal[0] = -along[1] / length;
+        normal[1] = along[0] / length;
+        cut_along_plane(start, normal,
+                        [&](const Point<dim> &crossing)
+                        {
+                          const double place = (crossing - start) * along / length;
+                          return place > first && place < last;
+                        });
       }
+    }
+  }
+}
+
+
+template <int dim>
+void Peridynamics<dim>::cut_along_plane(
+  const Point<dim> &origin,
+  const Tensor<1, dim> &normal,
+  const std::function<bool(const Point<dim> &crossing)> &is_on_crack)
+{
+  const double reach = resolution * zone.spacing();
+  for (const unsigned int i : zone.peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+    {
+      const Point<dim> from = zone.position(zone.sites()[i].place);
+      const Tensor<1, dim> xi = zone.spacing() * stencil[b].length() * stencil[b].direction();
+      // A node on the crack belongs to the side that the normal points to.
+      const double s = (from - origin) * normal, t = (from + xi - origin) * normal;
+      if ((s >= -reach) != (t >= -reach) && bonds.can_break(i, b) &&
+          is_on_crack(from + s / (s - t) * xi))
+        bonds.set_broken(i, b);
     }
 }
 
@@ -52,30 +82,47 @@ void Peridynamics<dim>::cut_initial_cracks()
 template <int dim>
 void Peridynamics<dim>::set_initial_normals()
 {
-  if constexpr (dim == 2)
-    for (const FractureCell<dim> &cell : find_fracture_cells(zone, bonds))
+  for (const FractureCell<dim> &cell : find_fracture_cells(zone, bonds))
+  {
+    Point<dim> centre = zone.position(cell.place);
+    for (unsigned int d = 0; d < dim; ++d)
+      centre[d] += 0.5 * zone.spacing();
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto consider = [&](const InitialCrack<dim> &piece, const Tensor<1, dim> &normal)
     {
-      Point<dim> centre = zone.position(cell.place);
-      for (unsigned int d = 0; d < dim; ++d)
-        centre[d] += 0.5 * zone.spacing();
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const auto &crack : scene.cracks)
+      const double distance = piece.distance(centre);
+      if (distance >= nearest)
+        return;
+      nearest = distance;
+      double sign = 1.;
+      for (unsigned int d = 0; d < dim; ++d) // the last component that is not zero is positive
+        if (std::abs(normal[d]) > 1e-12)
+          sign = normal[d] > 0. ? 1. : -1.;
+      const Tensor<1, dim> upward = sign * normal;
+      committed_normals[cell.place].assign(upward.begin_raw(), upward.end_raw());
+    };
+    for (const auto &crack : scene.cracks)
+    {
+      if (crack.kind != InitialCrack<dim>::Kind::open)
+        continue;
+      if (crack.disc)
+        consider(crack, crack.disc->normal);
+      if constexpr (dim == 2)
         for (unsigned int c = 0; c + 1 < crack.points.size(); ++c)
         {
-          const std::vector<Point<dim>> piece{crack.points[c], crack.points[c + 1]};
-          const double distance = distance_from_polyline(centre, piece);
-          if (crack.kind != InitialCrack<dim>::Kind::open || distance >= nearest)
-            continue;
-          nearest = distance;
-          const Tensor<1, dim> along = (piece[1] - piece[0]) / piece[0].distance(piece[1]);
-          const double upward = along[0] >= 0. ? 1. : -1.;
-          committed_normals[cell.place] = {-upward * along[1], upward * along[0]};
+          InitialCrack<dim> piece;
+          piece.points = {crack.points[c], crack.points[c + 1]};
+          const Tensor<1, dim> along = (piece.points[1] - piece.points[0]) / piece.size();
+          consider(piece, cross_product_2d(-along));
         }
     }
+  }
 }
 
-#define INSTANTIATE(dim)                                 \
-  template void Peridynamics<dim>::cut_initial_cracks(); \
+#define INSTANTIATE(dim)                                                                          \
+  template void Peridynamics<dim>::cut_initial_cracks();                                          \
+  template void Peridynamics<dim>::cut_along_plane(                                               \
+    const Point<dim> &, const Tensor<1, dim> &, const std::function<bool(const Point<dim> &)> &); \
   template void Peridynamics<dim>::set_initial_normals();
 INSTANTIATE(2)
 INSTANTIATE(3)

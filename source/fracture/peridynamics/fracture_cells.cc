@@ -43,6 +43,18 @@ double sum_of_components(const Tensor<1, dim> &normal)
   return sum;
 }
 
+/// Planes of symmetry that a cell lies at; beyond them the fracture goes on.
+template <int dim>
+unsigned int planes_at(const Zone<dim> &zone, const Place<dim> &cell)
+{
+  unsigned int planes = 0, number = 0;
+  for (unsigned int v = 0; v < 1u << dim; ++v)
+    planes |= zone.planes_of(zone.find(corner<dim>(cell, v)));
+  for (unsigned int d = 0; d < dim; ++d)
+    number += planes >> d & 1;
+  return number;
+}
+
 /// Unit vector along which a second moment is greatest or least, rounded so that the order of the
 /// sum does not show.
 template <int dim>
@@ -68,6 +80,9 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
 {
   constexpr unsigned int n_corners = 1 << dim;
   constexpr double crossing = 0.3; // |e.n| of a bond that counts as crossing
+  // So many are broken where a plane has passed the cell's centre, or cuts off one of its corners:
+  // of the 4 (16) bonds that cross a plane along the lattice, 2 (7).
+  constexpr unsigned int enough = dim == 2 ? 2 : 7;
   std::vector<FractureCell<dim>> cells;
   std::array<unsigned int, n_corners> site;
   for (const Place<dim> &place : zone.cells())
@@ -88,7 +103,7 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
     };
     unsigned int n_broken = 0;
     for_each_own([&](const Tensor<1, dim> &, const bool broken) { n_broken += broken; });
-    if (n_broken < 2)
+    if (n_broken < enough)
       continue;
 
     SymmetricTensor<2, dim> moment;
@@ -101,7 +116,7 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
     n_broken = 0;
     for_each_own([&](const Tensor<1, dim> &e, const bool broken)
                  { n_broken += broken && std::abs(e * cell.normal) > crossing; });
-    if (n_broken >= 2)
+    if (n_broken >= enough)
       cells.push_back(cell);
   }
   return cells;
@@ -237,60 +252,73 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
     }
   }
 
-  // Neighbours share a face; or an edge or corner, if no third one has a face in common with both.
-  const double edge = dim == 2 ? 1. : h;
-  const auto faces_of = [&](const Place<dim> &place)
-  {
-    std::vector<Place<dim>> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      for (const int step : {-1, 1})
-      {
-        Place<dim> other = place;
-        other[d] += step;
-        result.push_back(other);
-      }
-    return result;
-  };
+  // Neighbours share a face; or an edge (a corner in 2-D), if no third one has a face in common
+  // with both.
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    const auto connect = [&](const unsigned int j) {
-      segments[i].neighbours.push_back({segments[j].key, 0.5 * segments[i].area / edge, edge});
+    const Place<dim> &here = cells[i].place;
+    const auto moved = [](Place<dim> place, const unsigned int d, const int step)
+    {
+      place[d] += step;
+      return place;
     };
-    const auto near = faces_of(cells[i].place);
-    for (const auto &place : near)
-      if (const auto j = index.find(place); j != index.end())
-        connect(j->second);
-    if constexpr (dim == 2)
-      for (const int dx : {-1, 1})
-        for (const int dy : {-1, 1})
-        {
-          const Place<dim> place = {{cells[i].place[0] + dx, cells[i].place[1] + dy}};
-          const auto j = index.find(place);
-          if (j != index.end() && index.count({{place[0], cells[i].place[1]}}) == 0 &&
-              index.count({{cells[i].place[0], place[1]}}) == 0)
-            connect(j->second);
-        }
-    // Beyond a plane of symmetry, or of the boundary, it goes on.
-    bool at_boundary = false;
-    for (unsigned int v = 0; v < 1u << dim; ++v)
-      at_boundary |= zone.planes_of(zone.find(corner<dim>(cells[i].place, v))) != 0;
-    segments[i].at_tip = dim == 2 && segments[i].neighbours.size() <= 1 && !at_boundary;
+    const auto connect = [&](const Place<dim> &place)
+    {
+      const auto found = index.find(place);
+      if (found == index.end())
+        return;
+      const Segment<dim> &other = segments[found->second];
+      if (dim == 2)
+      {
+        segments[i].neighbours.push_back({other.key, 0.5 * segments[i].area, 1.});
+        return;
+      }
+      // Along the fracture, and what it is wide across that in this cell. Cells above one another
+      // are as near as that.
+      const Tensor<1, dim> to = other.centre - segments[i].centre;
+      const double distance =
+        std::max((to - (to * cells[i].normal) * cells[i].normal).norm(), 0.3 * h);
+      segments[i].neighbours.push_back({other.key, 0.5 * distance, segments[i].area / distance});
+    };
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const int step : {-1, 1})
+        connect(moved(here, d, step));
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int e = d + 1; e < dim; ++e)
+        for (const int dx : {-1, 1})
+          for (const int dy : {-1, 1})
+          {
+            const Place<dim> first = moved(here, d, dx), second = moved(here, e, dy);
+            if (index.count(first) == 0 && index.count(second) == 0)
+              connect(moved(first, e, dy));
+          }
+    segments[i].at_tip =
+      dim == 2 && segments[i].neighbours.size() <= 1 && planes_at<dim>(zone, cells[i].place) == 0;
   }
   return segments;
 }
 
 
-#define INSTANTIATE(dim)                                                             \
-  template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,     \
-                                                              const BondSet<dim> &); \
-  template void align_normals(std::vector<FractureCell<dim>> &, const unsigned int); \
-  template double broken_share(const Zone<dim> &, const BondSet<dim> &,              \
-                               const FractureCell<dim> &);                           \
-  template double fracture_area(const Tensor<1, dim> &, const double);               \
-  template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,       \
-                                 const Tensor<1, dim> &);                            \
-  template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                \
-                                                   const std::vector<FractureCell<dim>> &);
+template <int dim>
+bool is_at_front(const Zone<dim> &zone, const FractureCell<dim> &cell, const Segment<dim> &segment)
+{
+  return dim == 2 ? segment.at_tip
+                  : segment.neighbours.size() + planes_at<dim>(zone, cell.place) < 2 * (dim - 1);
+}
+
+
+#define INSTANTIATE(dim)                                                                    \
+  template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,            \
+                                                              const BondSet<dim> &);        \
+  template void align_normals(std::vector<FractureCell<dim>> &, const unsigned int);        \
+  template double broken_share(const Zone<dim> &, const BondSet<dim> &,                     \
+                               const FractureCell<dim> &);                                  \
+  template double fracture_area(const Tensor<1, dim> &, const double);                      \
+  template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,              \
+                                 const Tensor<1, dim> &);                                   \
+  template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                       \
+                                                   const std::vector<FractureCell<dim>> &); \
+  template bool is_at_front(const Zone<dim> &, const FractureCell<dim> &, const Segment<dim> &);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

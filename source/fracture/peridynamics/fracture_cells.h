@@ -13,9 +13,9 @@ struct FractureCell
   dealii::Tensor<1, dim> normal; ///< unit
 };
 
-/// The cells with at least two of their own bonds (between two of their corners) broken that cross
-/// the fracture. Its normal is the direction of most of the broken bonds of the cell's corners. In
-/// the order of the places.
+/// The cells with enough of their own bonds (between two of their corners) broken that cross the
+/// fracture: two of them, seven in space. Its normal is the direction of most of the broken bonds
+/// of the cell's corners. In the order of the places.
 template <int dim>
 std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone,
                                                    const BondSet<dim> &bonds);
@@ -46,7 +46,13 @@ LinearFunctional
 jump(const Zone<dim> &zone, const FractureCell<dim> &cell, const dealii::Tensor<1, dim> &direction);
 
 /// Segments of all fracture cells, with opening and pore pressure; pressures are left to the model.
+/// In space, of a fracture oblique to the mesh, conductances between neighbours are approximate.
 template <int dim>
 std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
                                         const std::vector<FractureCell<dim>> &cells);
+
+/// Does the fracture end at this cell, within rock? A segment's `at_tip` says so in 2-D, of ends
+/// where the pressure is singular along the fracture.
+template <int dim>
+bool is_at_front(const Zone<dim> &zone, const FractureCell<dim> &cell, const Segment<dim> &segment);
 } // namespace stockwork::peridynamics

@@ -48,8 +48,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
                      "energy release rate, or Fracture toughness), or 'Growth = false'.");
   if (scene.cracks.empty() && parameters.boxes.empty())
     throw InputError("Peridynamics needs an initial crack, or the box of its 'Zone'.");
-  for (const auto &crack : scene.cracks)
-    shape.cracks.push_back(crack.points);
+  shape.cracks = scene.cracks;
   shape.boxes = parameters.boxes;
   shape.margin = parameters.margin;
 }
@@ -114,11 +113,13 @@ void Peridynamics<dim>::refresh_segments()
       for (unsigned int d = 0; d < dim; ++d)
         cell.normal[d] = old->second[d];
   all_segments = make_segments(zone, cells);
+  at_front.clear();
   owned_segments.clear();
   owned_cells.clear();
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     Segment<dim> &segment = all_segments[i];
+    at_front.push_back(is_at_front(zone, cells[i], segment));
     const auto &n = segment.normal;
     segment.given_pressure = scene.crack_pressure;
     const auto carried = initial_pressure.find(segment.key);
@@ -157,8 +158,8 @@ void Peridynamics<dim>::begin_step(const StepContext &)
   told_of_rim_before = told_of_rim;
   n_segments_before = cells.size();
   n_tips_before = 0;
-  for (const auto &segment : all_segments)
-    n_tips_before += segment.at_tip;
+  for (const bool at_end : at_front)
+    n_tips_before += at_end;
 }
 
 
@@ -169,12 +170,14 @@ void Peridynamics<dim>::commit(const StepContext &, const State &)
     committed_bonds = bonds.places();
   committed_energy = dissipated;
   const double settled = (parameters.horizon + 1.5) * zone.spacing();
+  std::vector<Point<dim>> front;
   for (unsigned int i = 0; i < cells.size(); ++i)
-    if (std::none_of(all_segments.begin(), all_segments.end(),
-                     [&](const Segment<dim> &other) {
-                       return other.at_tip &&
-                              other.centre.distance(all_segments[i].centre) < settled;
-                     }))
+    if (at_front[i])
+      front.push_back(all_segments[i].centre);
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    if (std::none_of(front.begin(), front.end(),
+                     [&](const Point<dim> &end)
+                     { return end.distance(all_segments[i].centre) < settled; }))
       committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
                                                                     cells[i].normal.end_raw()));
   initial_pressure.clear();

@@ -5,6 +5,7 @@
 #include "fracture/peridynamics/parameters.h"
 #include "stockwork/fracture/model.h"
 
+#include <functional>
 #include <memory>
 #include <set>
 
@@ -66,6 +67,11 @@ private:
   /// Break the bonds that the initial open cracks pass through.
   void cut_initial_cracks();
 
+  /// Break the bonds that cross a plane where a crack is.
+  void cut_along_plane(const dealii::Point<dim> &origin,
+                       const dealii::Tensor<1, dim> &normal,
+                       const std::function<bool(const dealii::Point<dim> &crossing)> &is_on_crack);
+
   /// The fracture cells of initial cracks have the cracks' own normals.
   void set_initial_normals();
 
@@ -120,6 +126,7 @@ private:
   std::vector<double> damage; ///< of all sites
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;   ///< of all ranks
+  std::vector<bool> at_front;               ///< which of them the fracture ends at
   std::vector<Segment<dim>> owned_segments; ///< their openings are known here
   std::vector<unsigned int> owned_cells;    ///< indices of the same among `cells`
   std::vector<std::string> messages;

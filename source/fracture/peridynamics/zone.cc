@@ -54,26 +54,11 @@ double edge_of_cube(const typename dealii::DoFHandler<dim>::active_cell_iterator
 
 
 template <int dim>
-double distance_from_polyline(const Point<dim> &x, const std::vector<Point<dim>> &corners)
-{
-  double nearest = std::numeric_limits<double>::infinity();
-  for (unsigned int i = 0; i + 1 < corners.size(); ++i)
-  {
-    const auto along = corners[i + 1] - corners[i];
-    const double length = along.norm_square();
-    const double t = length > 0. ? std::clamp((x - corners[i]) * along / length, 0., 1.) : 0.;
-    nearest = std::min(nearest, x.distance(corners[i] + t * along));
-  }
-  return nearest;
-}
-
-
-template <int dim>
 double ZoneShape<dim>::distance(const Point<dim> &point, const double spacing) const
 {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto &crack : cracks)
-    nearest = std::min(nearest, distance_from_polyline(point, crack) - margin * spacing);
+    nearest = std::min(nearest, crack.distance(point) - margin * spacing);
   for (const auto &box : boxes)
     nearest = std::min(nearest, distance_from_box(point, box));
   return nearest;
@@ -426,8 +411,6 @@ std::vector<double> Zone<dim>::displacement(const dealii::TrilinosWrappers::MPI:
 }
 
 
-template double distance_from_polyline(const Point<2> &, const std::vector<Point<2>> &);
-template double distance_from_polyline(const Point<3> &, const std::vector<Point<3>> &);
 template struct ZoneShape<2>;
 template struct ZoneShape<3>;
 template class Zone<2>;

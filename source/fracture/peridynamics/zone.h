@@ -22,7 +22,7 @@ using Place = std::array<int, dim>;
 template <int dim>
 struct ZoneShape
 {
-  std::vector<std::vector<dealii::Point<dim>>> cracks; ///< polylines
+  std::vector<InitialCrack<dim>> cracks;
   std::vector<dealii::BoundingBox<dim>> boxes;
   double margin; ///< of cells around the cracks
 
@@ -32,10 +32,6 @@ struct ZoneShape
   /// At lattice spacing h [m], enlarged by so many cells.
   bool contains(const dealii::Point<dim> &point, double spacing, double enlarged_by = 0.) const;
 };
-
-template <int dim>
-double distance_from_polyline(const dealii::Point<dim> &x,
-                              const std::vector<dealii::Point<dim>> &corners);
 
 /// A vertex of the uniform cells in the zone or around it.
 template <int dim>

@@ -139,4 +139,32 @@ double PennyCrack::energy_release_rate() const
 {
   return std::pow(stress_intensity(), 2) / modulus;
 }
+
+
+std::array<double, 2> PennyCrack::displacement(const double r, const double z) const
+{
+  // With a harmonic function phi, 2 G u_r = (1 - 2 nu) phi_r + z phi_rz and
+  // 2 G u_z = -2 (1 - nu) phi_z + z phi_zz leave no shear on z = 0, where sigma_zz = -phi_zz. On it
+  // phi_z = -(2 p/pi) sqrt(a^2 - r^2) inside the crack and zero outside: its Hankel transform is
+  // (sin(s a) - s a cos(s a))/s^3, and the integrals are those of exp(-s (z - i a)) J(s r) s^-n
+  // (Sneddon 1946), written so that they do not cancel at the axis.
+  using Complex = std::complex<double>;
+  const double a = parameters.radius, height = std::abs(z);
+  const Complex zeta(height, -a);
+  // zeta^2 + r^2 has a negative imaginary part, or is negative on the crack; so must be the root's.
+  Complex root = std::sqrt(zeta * zeta + r * r);
+  if (root.imag() > 0.)
+    root = -root;
+  const Complex sum = root + zeta;
+  const double angle = std::arg(sum);
+  const double phi_z = height * angle - root.imag();
+  const double phi_zz = -angle - a * (1. / root).real();
+  const double phi_r = r * (-0.5 * (zeta / sum).imag() - 0.5 * angle - a * (1. / sum).real());
+  const double phi_rz = r * (height / (root * sum) - 1. / root).imag();
+  const double nu = parameters.poisson_ratio;
+  const double shear_modulus = parameters.youngs_modulus / (2. * (1. + nu));
+  const double factor = 2. * parameters.net_pressure / pi / (2. * shear_modulus);
+  return {{factor * (-(1. - 2. * nu) * phi_r - height * phi_rz),
+           std::copysign(factor * (2. * (1. - nu) * phi_z + height * phi_zz), z)}};
+}
 } // namespace stockwork::analytical

@@ -98,6 +98,10 @@ public:
 
   double energy_release_rate() const;
 
+  /// Displacement (u_r, u_z) at the distance r from the axis and z from the plane of the crack, m;
+  /// zero at infinity.
+  std::array<double, 2> displacement(double r, double z) const;
+
 private:
   PennyCrackParameters parameters;
   double modulus; // E', Pa
