@@ -73,14 +73,20 @@ std::vector<BondPlaces<dim>> BondSet<dim>::places() const
   for (const unsigned int i : zone->peridynamic_sites())
     for (unsigned int b = 0; b < stencil.size(); ++b)
       if (is_broken(i, b) && (b < stencil.size() / 2 || zone->far_end(i, b).mirrored != 0))
-      {
-        Place<dim> far = zone->sites()[i].place;
-        for (unsigned int d = 0; d < dim; ++d)
-          far[d] += stencil[b].offset[d];
-        result.emplace_back(zone->sites()[i].place, far);
-      }
+        result.push_back(places(i, b));
   std::sort(result.begin(), result.end());
   return result;
+}
+
+
+template <int dim>
+BondPlaces<dim> BondSet<dim>::places(const unsigned int site, const unsigned int bond) const
+{
+  const Place<dim> &from = zone->sites()[site].place;
+  Place<dim> far = from;
+  for (unsigned int d = 0; d < dim; ++d)
+    far[d] += stencil[bond].offset[d];
+  return {from, far};
 }
 
 

@@ -57,6 +57,9 @@ public:
   /// All broken bonds, each at least once, sorted.
   std::vector<BondPlaces<dim>> places() const;
 
+  /// The ends of a bond of a peridynamic site.
+  BondPlaces<dim> places(unsigned int site, unsigned int bond) const;
+
   /// Break bonds by the places of their ends; those that do not exist are ignored.
   void set_broken(const std::vector<BondPlaces<dim>> &places);
 

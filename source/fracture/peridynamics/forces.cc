@@ -95,8 +95,9 @@ void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &sink) const
 
 /// The cracks release the in-situ traction of their faces.
 template <int dim>
-void Peridynamics<dim>::assemble(const StepContext &, const State &, Sink &sink) const
+void Peridynamics<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
 {
+  assemble_softening(state, sink);
   if (in_situ_is_zero)
     return;
   LocalSystem local;

@@ -164,27 +164,31 @@ void align_normals(std::vector<FractureCell<dim>> &cells, const unsigned int rad
 
 
 template <int dim>
-double broken_share(const Zone<dim> &zone, const BondSet<dim> &bonds, const FractureCell<dim> &cell)
+double broken_share(const Zone<dim> &zone,
+                    const std::vector<StencilBond<dim>> &stencil,
+                    const FractureCell<dim> &cell,
+                    const std::function<double(unsigned int, unsigned int)> &damage)
 {
-  unsigned int n_broken = 0, n_crossing = 0;
+  double broken = 0.;
+  unsigned int n_crossing = 0;
   for (unsigned int v = 0; v < 1u << dim; ++v)
   {
     const unsigned int site = zone.find(corner<dim>(cell.place, v));
     double here = 0.; // distances from the fracture, in spacings
     for (unsigned int d = 0; d < dim; ++d)
       here += cell.normal[d] * ((v >> d & 1) != 0u ? 0.5 : -0.5);
-    for (unsigned int b = 0; b < bonds.n_bonds(); ++b)
+    for (unsigned int b = 0; b < stencil.size(); ++b)
     {
       double there = here;
       for (unsigned int d = 0; d < dim; ++d)
-        there += cell.normal[d] * bonds.bonds()[b].offset[d];
+        there += cell.normal[d] * stencil[b].offset[d];
       if ((here > 0.) == (there > 0.))
         continue;
       ++n_crossing;
-      n_broken += bonds.is_broken(site, b);
+      broken += damage(site, b);
     }
   }
-  return double(n_broken) / n_crossing;
+  return broken / n_crossing;
 }
 
 
@@ -311,8 +315,9 @@ bool is_at_front(const Zone<dim> &zone, const FractureCell<dim> &cell, const Seg
   template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,            \
                                                               const BondSet<dim> &);        \
   template void align_normals(std::vector<FractureCell<dim>> &, const unsigned int);        \
-  template double broken_share(const Zone<dim> &, const BondSet<dim> &,                     \
-                               const FractureCell<dim> &);                                  \
+  template double broken_share(const Zone<dim> &, const std::vector<StencilBond<dim>> &,    \
+                               const FractureCell<dim> &,                                   \
+                               const std::function<double(unsigned int, unsigned int)> &);  \
   template double fracture_area(const Tensor<1, dim> &, const double);                      \
   template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,              \
                                  const Tensor<1, dim> &);                                   \

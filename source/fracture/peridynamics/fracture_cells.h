@@ -3,6 +3,8 @@
 #include "fracture/peridynamics/bond_set.h"
 #include "stockwork/fracture/segment.h"
 
+#include <functional>
+
 namespace stockwork::peridynamics
 {
 /// A cell that a fracture passes through.
@@ -26,11 +28,14 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone,
 template <int dim>
 void align_normals(std::vector<FractureCell<dim>> &cells, const unsigned int radius);
 
-/// Share of the bonds of the cell's corners that lead across the fracture and are broken: one where
-/// nothing holds any more, less within a horizon of a tip.
+/// Mean damage of the bonds of the cell's corners that lead across the fracture: one where nothing
+/// holds any more, less within a horizon of a tip.
+/// @param damage of a bond, from its site and its number
 template <int dim>
-double
-broken_share(const Zone<dim> &zone, const BondSet<dim> &bonds, const FractureCell<dim> &cell);
+double broken_share(const Zone<dim> &zone,
+                    const std::vector<StencilBond<dim>> &stencil,
+                    const FractureCell<dim> &cell,
+                    const std::function<double(unsigned int, unsigned int)> &damage);
 
 /// Area of the fracture in a cell, such that a long one has the right area in all [m^(dim-1)]: a
 /// plane passes through |n_x| + |n_y| (+ |n_z|) cells per area of a face.

@@ -15,6 +15,8 @@ namespace
 {
 /// Stretches that differ by less are equal: symmetric bonds break together, on any number of ranks.
 constexpr double resolution = 1e-6;
+/// Of the stretch at which they soften, at which bonds get the unknown that it takes.
+constexpr double soon_to_soften = 0.9;
 /// Solves within a step after which it is too long.
 constexpr unsigned int most_passes = 60;
 } // namespace
@@ -35,10 +37,12 @@ double Peridynamics<dim>::elongation(const unsigned int site,
 
 
 template <int dim>
-double Peridynamics<dim>::in_situ_stretch(const Point<dim> &middle, const unsigned int bond) const
+double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigned int bond) const
 {
   if (in_situ_is_zero)
     return 0.;
+  const Point<dim> middle = zone.position(zone.sites()[site].place) +
+                            0.5 * coefficients[bond].length * coefficients[bond].direction;
   const RockProperties &rock = scene.rock.main();
   const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
   SymmetricTensor<2, dim> effective = scene.in_situ_stress(middle);
@@ -59,32 +63,41 @@ std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
                                                         const Collectives &collectives) const
 {
   std::vector<double> result(cells.size(), 0.);
-  if (!parameters.effective_stretch || !state.segment_pressure)
-    return result;
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
-  if (scene.has_pore_pressure)
+  const bool of_fluid = parameters.effective_stretch && state.segment_pressure;
+  if (scene.has_pore_pressure && (of_fluid || !in_situ_is_zero))
   {
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
     {
       const LinearFunctional &pore = owned_segments[i].pore_pressure;
       double pressure = pore.constant;
-      for (unsigned int k = 0; k < pore.bulk.size(); ++k)
-        pressure += pore.bulk_coefficients[k] * state.current.bulk(pore.bulk[k]);
+      if (of_fluid)
+        for (unsigned int k = 0; k < pore.bulk.size(); ++k)
+          pressure += pore.bulk_coefficients[k] * state.current.bulk(pore.bulk[k]);
       result[owned_cells[i]] = -rock.biot_coefficient * compliance * pressure;
     }
     collectives.sum(result);
   }
   for (unsigned int i = 0; i < cells.size(); ++i)
-    result[i] += compliance * state.segment_pressure(all_segments[i].key);
+  {
+    const auto &n = cells[i].normal;
+    result[i] +=
+      compliance * (of_fluid ? state.segment_pressure(all_segments[i].key)
+                             : -(n * (scene.in_situ_stress(all_segments[i].centre) * n)));
+  }
   return result;
 }
 
 
 template <int dim>
-double Peridynamics<dim>::relief_at(const Point<dim> &place,
+double Peridynamics<dim>::relief_at(const unsigned int site,
+                                    const unsigned int bond,
                                     const std::vector<double> &relief) const
 {
+  Point<dim> place; // of the middle, in spacings
+  for (unsigned int d = 0; d < dim; ++d)
+    place[d] = zone.sites()[site].place[d] + 0.5 * stencil[bond].offset[d];
   double nearest = parameters.horizon + 1., result = 0.;
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
@@ -107,6 +120,7 @@ template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
   const std::vector<double> &u, const std::vector<double> &relief, bool &at_rim) const
 {
+  const double least = softening.brittle() ? 1. : soon_to_soften;
   double most_relief = 0.;
   for (const double r : relief)
     most_relief = std::max(most_relief, r);
@@ -121,21 +135,17 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       if (b >= half && breakable && zone.far_end(i, b).mirrored == 0)
         continue; // seen from the other end
       double stretch = elongation(i, b, u) / coefficients[b].length;
-      if (!in_situ_is_zero)
-        stretch += in_situ_stretch(zone.position(zone.sites()[i].place) +
-                                     0.5 * coefficients[b].length * coefficients[b].direction,
-                                   b);
-      // What breaks a bond is its energy; bonds beside a crack are stiffer.
-      const double share = std::sqrt(stiffness(i, b) / coefficients[b].stiffness);
+      stretch += in_situ_stretch(i, b);
       const auto ratio_with = [&](const double more)
-      { return std::round(share * (stretch + more) / critical_stretch / resolution) * resolution; };
-      if (ratio_with(most_relief) < 1.)
+      {
+        return std::round(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
+                          softening.first / resolution) *
+               resolution;
+      };
+      if (ratio_with(most_relief) < least || softening_bond(i, b) != nullptr)
         continue;
-      Point<dim> middle;
-      for (unsigned int d = 0; d < dim; ++d)
-        middle[d] = zone.sites()[i].place[d] + 0.5 * stencil[b].offset[d];
-      const double ratio = ratio_with(relief_at(middle, relief));
-      if (ratio < 1.)
+      const double ratio = ratio_with(relief_at(i, b, relief));
+      if (ratio < least)
         continue;
       if (breakable)
         candidates.push_back({ratio, i, b});
@@ -153,6 +163,27 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
 
 
 template <int dim>
+void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
+{
+  // The most stretched first, those as much stretched with them.
+  for (unsigned int k = 0; k < candidates.size(); ++k)
+  {
+    if (k >= parameters.bonds_per_pass &&
+        candidates[k].stretch <
+          candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * resolution)
+      break;
+    const auto [stretch, site, bond] = candidates[k];
+    if (bonds.is_broken(site, bond))
+      continue; // the image of another
+    dissipated += energy_at_unit_stretch({site, bond}) * std::pow(stretch * critical_stretch, 2);
+    bonds.set_broken(site, bond);
+    cracked.set_broken(site, bond);
+  }
+  ++version;
+}
+
+
+template <int dim>
 Verdict Peridynamics<dim>::advance(const StepContext &context,
                                    const State &state,
                                    const Collectives &collectives)
@@ -163,8 +194,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
 
   const std::vector<double> u = zone.displacement(state.current.bulk, collectives);
   bool at_rim = false;
-  const std::vector<Candidate> candidates =
-    overstretched(u, pressure_stretch(state, collectives), at_rim);
+  const std::vector<double> relief = pressure_stretch(state, collectives);
+  const std::vector<Candidate> candidates = overstretched(u, relief, at_rim);
   if (at_rim && !told_of_rim)
   {
     messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
@@ -174,7 +205,9 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
 
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);
   const unsigned int n_new = cells.size() - n_segments_before;
-  if (candidates.empty())
+  const bool changed =
+    softening.brittle() ? !candidates.empty() : soften_bonds(u, relief, candidates);
+  if (!changed)
   {
     verdict.dt_limit = context.dt * (n_new > n_tips ? 0.6 : n_new > 0 ? 0.8 : 1.25);
     return verdict;
@@ -189,27 +222,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     return verdict;
   }
 
-  // The most stretched first, those as much stretched with them.
-  for (unsigned int k = 0; k < candidates.size(); ++k)
-  {
-    if (k >= parameters.bonds_per_pass &&
-        candidates[k].stretch <
-          candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * resolution)
-      break;
-    const auto [stretch, site, bond] = candidates[k];
-    if (bonds.is_broken(site, bond))
-      continue; // the image of another
-    bonds.for_each_view(site, bond,
-                        [&](const unsigned int s, const unsigned int b)
-                        {
-                          if (bonds.is_broken(s, b))
-                            return;
-                          const double length = stretch * critical_stretch * coefficients[b].length;
-                          dissipated += 0.25 * zone.sites()[s].share * coefficients[b].stiffness *
-                                        length * length;
-                        });
-    bonds.set_broken(site, bond);
-  }
+  if (softening.brittle())
+    break_bonds(candidates);
 
   // A new segment begins at the pressure of those beside it.
   std::map<std::uint64_t, double> known;
@@ -223,22 +237,22 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
           initial_pressure[segment.key] = beside->second;
   refresh_segments();
   ++passes;
-  ++version;
   verdict.kind = Verdict::Kind::topology_changed;
   return verdict;
 }
 
-#define INSTANTIATE(dim)                                                                        \
-  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                     \
-                                                const std::vector<double> &) const;             \
-  template double Peridynamics<dim>::in_situ_stretch(const Point<dim> &, unsigned int) const;   \
-  template std::vector<double> Peridynamics<dim>::pressure_stretch(const State &,               \
-                                                                   const Collectives &) const;  \
-  template double Peridynamics<dim>::relief_at(const Point<dim> &, const std::vector<double> &) \
-    const;                                                                                      \
-  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(          \
-    const std::vector<double> &, const std::vector<double> &, bool &) const;                    \
-  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,               \
+#define INSTANTIATE(dim)                                                                       \
+  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                    \
+                                                const std::vector<double> &) const;            \
+  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const;        \
+  template std::vector<double> Peridynamics<dim>::pressure_stretch(const State &,              \
+                                                                   const Collectives &) const; \
+  template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                     \
+                                               const std::vector<double> &) const;             \
+  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
+    const std::vector<double> &, const std::vector<double> &, bool &) const;                   \
+  template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \
+  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,              \
                                               const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -12,7 +12,11 @@ FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) c
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     result.length += all_segments[i].area;
-    result.broken_length += broken_share(zone, bonds, cells[i]) * all_segments[i].area;
+    result.broken_length +=
+      broken_share<dim>(zone, stencil, cells[i],
+                        [this](const unsigned int site, const unsigned int bond)
+                        { return bond_damage(site, bond); }) *
+      all_segments[i].area;
     result.n_tips += all_segments[i].at_tip;
   }
   result.dissipated_energy = dissipated;

@@ -39,6 +39,10 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
     "on the lattice grows at that rate, 0.823 for a horizon of 3, 0.851 for 4.");
+  prm.declare_entry("Softening", "1", Patterns::Double(1.),
+                    "The stretch at which a bond is broken over the one at which it begins to "
+                    "soften, with the same energy. 1: bonds are brittle, as in the paper. Above, "
+                    "fractures grow smoothly instead of from cell to cell, over a longer tip.");
   prm.declare_entry("Stretch", "total", Patterns::Selection("total|effective"),
                     "What breaks a bond. total: its stretch. effective: as if the fluid in the "
                     "nearest piece of the fracture pressed on the rock from all sides no longer, "
@@ -88,6 +92,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   if (p.stretch_factor <= 0.)
     throw bad("Critical stretch factor", "a number > 0");
   p.surface_correction = prm.get_bool("Surface correction");
+  p.softening = prm.get_double("Softening");
   p.effective_stretch = prm.get("Stretch") == "effective";
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");

@@ -20,6 +20,7 @@ struct Parameters
   double cell_size;                            ///< wanted in the zone [m]; zero: as the mesh is
   double cell_growth;                          ///< size over distance outside the zone
   double stretch_factor;                       ///< of the critical stretch; NaN: the lattice's own
+  double softening; ///< last over first stretch of a bond that softens; 1: brittle
   bool surface_correction;
   bool effective_stretch; ///< bonds break by effective stress
   bool growth;

@@ -73,6 +73,7 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
   rank = collectives.rank();
   zone.setup(shape, parameters.cell_size, stencil, discretization, collectives);
   bonds.reinit(zone, stencil);
+  cracked.reinit(zone, stencil);
 
   const RockProperties &rock = scene.rock.main();
   const double horizon = parameters.horizon * zone.spacing();
@@ -86,12 +87,18 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
     in_situ_is_zero =
       in_situ_is_zero && scene.in_situ_stress(zone.position(zone.sites()[i].place)).norm() == 0.;
 
+  softening.first = critical_stretch / std::sqrt(parameters.softening);
+  softening.last = critical_stretch * std::sqrt(parameters.softening);
   if (started)
+  {
     bonds.set_broken(committed_bonds);
+    restore_softening();
+  }
   else
   {
     cut_initial_cracks();
-    committed_bonds = bonds.places();
+    committed_bonds = committed_cracked = bonds.places();
+    cracked.set_broken(committed_bonds);
     set_initial_normals();
     started = true;
   }
@@ -106,7 +113,7 @@ void Peridynamics<dim>::refresh_segments()
   damage.assign(zone.sites().size(), 0.);
   for (const unsigned int i : zone.peridynamic_sites())
     damage[i] = bonds.damage(i);
-  cells = find_fracture_cells(zone, bonds);
+  cells = find_fracture_cells(zone, cracked);
   align_normals(cells, parameters.horizon + 1);
   for (FractureCell<dim> &cell : cells)
     if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
@@ -167,7 +174,19 @@ template <int dim>
 void Peridynamics<dim>::commit(const StepContext &, const State &)
 {
   if (passes > 0)
+  {
     committed_bonds = bonds.places();
+    committed_cracked = cracked.places();
+  }
+  committed_softening.clear();
+  for (SofteningBond &bond : softening_bonds)
+  {
+    dissipated += energy_at_unit_stretch(bond.view) *
+                  (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
+    bond.committed = bond.trial;
+    committed_softening.push_back(
+      {bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
+  }
   committed_energy = dissipated;
   const double settled = (parameters.horizon + 1.5) * zone.spacing();
   std::vector<Point<dim>> front;
@@ -196,6 +215,7 @@ void Peridynamics<dim>::rollback()
   passes = 0;
   bonds.reinit(zone, stencil);
   bonds.set_broken(committed_bonds);
+  restore_softening();
   ++version;
   refresh_segments();
 }
@@ -237,7 +257,8 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   std::array<double, dim> origin;
   for (unsigned int d = 0; d < dim; ++d)
     origin[d] = zone.origin()[d];
-  archive << origin << committed_bonds << committed_normals << committed_energy << told_of_rim;
+  archive << origin << committed_bonds << committed_cracked << committed_softening
+          << committed_normals << committed_energy << told_of_rim;
 }
 
 
@@ -245,7 +266,8 @@ template <int dim>
 void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::array<double, dim> origin;
-  archive >> origin >> committed_bonds >> committed_normals >> committed_energy >> told_of_rim;
+  archive >> origin >> committed_bonds >> committed_cracked >> committed_softening >>
+    committed_normals >> committed_energy >> told_of_rim;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)
     corner[d] = origin[d];
@@ -258,6 +280,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   {
     bonds.reinit(zone, stencil);
     bonds.set_broken(committed_bonds);
+    restore_softening();
     ++version;
     refresh_segments();
   }

@@ -3,6 +3,7 @@
 #include "fracture/peridynamics/bond_set.h"
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
+#include "fracture/peridynamics/softening.h"
 #include "stockwork/fracture/model.h"
 
 #include <functional>
@@ -43,6 +44,8 @@ public:
 
   void assemble(const StepContext &context, const State &state, Sink &sink) const override;
 
+  std::vector<ExtraUnknown> extra_unknowns() const override;
+
   Verdict
   advance(const StepContext &context, const State &state, const Collectives &collectives) override;
 
@@ -80,7 +83,7 @@ private:
   void refresh_segments();
 
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
-  double in_situ_stretch(const dealii::Point<dim> &middle, unsigned int bond) const;
+  double in_situ_stretch(unsigned int site, unsigned int bond) const;
 
   /// A bond that is stretched too far.
   struct Candidate
@@ -89,18 +92,62 @@ private:
     unsigned int site, bond;
   };
 
+  /// A bond as the first of its views, see BondSet::for_each_view().
+  using BondView = std::pair<unsigned int, unsigned int>;
+
+  /// The views of a bond, each once, sorted.
+  std::vector<BondView> views_of(unsigned int site, unsigned int bond) const;
+
+  /// A bond that softens. Its unknown is what has become of its elongation without any force, D
+  /// times the elongation [m].
+  struct SofteningBond
+  {
+    BondView view;
+    /// Greatest stretch so far, as of a bond of the lattice's stiffness.
+    double committed = 0., trial = 0.;
+    /// Stretch that is not elongation: in situ, and what fluid relieves.
+    double offset = 0.;
+  };
+
+  /// The bond among `softening_bonds`, or null.
+  const SofteningBond *softening_bond(unsigned int site, unsigned int bond) const;
+
+  /// 0: whole, 1: broken.
+  double bond_damage(unsigned int site, unsigned int bond) const;
+
+  /// Break the most stretched bonds.
+  void break_bonds(const std::vector<Candidate> &candidates);
+
+  /// Follow the softening bonds, and let candidates soften.
+  /// @return whether unknowns or segments have changed
+  bool soften_bonds(const std::vector<double> &displacement,
+                    const std::vector<double> &relief,
+                    const std::vector<Candidate> &candidates);
+
+  /// Elastic energy of a bond, all of its views, at stretch one [J/m].
+  double energy_at_unit_stretch(const BondView &view) const;
+
+  /// Stretch, of a bond of the lattice's stiffness that has the same energy.
+  double equivalent_stretch(unsigned int site, unsigned int bond, double elongation) const;
+
+  void assemble_softening(const State &state, Sink &sink) const;
+
+  /// The softening bonds as they are committed.
+  void restore_softening();
+
   /// The most stretched first. `at_rim`: some cannot break, for they lead out of the zone.
   std::vector<Candidate> overstretched(const std::vector<double> &displacement,
                                        const std::vector<double> &relief,
                                        bool &at_rim) const;
 
-  /// Of each fracture cell, the stretch that bonds would gain if its fluid pressed on the rock from
-  /// all sides no longer: at the tip of a crack with pressure p the stress is that of its
-  /// intensity and -p I. What pressure the pores carry is part of the effective stress already.
+  /// Of each fracture cell, the stretch that bonds would gain if the rock was pressed on from all
+  /// sides no longer: by the in-situ stress normal to the fracture or, with effective stretches, by
+  /// the fluid; for at the tip of a crack with pressure p the stress is that of its intensity and
+  /// -p I. What pressure the pores carry is part of the effective stress already.
   std::vector<double> pressure_stretch(const State &state, const Collectives &collectives) const;
 
-  /// That of the cell nearest to a place in the lattice, if one is within a horizon.
-  double relief_at(const dealii::Point<dim> &place, const std::vector<double> &relief) const;
+  /// That of the cell nearest to the middle of a bond, if one is within a horizon.
+  double relief_at(unsigned int site, unsigned int bond, const std::vector<double> &relief) const;
 
   /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
   double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
@@ -119,11 +166,14 @@ private:
   BondLaw law;
   std::vector<BondCoefficients<dim>> coefficients;
   double critical_stretch = 0.;
+  SofteningLaw softening;
   unsigned int rank = 0;
   bool in_situ_is_zero = true;
 
-  BondSet<dim> bonds;
-  std::vector<double> damage; ///< of all sites
+  BondSet<dim> bonds;                         ///< broken ones
+  BondSet<dim> cracked;                       ///< broken ones and those that have begun to soften
+  std::vector<SofteningBond> softening_bonds; ///< sorted by view
+  std::vector<double> damage;                 ///< of all sites
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;   ///< of all ranks
   std::vector<bool> at_front;               ///< which of them the fracture ends at
@@ -133,7 +183,9 @@ private:
   unsigned int version = 0; ///< of the bonds
 
   // Committed.
-  std::vector<BondPlaces<dim>> committed_bonds;
+  std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;
+  /// Greatest stretch and offset.
+  std::vector<std::pair<BondPlaces<dim>, std::array<double, 2>>> committed_softening;
   std::map<Place<dim>, std::vector<double>> committed_normals;
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut

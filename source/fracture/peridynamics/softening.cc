@@ -1,0 +1,262 @@
+#include "fracture/peridynamics/peridynamics.h"
+#include "stockwork/mesh/key.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::peridynamics
+{
+using dealii::Tensor;
+
+namespace
+{
+/// Damage of its bonds from which on the fluid gets into a cell.
+constexpr double wet_damage = 0.5;
+} // namespace
+
+
+template <int dim>
+std::vector<typename Peridynamics<dim>::BondView>
+Peridynamics<dim>::views_of(const unsigned int site, const unsigned int bond) const
+{
+  std::vector<BondView> views;
+  bonds.for_each_view(
+    site, bond, [&](const unsigned int s, const unsigned int b) { views.emplace_back(s, b); });
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  return views;
+}
+
+
+template <int dim>
+const typename Peridynamics<dim>::SofteningBond *
+Peridynamics<dim>::softening_bond(const unsigned int site, const unsigned int bond) const
+{
+  if (softening_bonds.empty() || !bonds.can_break(site, bond))
+    return nullptr;
+  const BondView view = views_of(site, bond).front();
+  const auto found =
+    std::lower_bound(softening_bonds.begin(), softening_bonds.end(), view,
+                     [](const SofteningBond &a, const BondView &b) { return a.view < b; });
+  return found != softening_bonds.end() && found->view == view ? &*found : nullptr;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::bond_damage(const unsigned int site, const unsigned int bond) const
+{
+  if (bonds.is_broken(site, bond))
+    return 1.;
+  const SofteningBond *softened = softening_bond(site, bond);
+  return softened != nullptr ? softening.damage(softened->trial) : 0.;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::energy_at_unit_stretch(const BondView &view) const
+{
+  double energy = 0.;
+  for (const auto &[s, b] : views_of(view.first, view.second))
+    energy += 0.25 * zone.sites()[s].share * coefficients[b].stiffness * coefficients[b].length *
+              coefficients[b].length;
+  return energy;
+}
+
+
+/// What breaks a bond is its energy; bonds beside a crack are stiffer.
+template <int dim>
+double Peridynamics<dim>::equivalent_stretch(const unsigned int site,
+                                             const unsigned int bond,
+                                             const double elongation) const
+{
+  return std::sqrt(stiffness(site, bond) / coefficients[bond].stiffness) * elongation /
+         coefficients[bond].length;
+}
+
+
+template <int dim>
+std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
+{
+  std::vector<ExtraUnknown> unknowns;
+  for (const SofteningBond &bond : softening_bonds)
+  {
+    const auto [from, to] = bonds.places(bond.view.first, bond.view.second);
+    ExtraUnknown unknown;
+    unknown.key = Key()
+                    .add(zone.position(from), 1e-4 * zone.spacing())
+                    .add(zone.position(to), 1e-4 * zone.spacing());
+    unknown.scale = softening.first * coefficients[bond.view.second].length;
+    unknowns.push_back(unknown);
+  }
+  return unknowns;
+}
+
+
+/// With x = D e of a bond with stiffness k and elongation e, its force is k (e - x); the matrix of
+/// the rock has k e. The rows of x say k (x - D e) = 0.
+template <int dim>
+void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
+{
+  LocalSystem local;
+  local.extra.resize(1);
+  for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+  {
+    const auto &[site, bond] = softening_bonds[n].view;
+    const double committed = softening_bonds[n].committed;
+    if (zone.sites()[site].owner != rank)
+      continue;
+    const double k = stiffness(site, bond);
+    const double x = state.current.extra[n];
+    const std::vector<BondView> views = views_of(site, bond);
+    local.extra[0] = n;
+    local.bulk.resize((2 + views.size()) * dim);
+    const unsigned int own = local.bulk.size();
+
+    // The elongation, from this end.
+    const FarEnd end = zone.far_end(site, bond);
+    double elongation = 0.;
+    Tensor<1, dim> at_far;
+    const Tensor<1, dim> &e = coefficients[bond].direction;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      at_far[d] = end.mirrored >> d & 1 ? -e[d] : e[d];
+      local.bulk[d] = zone.sites()[site].dofs[d];
+      local.bulk[dim + d] = zone.sites()[end.site].dofs[d];
+      elongation += at_far[d] * state.current.bulk(local.bulk[dim + d]) -
+                    e[d] * state.current.bulk(local.bulk[d]);
+    }
+    for (unsigned int v = 0; v < views.size(); ++v)
+      for (unsigned int d = 0; d < dim; ++d)
+        local.bulk[(2 + v) * dim + d] = zone.sites()[views[v].first].dofs[d];
+    local.reinit();
+
+    const double offset = softening_bonds[n].offset * coefficients[bond].length;
+    const double stretch = equivalent_stretch(site, bond, elongation + offset);
+    // What an in-situ stress adds to the stretch is not the bond's to carry.
+    const double kappa = std::max(committed, stretch);
+    const double damage = softening.damage(kappa);
+    // Of damage times elongation by the elongation.
+    const double total = elongation + offset;
+    const double slope = stretch > committed && total != 0.
+                           ? damage + (softening.slope(kappa) - damage) * elongation / total
+                           : damage;
+    local.residual(own) = k * (x - damage * elongation);
+    local.matrix(own, own) = k;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      local.matrix(own, d) = k * slope * e[d];
+      local.matrix(own, dim + d) = -k * slope * at_far[d];
+    }
+    for (unsigned int v = 0; v < views.size(); ++v)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double factor =
+          k * zone.sites()[views[v].first].share * coefficients[views[v].second].direction[d];
+        local.matrix((2 + v) * dim + d, own) = factor;
+        local.residual((2 + v) * dim + d) = factor * x;
+      }
+    sink.add(local);
+  }
+}
+
+
+template <int dim>
+bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
+                                     const std::vector<double> &relief,
+                                     const std::vector<Candidate> &candidates)
+{
+  bool changed = false;
+  const auto crack = [&](const BondView &view)
+  {
+    if (cracked.is_broken(view.first, view.second))
+      return;
+    cracked.set_broken(view.first, view.second);
+    changed = true;
+  };
+  const auto stretch_of = [&](const SofteningBond &bond)
+  {
+    const auto &[site, b] = bond.view;
+    return equivalent_stretch(site, b,
+                              elongation(site, b, u) + bond.offset * coefficients[b].length);
+  };
+  for (SofteningBond &bond : softening_bonds)
+  {
+    bond.trial = std::max(bond.committed, stretch_of(bond));
+    if (softening.damage(bond.trial) > wet_damage)
+      crack(bond.view);
+  }
+  if (changed)
+    changed = find_fracture_cells(zone, cracked).size() != cells.size();
+  for (const Candidate &candidate : candidates)
+    changed = changed || candidate.stretch >= 1.;
+  if (!changed)
+    return false;
+
+  // Those that were broken before this step do not need their unknowns any more.
+  std::vector<SofteningBond> softening_now;
+  for (const SofteningBond &bond : softening_bonds)
+    if (bond.committed >= softening.last)
+    {
+      bonds.set_broken(bond.view.first, bond.view.second);
+      ++version;
+    }
+    else
+      softening_now.push_back(bond);
+  std::vector<BondView> views;
+  for (const Candidate &candidate : candidates)
+    views.push_back(views_of(candidate.site, candidate.bond).front());
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  for (const BondView &view : views)
+  {
+    SofteningBond bond{view};
+    bond.offset =
+      in_situ_stretch(view.first, view.second) + relief_at(view.first, view.second, relief);
+    bond.trial = stretch_of(bond);
+    if (softening.damage(bond.trial) > wet_damage)
+      cracked.set_broken(view.first, view.second);
+    softening_now.push_back(bond);
+  }
+  std::sort(softening_now.begin(), softening_now.end(),
+            [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
+  softening_bonds = std::move(softening_now);
+  return true;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::restore_softening()
+{
+  cracked.reinit(zone, stencil);
+  cracked.set_broken(committed_cracked);
+  softening_bonds.clear();
+  for (const auto &[places, values] : committed_softening)
+  {
+    Place<dim> offset;
+    for (unsigned int d = 0; d < dim; ++d)
+      offset[d] = places.second[d] - places.first[d];
+    softening_bonds.push_back({views_of(zone.find(places.first), bonds.bond(offset)).front(),
+                               values[0], values[0], values[1]});
+  }
+  std::sort(softening_bonds.begin(), softening_bonds.end(),
+            [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
+}
+
+
+#define INSTANTIATE(dim)                                                                           \
+  template std::vector<Peridynamics<dim>::BondView> Peridynamics<dim>::views_of(                   \
+    unsigned int, unsigned int) const;                                                             \
+  template const Peridynamics<dim>::SofteningBond *Peridynamics<dim>::softening_bond(              \
+    unsigned int, unsigned int) const;                                                             \
+  template double Peridynamics<dim>::bond_damage(unsigned int, unsigned int) const;                \
+  template double Peridynamics<dim>::energy_at_unit_stretch(const BondView &) const;               \
+  template double Peridynamics<dim>::equivalent_stretch(unsigned int, unsigned int, double) const; \
+  template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \
+  template void Peridynamics<dim>::assemble_softening(const State &, Sink &) const;                \
+  template bool Peridynamics<dim>::soften_bonds(                                                   \
+    const std::vector<double> &, const std::vector<double> &, const std::vector<Candidate> &);     \
+  template void Peridynamics<dim>::restore_softening();
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics

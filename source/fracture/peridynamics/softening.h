@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+
+namespace stockwork::peridynamics
+{
+/// Bonds that soften before they break. Up to `first` a bond is elastic; from there its force falls
+/// linearly to zero at `last`, and it unloads towards the origin. It dissipates what a brittle one
+/// of critical stretch sqrt(first last) does. Strength and energy are then two numbers: a crack's
+/// end is spread over more cells, so it moves smoothly instead of from cell to cell, and the
+/// lattice does not trap it.
+struct SofteningLaw
+{
+  double first = 0., last = 0.; ///< stretches
+
+  bool brittle() const
+  {
+    return !(last > first);
+  }
+
+  /// Of a bond whose greatest stretch has been kappa; 0 is elastic, 1 is broken.
+  double damage(const double kappa) const
+  {
+    return kappa <= first  ? 0.
+           : kappa >= last ? 1.
+                           : last / kappa * (kappa - first) / (last - first);
+  }
+
+  /// Of damage times stretch by the stretch, where the stretch is the greatest so far.
+  double slope(const double kappa) const
+  {
+    return kappa <= first ? 0. : kappa >= last ? 1. : last / (last - first);
+  }
+
+  /// Over that of a bond that broke at stretch one.
+  double dissipated(const double kappa) const
+  {
+    return first * damage(kappa) * std::min(kappa, last);
+  }
+};
+} // namespace stockwork::peridynamics
