@@ -115,11 +115,20 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   IndexSet all_relevant;
   DoFTools::extract_locally_relevant_dofs(dof_handler, all_relevant);
   owned = dof_handler.locally_owned_dofs().split_by_block(dofs_per_block);
-  relevant = all_relevant.split_by_block(dofs_per_block);
 
   boundary_conditions.constrain(time, mapping, dof_handler, constraints, increment_constraints);
   constraints_time = time;
   model.setup(discretization(), communication);
+
+  // What the model couples across ranks it sees as well.
+  std::vector<types::global_dof_index> coupled;
+  model.add_couplings([&](const std::vector<types::global_dof_index> &dofs)
+                      { coupled.insert(coupled.end(), dofs.begin(), dofs.end()); });
+  std::sort(coupled.begin(), coupled.end());
+  coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
+  IndexSet visible = all_relevant;
+  visible.add_indices(coupled.begin(), coupled.end());
+  relevant = visible.split_by_block(dofs_per_block);
 
   {
     BlockDynamicSparsityPattern pattern(relevant);
@@ -128,7 +137,7 @@ void CoupledSystem<dim>::setup_mesh(const double time)
       [&](const std::vector<types::global_dof_index> &dofs)
       { increment_constraints.add_entries_local_to_global(dofs, pattern, false); });
     SparsityTools::distribute_sparsity_pattern(pattern, dof_handler.locally_owned_dofs(),
-                                               run.communicator, all_relevant);
+                                               run.communicator, visible);
     system.bulk.clear();
     system.bulk.reinit(owned, pattern, run.communicator);
     if (discretisation.has_pore_pressure)

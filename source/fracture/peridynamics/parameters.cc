@@ -38,11 +38,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Critical stretch factor", "", Patterns::Anything(),
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
-    "on the lattice grows at that rate, 0.823 for a horizon of 3, 0.851 for 4.");
-  prm.declare_entry("Softening", "1", Patterns::Double(1.),
+    "on the lattice grows at that rate, 0.97 for bonds that soften; for brittle ones 0.823 "
+    "with a horizon of 3, 0.851 with 4.");
+  prm.declare_entry("Softening", "4", Patterns::Double(1.),
                     "The stretch at which a bond is broken over the one at which it begins to "
-                    "soften, with the same energy. 1: bonds are brittle, as in the paper. Above, "
-                    "fractures grow smoothly instead of from cell to cell, over a longer tip.");
+                    "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
+                    "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
+                    "that is spread over more cells.");
   prm.declare_entry("Stretch", "total", Patterns::Selection("total|effective"),
                     "What breaks a bond. total: its stretch. effective: as if the fluid in the "
                     "nearest piece of the fracture pressed on the rock from all sides no longer, "
@@ -93,6 +95,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
     throw bad("Critical stretch factor", "a number > 0");
   p.surface_correction = prm.get_bool("Surface correction");
   p.softening = prm.get_double("Softening");
+  if (p.softening > 1. && p.softening < 3.)
+    throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Stretch") == "effective";
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");

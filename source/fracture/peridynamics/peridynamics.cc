@@ -80,8 +80,9 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
   law = bond_based_law<dim>(rock, stencil, zone.spacing());
   coefficients = bond_coefficients<dim>(stencil, law, zone.spacing());
   critical_stretch = continuum_critical_stretch<dim>(rock, horizon) *
-                     (std::isnan(parameters.stretch_factor) ? trapping_factor(parameters.horizon)
-                                                            : parameters.stretch_factor);
+                     (!std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
+                      : parameters.softening > 1.            ? softening_factor(parameters.horizon)
+                                                             : trapping_factor(parameters.horizon));
   in_situ_is_zero = true;
   for (const unsigned int i : zone.peridynamic_sites())
     in_situ_is_zero =

@@ -93,69 +93,67 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
 
 
 /// With x = D e of a bond with stiffness k and elongation e, its force is k (e - x); the matrix of
-/// the rock has k e. The rows of x say k (x - D e) = 0.
+/// the rock has k e. The rows of x say k (x - D e) = 0. Every rank adds the rows of its sites.
 template <int dim>
 void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
 {
-  LocalSystem local;
-  local.extra.resize(1);
+  LocalSystem force, law_of_bond;
+  force.extra.resize(1);
+  force.bulk.resize(dim);
+  law_of_bond.extra.resize(1);
+  law_of_bond.bulk.resize(2 * dim);
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
     const auto &[site, bond] = softening_bonds[n].view;
-    const double committed = softening_bonds[n].committed;
+    const double k = stiffness(site, bond), x = state.current.extra[n];
+
+    for (const auto &[s, b] : views_of(site, bond))
+      if (zone.sites()[s].owner == rank)
+      {
+        force.extra[0] = n;
+        force.reinit();
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          force.bulk[d] = zone.sites()[s].dofs[d];
+          force.matrix(d, dim) = k * zone.sites()[s].share * coefficients[b].direction[d];
+          force.residual(d) = force.matrix(d, dim) * x;
+        }
+        sink.add(force);
+      }
+
     if (zone.sites()[site].owner != rank)
       continue;
-    const double k = stiffness(site, bond);
-    const double x = state.current.extra[n];
-    const std::vector<BondView> views = views_of(site, bond);
-    local.extra[0] = n;
-    local.bulk.resize((2 + views.size()) * dim);
-    const unsigned int own = local.bulk.size();
-
-    // The elongation, from this end.
+    law_of_bond.extra[0] = n;
     const FarEnd end = zone.far_end(site, bond);
-    double elongation = 0.;
-    Tensor<1, dim> at_far;
     const Tensor<1, dim> &e = coefficients[bond].direction;
+    Tensor<1, dim> at_far;
+    double elongation = 0.;
     for (unsigned int d = 0; d < dim; ++d)
     {
       at_far[d] = end.mirrored >> d & 1 ? -e[d] : e[d];
-      local.bulk[d] = zone.sites()[site].dofs[d];
-      local.bulk[dim + d] = zone.sites()[end.site].dofs[d];
-      elongation += at_far[d] * state.current.bulk(local.bulk[dim + d]) -
-                    e[d] * state.current.bulk(local.bulk[d]);
+      law_of_bond.bulk[d] = zone.sites()[site].dofs[d];
+      law_of_bond.bulk[dim + d] = zone.sites()[end.site].dofs[d];
+      elongation += at_far[d] * state.current.bulk(law_of_bond.bulk[dim + d]) -
+                    e[d] * state.current.bulk(law_of_bond.bulk[d]);
     }
-    for (unsigned int v = 0; v < views.size(); ++v)
-      for (unsigned int d = 0; d < dim; ++d)
-        local.bulk[(2 + v) * dim + d] = zone.sites()[views[v].first].dofs[d];
-    local.reinit();
-
-    const double offset = softening_bonds[n].offset * coefficients[bond].length;
-    const double stretch = equivalent_stretch(site, bond, elongation + offset);
     // What an in-situ stress adds to the stretch is not the bond's to carry.
-    const double kappa = std::max(committed, stretch);
-    const double damage = softening.damage(kappa);
+    const double total = elongation + softening_bonds[n].offset * coefficients[bond].length;
+    const double stretch = equivalent_stretch(site, bond, total);
+    const double committed = softening_bonds[n].committed;
+    const double kappa = std::max(committed, stretch), damage = softening.damage(kappa);
     // Of damage times elongation by the elongation.
-    const double total = elongation + offset;
     const double slope = stretch > committed && total != 0.
                            ? damage + (softening.slope(kappa) - damage) * elongation / total
                            : damage;
-    local.residual(own) = k * (x - damage * elongation);
-    local.matrix(own, own) = k;
+    law_of_bond.reinit();
+    law_of_bond.residual(2 * dim) = k * (x - damage * elongation);
+    law_of_bond.matrix(2 * dim, 2 * dim) = k;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      local.matrix(own, d) = k * slope * e[d];
-      local.matrix(own, dim + d) = -k * slope * at_far[d];
+      law_of_bond.matrix(2 * dim, d) = k * slope * e[d];
+      law_of_bond.matrix(2 * dim, dim + d) = -k * slope * at_far[d];
     }
-    for (unsigned int v = 0; v < views.size(); ++v)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double factor =
-          k * zone.sites()[views[v].first].share * coefficients[views[v].second].direction[d];
-        local.matrix((2 + v) * dim + d, own) = factor;
-        local.residual((2 + v) * dim + d) = factor * x;
-      }
-    sink.add(local);
+    sink.add(law_of_bond);
   }
 }
 
