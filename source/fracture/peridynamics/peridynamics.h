@@ -118,6 +118,9 @@ private:
   /// Break the most stretched bonds.
   void break_bonds(const std::vector<Candidate> &candidates);
 
+  /// Whether the fluid may get into a cell with this bond.
+  bool lets_fluid_in(const SofteningBond &bond) const;
+
   /// Follow the softening bonds, and let candidates soften.
   /// @return whether unknowns or segments have changed
   bool soften_bonds(const std::vector<double> &displacement,

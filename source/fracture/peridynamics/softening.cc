@@ -10,8 +10,9 @@ using dealii::Tensor;
 
 namespace
 {
-/// Damage of its bonds from which on the fluid gets into a cell.
-constexpr double wet_damage = 0.5;
+/// Damage of its bonds from which on the fluid gets into a cell; what softens beside a fracture
+/// that is there already has to be damaged more, or fractures would be several cells thick.
+constexpr double wet_damage = 0.25, wet_damage_beside = 0.5;
 } // namespace
 
 
@@ -159,6 +160,27 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
 
 
 template <int dim>
+bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
+{
+  const double damage = softening.damage(bond.trial);
+  if (damage <= wet_damage || damage > wet_damage_beside)
+    return damage > wet_damage;
+  const auto &[site, b] = bond.view;
+  for (const FractureCell<dim> &cell : cells)
+  {
+    Tensor<1, dim> away; // from the cell's centre to the bond's middle, in spacings
+    for (unsigned int d = 0; d < dim; ++d)
+      away[d] = zone.sites()[site].place[d] + 0.5 * stencil[b].offset[d] - cell.place[d] - 0.5;
+    const double across = std::abs(away * cell.normal);
+    if (across > 0.75 && across < parameters.horizon + 1. &&
+        (away - (away * cell.normal) * cell.normal).norm() < 1.25)
+      return false;
+  }
+  return true;
+}
+
+
+template <int dim>
 bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
                                      const std::vector<double> &relief,
                                      const std::vector<Candidate> &candidates)
@@ -180,7 +202,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   for (SofteningBond &bond : softening_bonds)
   {
     bond.trial = std::max(bond.committed, stretch_of(bond));
-    if (softening.damage(bond.trial) > wet_damage)
+    if (lets_fluid_in(bond))
       crack(bond.view);
   }
   if (changed)
@@ -211,7 +233,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     bond.offset =
       in_situ_stretch(view.first, view.second) + relief_at(view.first, view.second, relief);
     bond.trial = stretch_of(bond);
-    if (softening.damage(bond.trial) > wet_damage)
+    if (lets_fluid_in(bond))
       cracked.set_broken(view.first, view.second);
     softening_now.push_back(bond);
   }
@@ -253,6 +275,7 @@ void Peridynamics<dim>::restore_softening()
   template void Peridynamics<dim>::assemble_softening(const State &, Sink &) const;                \
   template bool Peridynamics<dim>::soften_bonds(                                                   \
     const std::vector<double> &, const std::vector<double> &, const std::vector<Candidate> &);     \
+  template bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &) const;                     \
   template void Peridynamics<dim>::restore_softening();
 INSTANTIATE(2)
 INSTANTIATE(3)
