@@ -1,10 +1,12 @@
 #include "report.h"
 
 #include "coupling/mechanical_energy.h"
+#include "flow/segment_graph.h"
 
 #include "stockwork/base/progress.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace stockwork
 {
@@ -93,6 +95,16 @@ std::map<std::string, double> Report<dim>::observe()
         std::abs(external_work - values["stored_energy"] - summary.dissipated_energy) /
         external_work;
   }
+  if constexpr (dim == 2)
+    if (!network.segments().empty())
+    {
+      const SegmentGraph graph = segment_graph(network.segments());
+      values["branches"] = graph.n_branches;
+      values["forks"] = graph.fork_angles.size();
+      values["fork_angle"] =
+        std::accumulate(graph.fork_angles.begin(), graph.fork_angles.end(), 0.) /
+        std::max<std::size_t>(graph.fork_angles.size(), 1);
+    }
   const double time = stepper.last_context().time;
   shown.n_tips = summary.n_tips;
   shown.length = summary.length;

@@ -358,11 +358,13 @@ void Network<dim>::assemble_segment(const unsigned int index,
   // Pressures have a rate of their own; balances are integrated over 1/rate.
   const double c_f = compressibility * context.pressure_rate / context.rate;
 
-  // Places in the local system: bulk of B and P, extra of B, own row, others'.
+  // Places in the local system: bulk of B, P and a load of its own, extra of B, own row, others'.
   const unsigned int cake_row = leak_off_rows[index], p_bulk = B.bulk.size();
   local.bulk = B.bulk;
   if (cake_row != no_row)
     local.bulk.insert(local.bulk.end(), P.bulk.begin(), P.bulk.end());
+  const unsigned int load_bulk = local.bulk.size();
+  local.bulk.insert(local.bulk.end(), segment.load.bulk.begin(), segment.load.bulk.end());
   local.extra = B.extra;
   const auto place_of = [&](const unsigned int row) -> unsigned int
   {
@@ -394,13 +396,16 @@ void Network<dim>::assemble_segment(const unsigned int index,
   };
 
   // Load: external work A p dw.
-  for_B(
-    [&](const unsigned int row, const double b)
-    {
-      local.residual(row) -= area * p * b;
-      if (own != no_row)
-        local.matrix(row, own) -= area * b;
-    });
+  const auto add_load = [&](const unsigned int row, const double b)
+  {
+    local.residual(row) -= area * p * b;
+    if (own != no_row)
+      local.matrix(row, own) -= area * b;
+  };
+  if (segment.load.bulk.empty())
+    for_B(add_load);
+  for (unsigned int i = 0; i < segment.load.bulk.size(); ++i)
+    add_load(load_bulk + i, segment.load.bulk_coefficients[i]);
 
   // Storage.
   if (own != no_row)

@@ -37,8 +37,15 @@ public:
     pieces.push_back({corners, values});
   }
 
+  void add_bond(const Point<dim> &from,
+                const Point<dim> &to,
+                const std::vector<std::pair<std::string, double>> &values) override
+  {
+    bonds.push_back({{from, to}, values});
+  }
+
   std::vector<std::pair<std::string, Vector<double>>> cell_fields;
-  std::vector<FracturePiece<dim>> pieces;
+  std::vector<FracturePiece<dim>> pieces, bonds;
 };
 } // namespace
 
@@ -133,8 +140,10 @@ void FieldOutput<dim>::write(const double time,
       throw SolveError("The field " + bad + " has a value that is not a number at t = " +
                        to_string(time, dimension::time) + ".");
   const std::string fracture = fracture_file(collector.pieces, communicator);
-  const bool has_fracture =
-    Utilities::MPI::broadcast(communicator, fracture.empty() ? 0 : 1, 0) == 1;
+  const std::string bonds = bond_file(collector.bonds, communicator);
+  const auto exists = [&](const std::string &text)
+  { return Utilities::MPI::broadcast(communicator, text.empty() ? 0 : 1, 0) == 1; };
+  const bool has_fracture = exists(fracture), has_bonds = exists(bonds);
 
   const std::string number = Utilities::int_to_string(bulk_records.size(), 4);
   const auto piece_name = [&](const unsigned int r)
@@ -151,7 +160,8 @@ void FieldOutput<dim>::write(const double time,
          });
   const std::string bulk_file =
     "vtu/" + (n_ranks == 1 ? piece_name(0) : "fields_" + number + ".pvtu");
-  const std::string fracture_name = "vtu/fracture_" + number + ".vtu";
+  const std::string fracture_name = "vtu/fracture_" + number + ".vtu",
+                    bonds_name = "vtu/bonds_" + number + ".vtu";
   on_root(communicator,
           [&]()
           {
@@ -166,12 +176,16 @@ void FieldOutput<dim>::write(const double time,
             }
             if (has_fracture)
               write_file(directory + "/" + fracture_name, fracture);
+            if (has_bonds)
+              write_file(directory + "/" + bonds_name, bonds);
           });
 
   // Only what is complete goes into the series.
   bulk_records.emplace_back(time, bulk_file);
   if (has_fracture)
     fracture_records.emplace_back(time, fracture_name);
+  if (has_bonds)
+    bond_records.emplace_back(time, bonds_name);
   last_time = time;
   on_root(communicator,
           [&]()
@@ -179,6 +193,8 @@ void FieldOutput<dim>::write(const double time,
             write_pvd("fields.pvd", bulk_records);
             if (has_fracture)
               write_pvd("fracture.pvd", fracture_records);
+            if (has_bonds)
+              write_pvd("bonds.pvd", bond_records);
           });
 }
 

@@ -14,6 +14,7 @@ namespace stockwork
 ///
 ///   fields.pvd, vtu/fields_0012.vtu       the rock (one .vtu per rank and a .pvtu if several)
 ///   fracture.pvd, vtu/fracture_0012.vtu   the fracture, as lines (surfaces in 3-D)
+///   bonds.pvd, vtu/bonds_0012.vtu         bonds, as lines, if the fracture model gives any
 ///
 /// Rock: see BulkFields; region, and what the fracture model adds by cell. Fracture: what the
 /// model gives, e.g. aperture, fluid_pressure, damage.
@@ -49,7 +50,7 @@ public:
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &bulk_records &fracture_records &last_time;
+    archive &bulk_records &fracture_records &bond_records &last_time;
   }
 
 private:
@@ -64,7 +65,7 @@ private:
 
   std::string directory;
   MPI_Comm communicator = MPI_COMM_NULL;
-  Records bulk_records, fracture_records;
+  Records bulk_records, fracture_records, bond_records;
   double last_time = std::numeric_limits<double>::lowest(); ///< of the last fields written
 };
 } // namespace stockwork

@@ -19,9 +19,9 @@ using namespace dealii;
 
 namespace
 {
-/// Lines in the plane, or surfaces in space, as the library's output knows them.
-template <int dim>
-class Pieces : public DataOutInterface<dim - 1, dim>
+/// Lines or surfaces, as the library's output knows them.
+template <int piece_dim, int dim>
+class Pieces : public DataOutInterface<piece_dim, dim>
 {
 public:
   explicit Pieces(const std::vector<FracturePiece<dim>> &pieces)
@@ -30,8 +30,8 @@ public:
       names.push_back(value.first);
     for (const FracturePiece<dim> &piece : pieces)
     {
-      DataOutBase::Patch<dim - 1, dim> patch;
-      constexpr unsigned int n_vertices = GeometryInfo<dim - 1>::vertices_per_cell;
+      DataOutBase::Patch<piece_dim, dim> patch;
+      constexpr unsigned int n_vertices = GeometryInfo<piece_dim>::vertices_per_cell;
       // Corners go round; the library's vertices are in lexicographic order.
       const unsigned int order[4] = {0, 1, 3, 2};
       for (unsigned int v = 0; v < n_vertices; ++v)
@@ -39,7 +39,7 @@ public:
           piece.corners[std::min<std::size_t>(order[v], piece.corners.size() - 1)];
       patch.patch_index = patches.size();
       patch.n_subdivisions = 1;
-      patch.reference_cell = ReferenceCells::template get_hypercube<dim - 1>();
+      patch.reference_cell = ReferenceCells::template get_hypercube<piece_dim>();
       patch.data.reinit(names.size(), n_vertices);
       AssertThrow(piece.values.size() == names.size(),
                   ExcMessage("pieces of fractures with different values"));
@@ -55,7 +55,7 @@ public:
   }
 
 protected:
-  const std::vector<DataOutBase::Patch<dim - 1, dim>> &get_patches() const override
+  const std::vector<DataOutBase::Patch<piece_dim, dim>> &get_patches() const override
   {
     return patches;
   }
@@ -67,12 +67,11 @@ protected:
 
 private:
   std::vector<std::string> names;
-  std::vector<DataOutBase::Patch<dim - 1, dim>> patches;
+  std::vector<DataOutBase::Patch<piece_dim, dim>> patches;
 };
-} // namespace
 
-template <int dim>
-std::string fracture_file(const std::vector<FracturePiece<dim>> &pieces, MPI_Comm communicator)
+template <int piece_dim, int dim>
+std::string file_of(const std::vector<FracturePiece<dim>> &pieces, MPI_Comm communicator)
 {
   // A fracture is small beside the bulk: one rank writes it.
   std::vector<FracturePiece<dim>> all;
@@ -82,7 +81,7 @@ std::string fracture_file(const std::vector<FracturePiece<dim>> &pieces, MPI_Com
   std::string bad, text;
   if (!all.empty())
   {
-    CheckedData<Pieces<dim>> output(all);
+    CheckedData<Pieces<piece_dim, dim>> output(all);
     bad = output.first_not_finite();
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
@@ -97,7 +96,24 @@ std::string fracture_file(const std::vector<FracturePiece<dim>> &pieces, MPI_Com
     throw SolveError("The field " + bad + " of the fracture has a value that is not a number.");
   return text;
 }
+} // namespace
+
+
+template <int dim>
+std::string fracture_file(const std::vector<FracturePiece<dim>> &pieces, MPI_Comm communicator)
+{
+  return file_of<dim - 1, dim>(pieces, communicator);
+}
+
+
+template <int dim>
+std::string bond_file(const std::vector<FracturePiece<dim>> &bonds, MPI_Comm communicator)
+{
+  return file_of<1, dim>(bonds, communicator);
+}
 
 template std::string fracture_file<2>(const std::vector<FracturePiece<2>> &, MPI_Comm);
 template std::string fracture_file<3>(const std::vector<FracturePiece<3>> &, MPI_Comm);
+template std::string bond_file<2>(const std::vector<FracturePiece<2>> &, MPI_Comm);
+template std::string bond_file<3>(const std::vector<FracturePiece<3>> &, MPI_Comm);
 } // namespace stockwork

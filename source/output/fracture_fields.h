@@ -30,4 +30,8 @@ struct FracturePiece
 /// @throws SolveError naming a value that is not a number
 template <int dim>
 std::string fracture_file(const std::vector<FracturePiece<dim>> &pieces, MPI_Comm communicator);
+
+/// The same of lines, in space as well.
+template <int dim>
+std::string bond_file(const std::vector<FracturePiece<dim>> &bonds, MPI_Comm communicator);
 } // namespace stockwork

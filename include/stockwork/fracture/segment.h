@@ -51,6 +51,12 @@ struct Segment
   /// Mean aperture [m]. Known on the rank that owns the host cell only.
   LinearFunctional opening;
 
+  /// What the fluid's pressure does to the rock where that is not the transpose of `opening`: unit
+  /// pressure exerts the forces area times the coefficients, and the work p A dw does not equal
+  /// that of these forces. For closures that are there for comparison; empty everywhere else. Same
+  /// rank.
+  LinearFunctional load;
+
   /// Pore pressure of the rock at the segment [Pa], the mean of both faces, for leak-off. Where the
   /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.
   LinearFunctional pore_pressure;

@@ -34,5 +34,12 @@ public:
   /// A polyline piece of the fracture (2-D) with values at it.
   virtual void add_fracture_piece(const std::vector<dealii::Point<dim>> &corners,
                                   const std::vector<std::pair<std::string, double>> &values) = 0;
+
+  /// A bond between two points with values at it, in a file of its own.
+  virtual void add_bond(const dealii::Point<dim> &,
+                        const dealii::Point<dim> &,
+                        const std::vector<std::pair<std::string, double>> &)
+  {
+  }
 };
 } // namespace stockwork

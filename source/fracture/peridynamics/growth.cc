@@ -19,6 +19,8 @@ constexpr double resolution = 1e-6;
 constexpr double soon_to_soften = 0.9;
 /// Solves within a step after which it is too long.
 constexpr unsigned int most_passes = 60;
+/// Net pressure over the strength from which on bonds may break in a blob.
+constexpr double high_pressure = 0.5;
 } // namespace
 
 
@@ -162,6 +164,34 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
 }
 
 
+/// Rock that is stretched alike in all directions breaks everywhere at once, at a stress which is
+/// greater the smaller the horizon.
+template <int dim>
+void Peridynamics<dim>::warn_of_pressure(const State &state)
+{
+  if (told_of_pressure || !state.segment_pressure)
+    return;
+  const RockProperties &rock = scene.rock.main();
+  const double strength = (dim * rock.lame_lambda() + 2. * rock.shear_modulus()) * softening.first;
+  double pressure = 0.;
+  for (const Segment<dim> &segment : all_segments)
+    pressure = std::max(pressure,
+                        state.segment_pressure(segment.key) +
+                          segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
+  if (pressure < high_pressure * strength)
+    return;
+  std::ostringstream message;
+  message.precision(3);
+  message << "The net pressure in a crack, " << pressure * 1e-6
+          << " MPa, has come near the strength of the bonds, " << strength * 1e-6
+          << " MPa with a horizon of " << parameters.horizon * zone.spacing()
+          << " m. They may break in a blob where a crack should be, and branches may be those of "
+             "the mesh. The strength grows as the cells shrink, with the root.";
+  messages.push_back(message.str());
+  told_of_pressure = true;
+}
+
+
 template <int dim>
 void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
 {
@@ -189,13 +219,14 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                                    const Collectives &collectives)
 {
   Verdict verdict;
+  if (!parameters.growth && parameters.written == Parameters<dim>::Bonds::none)
+    return verdict;
+  displacement = zone.displacement(state.current.bulk, collectives);
   if (!parameters.growth)
     return verdict;
-
-  const std::vector<double> u = zone.displacement(state.current.bulk, collectives);
   bool at_rim = false;
   const std::vector<double> relief = pressure_stretch(state, collectives);
-  const std::vector<Candidate> candidates = overstretched(u, relief, at_rim);
+  const std::vector<Candidate> candidates = overstretched(displacement, relief, at_rim);
   if (at_rim && !told_of_rim)
   {
     messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
@@ -203,10 +234,12 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     told_of_rim = true;
   }
 
+  warn_of_pressure(state);
+
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);
   const unsigned int n_new = cells.size() - n_segments_before;
   const bool changed =
-    softening.brittle() ? !candidates.empty() : soften_bonds(u, relief, candidates);
+    softening.brittle() ? !candidates.empty() : soften_bonds(displacement, relief, candidates);
   if (!changed)
   {
     verdict.dt_limit = context.dt * (n_new > n_tips ? 0.6 : n_new > 0 ? 0.8 : 1.25);
@@ -252,6 +285,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
     const std::vector<double> &, const std::vector<double> &, bool &) const;                   \
   template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \
+  template void Peridynamics<dim>::warn_of_pressure(const State &);                            \
   template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,              \
                                               const Collectives &);
 INSTANTIATE(2)

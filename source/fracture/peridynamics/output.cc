@@ -60,10 +60,34 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
         {segment.centre - 0.5 * segment.area * along, segment.centre + 0.5 * segment.area * along},
         values);
     }
+  if (parameters.written != Parameters<dim>::Bonds::none)
+    write_bonds(sink);
+}
+
+
+template <int dim>
+void Peridynamics<dim>::write_bonds(FieldSink<dim> &sink) const
+{
+  for (const unsigned int i : zone.peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size() && zone.sites()[i].owner == rank; ++b)
+    {
+      const bool broken = bonds.is_broken(i, b), mirrored = zone.far_end(i, b).mirrored != 0;
+      if (mirrored || (bonds.can_break(i, b) && b >= stencil.size() / 2) ||
+          (parameters.written == Parameters<dim>::Bonds::broken && !broken))
+        continue; // seen from the other end
+      const Point<dim> from = zone.position(zone.sites()[i].place);
+      const double stretch =
+        displacement.size() == dim * zone.sites().size()
+          ? elongation(i, b, displacement) / coefficients[b].length / critical_stretch
+          : 0.;
+      sink.add_bond(from, from + coefficients[b].length * coefficients[b].direction,
+                    {{"broken", broken ? 1. : 0.}, {"stretch", stretch}});
+    }
 }
 
 #define INSTANTIATE(dim)                                                                         \
   template FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) const; \
+  template void Peridynamics<dim>::write_bonds(FieldSink<dim> &) const;                          \
   template void Peridynamics<dim>::write_fields(const State &, FieldSink<dim> &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -55,12 +55,21 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
                     "which makes its faces too soft. With the correction, the bonds that are left "
                     "are stiffer, in proportion.");
+  prm.declare_entry(
+    "Closure", "conserving", Patterns::Selection("conserving|as published"),
+    "What the pressure in a crack does to the rock. conserving: it loads the faces, "
+    "and does the work of their opening. as published: it lengthens unbroken bonds "
+    "(Sun et al. 2021, Eqs. 7 and 28), which leaves the faces without a load and "
+    "opens a crack to a tenth; for comparison, in elastic rock.");
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry("Bonds per pass", "20", Patterns::Integer(1),
                     "Bonds that break, the most stretched first, before the step is solved again.");
   prm.declare_entry("Most advances per step", "2", Patterns::Integer(1),
                     "Cells by which a tip may advance within a time step, else it is taken again "
                     "with half its length.");
+  prm.declare_entry("Write bonds", "none", Patterns::Selection("none|broken|all"),
+                    "Bonds in the output files (bonds.pvd), as lines with their state and their "
+                    "stretch over the critical one. There are dozens to a cell.");
 }
 
 
@@ -98,9 +107,12 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   if (p.softening > 1. && p.softening < 3.)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Stretch") == "effective";
+  p.as_published = prm.get("Closure") == "as published";
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   p.most_advances = prm.get_integer("Most advances per step");
+  const std::string written = prm.get("Write bonds");
+  p.written = written == "all" ? Bonds::all : written == "broken" ? Bonds::broken : Bonds::none;
   return p;
 }
 

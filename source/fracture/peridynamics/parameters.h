@@ -23,7 +23,14 @@ struct Parameters
   double softening; ///< last over first stretch of a bond that softens; 1: brittle
   bool surface_correction;
   bool effective_stretch; ///< bonds break by effective stress
+  bool as_published;      ///< the pressure's load on bonds, as printed
   bool growth;
+  enum class Bonds
+  {
+    none,
+    broken,
+    all
+  } written; ///< to the output files
   unsigned int bonds_per_pass;
   unsigned int most_advances; ///< cells per tip and step
 

@@ -1,6 +1,7 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include "fracture/peridynamics/lattice_moduli.h"
+#include "fracture/peridynamics/published_load.h"
 #include "stockwork/base/error.h"
 
 #include <boost/serialization/array.hpp>
@@ -46,6 +47,9 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   if (!(rock.energy_release_rate > 0.) && parameters.growth)
     throw InputError("Peridynamics needs the rock's energy release rate G_c (Rock / Critical "
                      "energy release rate, or Fracture toughness), or 'Growth = false'.");
+  if (parameters.as_published && scene.has_pore_pressure)
+    throw EntryError("Fracture/peridynamics/Closure", "as published",
+                     "'conserving' in porous rock (Rock/Bulk model)");
   if (scene.cracks.empty() && parameters.boxes.empty())
     throw InputError("Peridynamics needs an initial crack, or the box of its 'Zone'.");
   shape.cracks = scene.cracks;
@@ -122,6 +126,14 @@ void Peridynamics<dim>::refresh_segments()
         cell.normal[d] = old->second[d];
   all_segments = make_segments(zone, cells);
   at_front.clear();
+  if (parameters.as_published)
+  {
+    const RockProperties &rock = scene.rock.main();
+    const double stretch_of_pressure = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
+    const auto loads = published_loads(zone, bonds, coefficients, stretch_of_pressure, cells);
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      all_segments[i].load = loads[i];
+  }
   owned_segments.clear();
   owned_cells.clear();
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -164,6 +176,7 @@ void Peridynamics<dim>::begin_step(const StepContext &)
   dissipated = committed_energy;
   n_messages_before = messages.size();
   told_of_rim_before = told_of_rim;
+  told_of_pressure_before = told_of_pressure;
   n_segments_before = cells.size();
   n_tips_before = 0;
   for (const bool at_end : at_front)
@@ -209,6 +222,7 @@ void Peridynamics<dim>::rollback()
 {
   messages.resize(n_messages_before);
   told_of_rim = told_of_rim_before;
+  told_of_pressure = told_of_pressure_before;
   dissipated = committed_energy;
   initial_pressure.clear();
   if (passes == 0)
@@ -259,7 +273,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   for (unsigned int d = 0; d < dim; ++d)
     origin[d] = zone.origin()[d];
   archive << origin << committed_bonds << committed_cracked << committed_softening
-          << committed_normals << committed_energy << told_of_rim;
+          << committed_normals << committed_energy << told_of_rim << told_of_pressure;
 }
 
 
@@ -268,7 +282,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::array<double, dim> origin;
   archive >> origin >> committed_bonds >> committed_cracked >> committed_softening >>
-    committed_normals >> committed_energy >> told_of_rim;
+    committed_normals >> committed_energy >> told_of_rim >> told_of_pressure;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)
     corner[d] = origin[d];

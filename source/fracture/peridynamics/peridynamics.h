@@ -152,6 +152,11 @@ private:
   /// That of the cell nearest to the middle of a bond, if one is within a horizon.
   double relief_at(unsigned int site, unsigned int bond, const std::vector<double> &relief) const;
 
+  void write_bonds(FieldSink<dim> &sink) const;
+
+  /// Once, when the net pressure is so high that bonds may break where no crack is.
+  void warn_of_pressure(const State &state);
+
   /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
   double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
 
@@ -192,14 +197,15 @@ private:
   std::map<Place<dim>, std::vector<double>> committed_normals;
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
-  bool told_of_rim = false;
+  bool told_of_rim = false, told_of_pressure = false;
 
   // Of the current step.
   std::size_t n_messages_before = 0;
   std::size_t n_segments_before = 0, n_tips_before = 0;
   unsigned int passes = 0;
-  double dissipated = 0.; ///< since the start [J/m]
-  bool told_of_rim_before = false;
+  std::vector<double> displacement; ///< of all sites, at the last call of advance()
+  double dissipated = 0.;           ///< since the start [J/m]
+  bool told_of_rim_before = false, told_of_pressure_before = false;
   std::map<std::uint64_t, double> initial_pressure; ///< of new segments, by key
 };
 } // namespace stockwork::peridynamics
