@@ -402,6 +402,47 @@ TEST_CASE("the bordered solver keeps the rock's factor while the fracture change
   }
 }
 
+TEST_CASE(
+  "the bordered solver keeps the factor of an unsymmetric rock while a few of its rows change")
+{
+  auto solver = make(Type::bordered);
+  auto d = make_dense(400, 0, 6, 0., 0.3);
+  SystemStamps stamps;
+  CHECK(solve(*solver, d, stamps).report.factorised);
+  const auto check = [&](const bool factorised)
+  {
+    const auto run = solve(*solver, d, stamps);
+    CHECK(run.report.factorised == factorised);
+    CHECK(run.error < 1e-10);
+  };
+
+  // Bonds break; with an iteration in which nothing but the fracture changes; and again.
+  ++stamps.bulk_values;
+  for (const unsigned int i : {3, 4, 30})
+    for (const unsigned int j : {i - 1, i, i + 1})
+      d.J(i, j) *= 0.7;
+  check(false);
+  d.J(400, 400) += 2.;
+  check(false);
+  ++stamps.bulk_values;
+  d.J(4, 5) *= 1.5;
+  d.J(60, 60) += 1.;
+  check(false);
+
+  // The fracture has no unknowns any more, the rock is as it was, too many rows change.
+  auto dry = make_dense(400, 0, 0, 0., 0.3);
+  d = dry;
+  ++stamps.bulk_values;
+  check(false);
+  d.J(7, 7) += 1.;
+  ++stamps.bulk_values;
+  check(false);
+  for (unsigned int i = 0; i < 400; ++i)
+    d.J(i, i) += 1.;
+  ++stamps.bulk_values;
+  check(true);
+}
+
 TEST_CASE("auto takes what is there")
 {
   auto solver = make(Type::automatic);

@@ -36,10 +36,10 @@ struct InitialCrack
   };
 
   std::vector<dealii::Point<dim>> points; ///< corners of a polyline in 2-D
-  std::optional<Disc<dim>> disc;          ///< in 3-D
   Kind kind = Kind::open;
-  std::string entry; ///< of the deck, for messages: "Cracks/Open"
-  std::string text;  ///< what the deck says there
+  std::string entry;             ///< of the deck, for messages: "Cracks/Open"
+  std::string text;              ///< what the deck says there
+  std::optional<Disc<dim>> disc; ///< in 3-D
 
   /// Of a point from the crack [m].
   double distance(const dealii::Point<dim> &point) const
