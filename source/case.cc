@@ -259,11 +259,13 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   { return boundary_conditions.greatest_displacement(time); };
   reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
-  loaded_by_displacement =
-    !discretisation.has_pore_pressure && scheme.kind() != TimeScheme::Kind::newmark &&
-    in_situ.is_zero() && boundary_conditions.loads().empty() &&
-    !model->requirements().changes_bulk && (scene.cracks.empty() || scene.crack_pressure == 0.) &&
-    boundary_conditions.greatest_displacement(control.end_time) > 0.;
+  const bool moved = boundary_conditions.greatest_displacement(control.end_time) > 0.;
+  audits_energy = !discretisation.has_pore_pressure && in_situ.is_zero() &&
+                  !model->requirements().changes_bulk &&
+                  (scheme.kind() == TimeScheme::Kind::newmark
+                     ? scene.cracks.empty() && !moved
+                     : (scene.cracks.empty() || scene.crack_pressure == 0.) && moved &&
+                         boundary_conditions.loads().empty());
   if (const std::string &entry = boundary_conditions.entry_with_reference(); !entry.empty())
   {
     if (!reference || !reference->field())

@@ -47,7 +47,8 @@ struct Case
   /// The walls move as the reference says, so they are not felt.
   bool walls_follow_reference = false;
 
-  /// Nothing but prescribed displacements loads elastic rock, slowly: see Report.
-  bool loaded_by_displacement;
+  /// Elastic rock that prescribed displacements load slowly, or, if it has no crack, tractions
+  /// with inertia: what they do to it can be compared with where it has gone.
+  bool audits_energy;
 };
 } // namespace stockwork

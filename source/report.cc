@@ -82,18 +82,24 @@ std::map<std::string, double> Report<dim>::observe()
   if (audits_energy)
   {
     const MechanicalEnergy energy = mechanical_energy<dim>(
-      system.discretization(), rock, [this](const auto &cell) { return model.role(cell); }, state,
+      system.discretization(), rock, system.loads(),
+      [this](const auto &cell) { return model.role(cell); }, stepper.last_context(), state,
       system.collectives());
     external_work += energy.work;
-    peak_load = std::max(peak_load, energy.load);
-    values["load"] = energy.load;
-    values["peak_load"] = peak_load;
+    if (stepper.last_context().acceleration > 0.)
+      values["kinetic_energy"] = energy.kinetic;
+    else
+    {
+      peak_load = std::max(peak_load, energy.load);
+      values["load"] = energy.load;
+      values["peak_load"] = peak_load;
+    }
     values["external_work"] = external_work;
     values["stored_energy"] = energy.stored + summary.stored_energy;
     if (external_work > 0.)
-      values["energy_balance_error"] =
-        std::abs(external_work - values["stored_energy"] - summary.dissipated_energy) /
-        external_work;
+      values["energy_balance_error"] = std::abs(external_work - values["stored_energy"] -
+                                                energy.kinetic - summary.dissipated_energy) /
+                                       external_work;
   }
   if constexpr (dim == 2)
     if (!network.segments().empty())

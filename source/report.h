@@ -20,8 +20,7 @@ template <int dim>
 class Report
 {
 public:
-  /// `reference` may be null. `audits_energy`: nothing but prescribed displacements loads elastic
-  /// rock, slowly, so that their work can be compared with where it has gone.
+  /// `reference` may be null. `audits_energy`: see Case.
   Report(RunContext &run,
          const CoupledSystem<dim> &system,
          const Stepper<dim> &stepper,

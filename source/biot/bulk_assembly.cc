@@ -313,7 +313,7 @@ void BulkAssembly<dim>::add_inertia(const StepContext &context,
       local = 0.;
       const double inertia = context.acceleration * matrices.properties().density;
       for (unsigned int a = 0; a < layout.n_u; ++a)
-        for (unsigned int b = 0; b < layout.n_u && !matrices.skips(a); ++b)
+        for (unsigned int b = 0; b < layout.n_u; ++b)
           for (unsigned int i = 0; i < dim; ++i)
             local(layout.u[a * dim + i]) -= inertia *
                                             matrices.integrals.masses[a * layout.n_u + b] *

@@ -35,7 +35,9 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
 {
   const RockProperties *const before = rock_of_cell;
   rock_of_cell = &rock(cell->material_id());
-  const bool new_cell = integrals.reinit(cell) || rock_of_cell != before;
+  const bool new_cell = integrals.reinit(cell) || rock_of_cell != before || is_special;
+  const CellRole<dim> role = changes.role ? changes.role(cell) : CellRole<dim>();
+  is_special = role.skip_stiffness != nullptr || role.fracture_normal != nullptr;
   if (changes.coefficients)
     changed_matrices(cell, context);
   else
@@ -45,16 +47,49 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
     if (new_cell || rate != context.rate || pressure_rate != context.pressure_rate ||
         acceleration != context.acceleration)
       whole_matrix(context);
+    if (role.fracture_normal != nullptr)
+      exclude_opening(*role.fracture_normal);
   }
-  skipped = changes.role ? changes.role(cell).skip_stiffness : nullptr;
-  if (skipped == nullptr)
-    return;
-  for (unsigned int a = 0; a < layout().n_u; ++a)
-    if (skips(a))
+  if (role.skip_stiffness != nullptr)
+    skip_stiffness(*role.skip_stiffness, context);
+}
+
+
+template <int dim>
+void CellMatrices<dim>::skip_stiffness(const std::vector<bool> &vertices,
+                                       const StepContext &context)
+{
+  // Vertices are a cell's first nodes.
+  const double inertia = context.acceleration * rock_of_cell->density;
+  for (unsigned int a = 0; a < vertices.size(); ++a)
+    if (vertices[a])
+      for (unsigned int b = 0; b < layout().n_u; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            whole(layout().u[a * dim + i], layout().u[b * dim + j]) =
+              i == j ? inertia * integrals.masses[a * layout().n_u + b] : 0.;
+}
+
+
+template <int dim>
+void CellMatrices<dim>::exclude_opening(const Tensor<1, dim> &normal)
+{
+  const unsigned int n_u = layout().n_u, n_p = layout().n_p;
+  for (unsigned int a = 0; a < n_p; ++a)
+    for (unsigned int b = 0; b < n_u; ++b)
+    {
+      double along = 0.; // int P_a n.grad N_b
+      for (unsigned int j = 0; j < dim; ++j)
+        along += normal[j] * integrals.divergences[(j * n_p + a) * n_u + b];
       for (unsigned int i = 0; i < dim; ++i)
-        for (const unsigned int j : layout().u)
-          whole(layout().u[a * dim + i], j) = 0.;
-  rate = -1.; // no matrix for the next cell
+      {
+        const unsigned int u = layout().u[b * dim + i], p = layout().p[a];
+        const double opening = rock_of_cell->biot_coefficient * normal[i] * along;
+        whole(p, u) += opening;
+        whole(u, p) += opening;
+        content(u) -= opening;
+      }
+    }
 }
 
 

@@ -32,7 +32,8 @@ struct BulkChanges
                      const std::vector<dealii::Point<dim>> &,
                      std::vector<BulkCoefficients<dim>> &)>
     coefficients;
-  std::function<CellRole<dim>(const CellIterator &)> role; ///< of which skip_stiffness counts here
+  std::function<CellRole<dim>(const CellIterator &)>
+    role; ///< cut cells are no business of this one
 };
 
 /// The matrices of one cell. In homogeneous rock that no fracture model changes they are those of
@@ -60,12 +61,6 @@ public:
     return *rock_of_cell;
   }
 
-  /// Whether somebody else provides stiffness and inertia of the node's momentum rows.
-  bool skips(const unsigned int node) const
-  {
-    return skipped != nullptr && node < skipped->size() && (*skipped)[node];
-  }
-
   CellIntegrals<dim> integrals;
 
   /// Derivative of the residual of BulkAssembly, in the order of the cell's dofs.
@@ -84,6 +79,8 @@ private:
   void changed_matrices(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
                         const StepContext &context);
   void whole_matrix(const StepContext &context);
+  void skip_stiffness(const std::vector<bool> &vertices, const StepContext &context);
+  void exclude_opening(const dealii::Tensor<1, dim> &normal);
 
   const Rock &rock;
   PressureStabilisation stabilisation;
@@ -91,7 +88,7 @@ private:
   dealii::FEValues<dim> fe_values;                 ///< for changed cells
   std::vector<BulkCoefficients<dim>> coefficients; ///< at the quadrature points of a changed cell
   const RockProperties *rock_of_cell = nullptr;
-  const std::vector<bool> *skipped = nullptr; ///< vertices, which are a cell's first nodes
+  bool is_special = false; ///< the cell has a role, so its matrices are no other's
   double rate = -1., pressure_rate = -1., acceleration = -1.; ///< of `whole`
 };
 } // namespace stockwork

@@ -85,6 +85,11 @@ public:
 
   Discretization<dim> discretization() const;
 
+  const Loads<dim> &loads() const
+  {
+    return boundary_conditions.loads();
+  }
+
   const dealii::DoFHandler<dim> &bulk_dofs() const
   {
     return dof_handler;

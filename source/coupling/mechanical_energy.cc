@@ -10,11 +10,94 @@ namespace stockwork
 {
 using namespace dealii;
 
+namespace
+{
+/// 1/2 rho v^2 of the cell, and its share in the work of tractions.
+template <int dim>
+struct MovingCell
+{
+  MovingCell(const Discretization<dim> &discretization, const Loads<dim> &loads)
+    : loads(loads)
+    , values(discretization.mapping,
+             discretization.dof_handler.get_fe(),
+             QGauss<dim>(discretization.dof_handler.get_fe().degree + 1),
+             update_values | update_JxW_values)
+    , face_values(discretization.mapping,
+                  discretization.dof_handler.get_fe(),
+                  QGauss<dim - 1>(discretization.dof_handler.get_fe().degree + 1),
+                  update_values | update_quadrature_points | update_normal_vectors |
+                    update_JxW_values)
+  {
+  }
+
+  double kinetic_energy(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                        const double density,
+                        const StepContext &context,
+                        const State &state)
+  {
+    values.reinit(cell);
+    now.resize(values.n_quadrature_points);
+    before.resize(now.size());
+    values[displacement].get_function_values(state.current.bulk, now);
+    values[displacement].get_function_values(state.rate_reference.bulk, before);
+    double energy = 0.;
+    for (unsigned int q = 0; q < now.size(); ++q)
+      energy += 0.5 * density * (context.rate * (now[q] - before[q])).norm_square() * values.JxW(q);
+    return energy;
+  }
+
+  double work(const typename DoFHandler<dim>::active_cell_iterator &cell,
+              const StepContext &context,
+              const State &state)
+  {
+    double work = 0.;
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary())
+      {
+        const auto id = cell->face(f)->boundary_id();
+        const auto traction = loads.traction.find(id);
+        const auto normal = loads.normal_traction.find(id);
+        if (traction == loads.traction.end() && normal == loads.normal_traction.end())
+          continue;
+        face_values.reinit(cell, f);
+        now.resize(face_values.n_quadrature_points);
+        before.resize(now.size());
+        face_values[displacement].get_function_values(state.current.bulk, now);
+        face_values[displacement].get_function_values(state.committed.bulk, before);
+        for (unsigned int q = 0; q < now.size(); ++q)
+        {
+          const Point<dim> &x = face_values.quadrature_point(q);
+          for (const double time : {context.time - context.dt, context.time})
+          {
+            Tensor<1, dim> t;
+            if (traction != loads.traction.end())
+              for (unsigned int d = 0; d < dim; ++d)
+                t[d] += traction->second[d].value(x, time);
+            if (normal != loads.normal_traction.end())
+              t += normal->second.value(x, time) * face_values.normal_vector(q);
+            work += 0.5 * t * (now[q] - before[q]) * face_values.JxW(q);
+          }
+        }
+      }
+    return work;
+  }
+
+  const FEValuesExtractors::Vector displacement{0};
+  const Loads<dim> &loads;
+  FEValues<dim> values;
+  FEFaceValues<dim> face_values;
+  std::vector<Tensor<1, dim>> now, before;
+};
+} // namespace
+
+
 template <int dim>
 MechanicalEnergy mechanical_energy(
   const Discretization<dim> &discretization,
   const Rock &rock,
+  const Loads<dim> &loads,
   const std::function<CellRole<dim>(const typename DoFHandler<dim>::active_cell_iterator &)> &role,
+  const StepContext &context,
   const State &state,
   const Collectives &collectives)
 {
@@ -26,7 +109,9 @@ MechanicalEnergy mechanical_energy(
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
   std::vector<unsigned int> held; // local indices of prescribed displacements
 
-  double stored = 0., work = 0., force = 0., greatest = 0.;
+  MovingCell<dim> moving(discretization, loads);
+  double stored = 0., kinetic = 0., work = 0., force = 0., greatest = 0.;
+  double share = 1.; // of the cell, that belongs to nodes of the elements
   const auto add_cell =
     [&](const FEValues<dim> &values, const CutCell<dim> *cut, const RockProperties &properties)
   {
@@ -51,7 +136,7 @@ MechanicalEnergy mechanical_energy(
                2. * properties.shear_modulus() * strain;
       };
       const SymmetricTensor<2, dim> stress_now = stress(now[q]);
-      stored += 0.5 * weight * (stress_now * now[q]);
+      stored += share * 0.5 * weight * (stress_now * now[q]);
       if (held.empty())
         continue;
       const SymmetricTensor<2, dim> mean = 0.5 * (stress_now + stress(before[q]));
@@ -79,7 +164,11 @@ MechanicalEnergy mechanical_energy(
             held.push_back(i);
         }
       const RockProperties &properties = rock(cell->material_id());
-      if (const CutCell<dim> *cut = role(cell).cut)
+      const CellRole<dim> cell_role = role(cell);
+      share = 1.;
+      if (const std::vector<bool> *skipped = cell_role.skip_stiffness)
+        share -= double(std::count(skipped->begin(), skipped->end(), true)) / skipped->size();
+      if (const CutCell<dim> *cut = cell_role.cut)
       {
         FEValues<dim> values(discretization.mapping, fe, Quadrature<dim>(cut->points),
                              update_gradients);
@@ -91,24 +180,33 @@ MechanicalEnergy mechanical_energy(
         ordinary.reinit(cell);
         add_cell(ordinary, nullptr, properties);
       }
+      if (context.acceleration > 0.)
+      {
+        kinetic += moving.kinetic_energy(cell, properties.density, context, state);
+        work += moving.work(cell, context, state);
+      }
     }
   greatest = collectives.max(greatest);
-  std::vector<double> sums{stored, work, force};
+  std::vector<double> sums{stored, kinetic, work, force};
   collectives.sum(sums);
-  return {sums[0], sums[1], greatest > 0. ? sums[2] / greatest : 0.};
+  return {sums[0], sums[1], sums[2], greatest > 0. ? sums[3] / greatest : 0.};
 }
 
 
 template MechanicalEnergy
 mechanical_energy(const Discretization<2> &,
                   const Rock &,
+                  const Loads<2> &,
                   const std::function<CellRole<2>(const DoFHandler<2>::active_cell_iterator &)> &,
+                  const StepContext &,
                   const State &,
                   const Collectives &);
 template MechanicalEnergy
 mechanical_energy(const Discretization<3> &,
                   const Rock &,
+                  const Loads<3> &,
                   const std::function<CellRole<3>(const DoFHandler<3>::active_cell_iterator &)> &,
+                  const StepContext &,
                   const State &,
                   const Collectives &);
 } // namespace stockwork

@@ -6,16 +6,24 @@
 #include "stockwork/fracture/state.h"
 #include "stockwork/mesh/discretization.h"
 
+#include "biot/boundary_conditions.h"
+
 #include <functional>
 
 namespace stockwork
 {
-/// Work and energy of elastic rock that prescribed displacements load, per metre of thickness in
-/// 2-D. With the energies of the fracture model: work = stored + dissipated, at every time.
+/// Work and energy of elastic rock that prescribed displacements load, or tractions and inertia,
+/// per metre of thickness in 2-D. With the energies of the fracture model: work = stored + kinetic
+/// + dissipated, at every time; Newmark's scheme with beta = 1/4 and gamma = 1/2 keeps that
+/// balance.
 struct MechanicalEnergy
 {
-  double stored = 0.; ///< strain energy of the rock [J]
-  double work = 0.; ///< of the reactions since the last accepted step, by the trapezoidal rule [J]
+  double stored =
+    0.; ///< strain energy of the rock, nodes left out whose stiffness is a model's [J]
+  double kinetic = 0.; ///< [J]
+
+  /// Of reactions and tractions since the last accepted step, by the trapezoidal rule [J].
+  double work = 0.;
 
   /// Work per displacement if all prescribed displacements grew in proportion, over the greatest of
   /// them [N]: the force of a testing machine.
@@ -27,8 +35,10 @@ template <int dim>
 MechanicalEnergy mechanical_energy(
   const Discretization<dim> &discretization,
   const Rock &rock,
+  const Loads<dim> &loads,
   const std::function<CellRole<dim>(const typename dealii::DoFHandler<dim>::active_cell_iterator &)>
     &role,
+  const StepContext &context,
   const State &state,
   const Collectives &collectives);
 } // namespace stockwork

@@ -34,9 +34,15 @@ struct CellRole
 {
   const CutCell<dim> *cut = nullptr;
 
-  /// Momentum rows (one flag per vertex) whose stiffness and inertia somebody else provides
-  /// (peridynamic nodes). Pressure coupling and loads stay with the bulk.
+  /// Momentum rows (one flag per vertex) whose stiffness somebody else provides (peridynamic
+  /// nodes). Inertia, pressure coupling and loads stay with the bulk.
   const std::vector<bool> *skip_stiffness = nullptr;
+
+  /// Unit normal of a fracture in the cell whose opening is part of the elements' strain: the
+  /// strain along it makes room in the fracture and not in pores, and the pore pressure does not
+  /// act on the faces, so the Biot tensor is alpha (I - n n). Not together with
+  /// bulk_coefficients().
+  const dealii::Tensor<1, dim> *fracture_normal = nullptr;
 };
 
 /// Coefficients of the bulk at one quadrature point, for models that change them.

@@ -20,7 +20,9 @@ constexpr double most_correction = 2.;
 template <int dim>
 CellRole<dim> Peridynamics<dim>::role(const CellIterator &cell) const
 {
-  return {nullptr, zone.skipped_rows(cell->active_cell_index())};
+  const auto normal = normals.find(cell->active_cell_index());
+  return {nullptr, zone.skipped_rows(cell->active_cell_index()),
+          normal != normals.end() ? &normal->second : nullptr};
 }
 
 
@@ -55,6 +57,25 @@ double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int 
     return whole;
   const auto share_lost = [](const double d) { return std::min(1. / (1. - d), most_correction); };
   return 0.5 * (share_lost(here) + share_lost(there)) * whole;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
+{
+  const auto half_bond = [&](const unsigned int i, const unsigned int b)
+  {
+    const double stretched = elongation(i, b, u);
+    return 0.25 * zone.sites()[i].share * stiffness(i, b) * stretched * stretched;
+  };
+  double energy = 0.;
+  for (const unsigned int i : zone.peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      energy += half_bond(i, b);
+  for (const SofteningBond &bond : softening_bonds)
+    for (const auto &[i, b] : views_of(bond.view.first, bond.view.second))
+      energy -= softening.damage(bond.trial) * half_bond(i, b);
+  return energy;
 }
 
 
@@ -127,6 +148,7 @@ void Peridynamics<dim>::assemble(const StepContext &, const State &state, Sink &
   template void Peridynamics<dim>::add_couplings(                                             \
     const std::function<void(const std::vector<dealii::types::global_dof_index> &)> &) const; \
   template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;             \
+  template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;        \
   template void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &) const;          \
   template void Peridynamics<dim>::assemble(const StepContext &, const State &, Sink &) const;
 INSTANTIATE(2)

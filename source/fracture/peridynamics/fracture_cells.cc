@@ -245,7 +245,6 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
     segment.normal = cells[i].normal;
     segment.area = fracture_area(cells[i].normal, h);
     segment.opening = jump(zone, cells[i], cells[i].normal);
-    segment.pore_distance = 0.5 * h;
     for (unsigned int v = 0; v < 1u << dim; ++v)
     {
       const Site<dim> &site = zone.sites()[zone.find(corner<dim>(cells[i].place, v))];
@@ -253,6 +252,8 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
         continue;
       segment.pore_pressure.bulk.push_back(site.pressure_dof);
       segment.pore_pressure.bulk_coefficients.push_back(1. / (1 << dim));
+      segment.pore_distance +=
+        std::abs((zone.position(site.place) - segment.centre) * segment.normal) / (1 << dim);
     }
   }
 

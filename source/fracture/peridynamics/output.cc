@@ -6,7 +6,7 @@ using dealii::Point;
 using dealii::Tensor;
 
 template <int dim>
-FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) const
+FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives &collectives) const
 {
   FractureSummary result;
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -20,6 +20,7 @@ FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) c
     result.n_tips += all_segments[i].at_tip;
   }
   result.dissipated_energy = dissipated;
+  result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));
   return result;
 }
 

@@ -64,7 +64,6 @@ Requirements Peridynamics<dim>::requirements() const
   Requirements requirements;
   requirements.symmetric = false;
   requirements.symmetric_bulk = false;
-  requirements.quasi_static_only = true;
   requirements.linear_elements = true;
   return requirements;
 }
@@ -118,6 +117,7 @@ void Peridynamics<dim>::refresh_segments()
   damage.assign(zone.sites().size(), 0.);
   for (const unsigned int i : zone.peridynamic_sites())
     damage[i] = bonds.damage(i);
+  const std::vector<FractureCell<dim>> before = cells;
   cells = find_fracture_cells(zone, cracked);
   align_normals(cells, parameters.horizon + 1);
   for (FractureCell<dim> &cell : cells)
@@ -136,6 +136,7 @@ void Peridynamics<dim>::refresh_segments()
   }
   owned_segments.clear();
   owned_cells.clear();
+  normals.clear();
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     Segment<dim> &segment = all_segments[i];
@@ -146,19 +147,22 @@ void Peridynamics<dim>::refresh_segments()
     segment.initial_pressure = carried != initial_pressure.end()
                                  ? carried->second
                                  : std::max(0., -(n * (scene.in_situ_stress(segment.centre) * n)));
-    if (segment.pore_pressure.bulk.empty())
-    {
-      segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
-      segment.pore_distance = 0.;
-    }
-    else // unknowns are measured from the in-situ pressure
-      segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
+    // Unknowns are measured from the in-situ pressure.
+    segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
     if (zone.owns(cells[i].place))
     {
       owned_cells.push_back(i);
+      if (scene.has_pore_pressure)
+        normals[zone.active_cell_index(cells[i].place)] = cells[i].normal;
       owned_segments.push_back(segment);
     }
   }
+  // Whose Biot tensors are new is known to all ranks.
+  if (scene.has_pore_pressure &&
+      !std::equal(cells.begin(), cells.end(), before.begin(), before.end(),
+                  [](const FractureCell<dim> &a, const FractureCell<dim> &b)
+                  { return a.place == b.place && a.normal == b.normal; }))
+    ++version;
 }
 
 

@@ -165,6 +165,10 @@ private:
   /// volume method); a site with hardly any bond left keeps a little of the broken ones.
   double stiffness(unsigned int site, unsigned int bond) const;
 
+  /// Of the bonds under displacements of all sites [J/m]: half of that of a bond belongs to each of
+  /// its ends, and counts if the end is peridynamic.
+  double strain_energy(const std::vector<double> &u) const;
+
   Parameters<dim> parameters;
   const Scene<dim> &scene;
   ZoneShape<dim> shape;
@@ -183,10 +187,11 @@ private:
   std::vector<SofteningBond> softening_bonds; ///< sorted by view
   std::vector<double> damage;                 ///< of all sites
   std::vector<FractureCell<dim>> cells;
-  std::vector<Segment<dim>> all_segments;   ///< of all ranks
-  std::vector<bool> at_front;               ///< which of them the fracture ends at
-  std::vector<Segment<dim>> owned_segments; ///< their openings are known here
-  std::vector<unsigned int> owned_cells;    ///< indices of the same among `cells`
+  std::vector<Segment<dim>> all_segments;                 ///< of all ranks
+  std::vector<bool> at_front;                             ///< which of them the fracture ends at
+  std::vector<Segment<dim>> owned_segments;               ///< their openings are known here
+  std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
+  std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;
   unsigned int version = 0; ///< of the bonds
 

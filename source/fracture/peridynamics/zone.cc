@@ -219,22 +219,27 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
                        : collectives.rank() | not_owner;
         mine.emplace(site.place, site);
       }
+      const auto constrained = [&](const unsigned int v, const unsigned int d)
+      { return constraints.is_constrained(cell->vertex_dof_index(v, d)); };
+      const auto rolls = [&](const unsigned int f)
+      {
+        bool all = cell->face(f)->at_boundary();
+        for (const unsigned int v : cell->vertex_indices())
+          if ((v >> f / 2 & 1) == f % 2)
+            all &= constrained(v, f / 2);
+        return all;
+      };
       for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
+        if (rolls(f))
         {
+          // A node on two such planes does not slide, but would if it were on one.
           const unsigned int normal = f / 2;
-          bool rolls = true, slides = false;
+          bool slides = true;
           for (const unsigned int v : cell->vertex_indices())
             if ((v >> normal & 1) == f % 2)
               for (unsigned int d = 0; d < dim; ++d)
-              {
-                const bool constrained = constraints.is_constrained(cell->vertex_dof_index(v, d));
-                if (d == normal)
-                  rolls &= constrained;
-                else
-                  slides |= !constrained;
-              }
-          if (rolls && slides)
+                slides &= d == normal || !constrained(v, d) || rolls(2 * d + (v >> d & 1));
+          if (slides)
             my_mirrors.push_back({{static_cast<int>(normal), static_cast<int>(f % 2),
                                    place[normal] + static_cast<int>(f % 2)}});
         }
@@ -299,13 +304,19 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil)
       for (unsigned int d = 0; d < dim; ++d)
       {
         place[d] += bond.offset[d];
-        for (const unsigned int side : {0u, 1u})
-          if (const int m = mirrors[d][side];
-              m != no_mirror && (side == 0 ? place[d] < m : place[d] > m))
-          {
-            place[d] = 2 * m - place[d];
-            end.mirrored |= 1 << d;
-          }
+        // Between two planes closer than the horizon there are images of images.
+        for (bool again = true; again;)
+        {
+          again = false;
+          for (const unsigned int side : {0u, 1u})
+            if (const int m = mirrors[d][side];
+                m != no_mirror && (side == 0 ? place[d] < m : place[d] > m))
+            {
+              place[d] = 2 * m - place[d];
+              end.mirrored ^= 1 << d;
+              again = true;
+            }
+        }
       }
       end.site = find(place);
       if (end.site == dealii::numbers::invalid_unsigned_int)
