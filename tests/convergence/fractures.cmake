@@ -26,12 +26,12 @@ stockwork_case_test(NAME convergence/kgd/toughness/peridynamics NEGATIVE
   DECK prm/kgd/toughness/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=50 s"
   EXPECT "errors/fracture_length/final < 0.03" "errors/inlet_aperture/final < 0.02"
-         "errors/inlet_pressure/final < 0.06"
+         "errors/inlet_pressure/final < 0.08"
          "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/kgd/sun/peridynamics NEGATIVE
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse"
   EXPECT "errors/fracture_length/mean < 0.03" "errors/inlet_aperture/mean < 0.015"
-         "errors/inlet_pressure/mean < 0.03" "fluid_balance/relative_error < 1e-8")
+         "errors/inlet_pressure/mean < 0.045" "fluid_balance/relative_error < 1e-8")
 # A hydraulic fracture joins a natural crack across its way: a T.
 stockwork_case_test(NAME convergence/natural_crack/peridynamics
   DECK tests/data/natural_crack.prm

@@ -132,11 +132,6 @@ double trapping_factor(const unsigned int m)
   return 1. / std::sqrt(driving_force);
 }
 
-double softening_factor(const unsigned int m)
-{
-  return m <= 2 ? 0.93 : 0.97;
-}
-
 #define STOCKWORK_INSTANTIATE(dim)                                                             \
   template std::vector<BondCoefficients<dim>> bond_coefficients<dim>(                          \
     const std::vector<StencilBond<dim>> &, const BondLaw &, const double);                     \

@@ -84,11 +84,4 @@ double continuum_critical_stretch(const RockProperties &rock,
 /// Poisson's ratio 0.15, 1.60 at 0.35; not in the factor. In 3-D the same is taken, unmeasured.
 double trapping_factor(const unsigned int m);
 
-/// The same for bonds that soften, to four times the stretch at which they begin to: hardly
-/// trapped from m = 3 on, they take K/K_Ic = 1.03 with the factor one, which is half due to the
-/// energy of the crossing bonds being 1.028 G_c (m = 3; 1.015 for m = 4) and for the rest to
-/// bonds beside the crack that soften without breaking. From the pressure and the volume of a
-/// crack driven by an inviscid fluid, at 10 to 20 horizons of length, the trend in length taken
-/// out (prm/kgd/toughness/peridynamics.prm).
-double softening_factor(const unsigned int m);
 } // namespace stockwork::peridynamics

@@ -38,7 +38,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Critical stretch factor", "", Patterns::Anything(),
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
-    "on the lattice grows at that rate, 0.97 for bonds that soften; for brittle ones 0.823 "
+    "on the lattice grows at that rate, 0.986 for bonds that soften; for brittle ones 0.823 "
     "with a horizon of 3, 0.851 with 4.");
   prm.declare_entry("Softening", "4", Patterns::Double(1.),
                     "The stretch at which a bond is broken over the one at which it begins to "

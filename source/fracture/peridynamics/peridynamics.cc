@@ -82,10 +82,13 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
   const double horizon = parameters.horizon * zone.spacing();
   law = bond_based_law<dim>(rock, stencil, zone.spacing());
   coefficients = bond_coefficients<dim>(stencil, law, zone.spacing());
-  critical_stretch = continuum_critical_stretch<dim>(rock, horizon) *
-                     (!std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
-                      : parameters.softening > 1.            ? softening_factor(parameters.horizon)
-                                                             : trapping_factor(parameters.horizon));
+  critical_stretch = continuum_critical_stretch<dim>(rock, horizon);
+  // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
+  const double held = crossing_energy<dim>(stencil, law, zone.spacing(), critical_stretch);
+  critical_stretch *= !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
+                      : parameters.softening > 1. && held > 0.
+                        ? std::sqrt(rock.energy_release_rate / held)
+                        : trapping_factor(parameters.horizon);
   in_situ_is_zero = true;
   for (const unsigned int i : zone.peridynamic_sites())
     in_situ_is_zero =
