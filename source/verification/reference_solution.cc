@@ -35,6 +35,7 @@ const Entry table[] = {
   {"kgd vertex", reference::make_kgd_vertex, nullptr},
   {"kgd carter", reference::make_kgd_carter, nullptr},
   {"kgd box", reference::make_kgd_box, nullptr},
+  {"radial", nullptr, reference::make_radial},
 };
 
 
@@ -66,7 +67,8 @@ void declare_reference_parameters(ParameterHandler &prm)
     "layer, a crack from the left, ends moved apart by equal displacements. kgd: at the deck's own "
     "toughness and viscosity; "
     "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
-    "the rollers of the domain all round.");
+    "the rollers of the domain all round. radial (3-D): circular, at the deck's own toughness and "
+    "viscosity.");
   prm.declare_entry("Reference factor", "1", Patterns::Double(),
                     "Multiplies the reference where errors are formed. Other than 1 only in tests "
                     "that a comparison can fail.");

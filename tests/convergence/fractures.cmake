@@ -51,6 +51,21 @@ stockwork_case_test(NAME convergence/sneddon/peridynamics DECK prm/sneddon/perid
 stockwork_case_test(NAME convergence/sneddon/penny/peridynamics NEGATIVE
   DECK prm/sneddon/penny/peridynamics.prm SET "Resolution=medium"
   EXPECT "errors/fracture_volume/final < 0.045")
+# State-based bonds: any Poisson's ratio; at 1/4 they are the others.
+foreach(poisson_ratio 0.15 0.35)
+  stockwork_case_test(NAME convergence/sneddon/state_based/${poisson_ratio} NEGATIVE
+    DECK prm/sneddon/state_based/peridynamics.prm
+    SET "Resolution=medium" "Rock/Poisson ratio=${poisson_ratio}"
+    EXPECT "errors/fracture_volume/final < 0.025")
+endforeach()
+stockwork_same_test(NAME convergence/sneddon/state_based/0.25
+  DECK prm/sneddon/state_based/peridynamics.prm
+  SET "Resolution=medium" "Rock/Poisson ratio=0.25"
+  SECOND_SET "Fracture/peridynamics/Bond law=bond-based" TOLERANCE 1e-9)
+stockwork_case_test(NAME convergence/peridynamics/bar_3d/state_based
+  DECK tests/data/peridynamic_bar.prm
+  SET "Rock/Poisson ratio=0.35" "Fracture/peridynamics/Bond law=state-based"
+  EXPECT "final/load > 4999999.999" "final/load < 5000000.001")
 stockwork_case_test(NAME convergence/peridynamics/bar_3d DECK tests/data/peridynamic_bar.prm
   EXPECT "final/load > 4999999.999" "final/load < 5000000.001")
 # The closure as published opens the crack to 0.08 to 0.13 of the reference.

@@ -1,5 +1,9 @@
 #include "fracture/peridynamics/peridynamics.h"
 
+#include "fracture/peridynamics/state_based.h"
+
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 
 namespace stockwork::peridynamics
@@ -14,6 +18,11 @@ constexpr double remaining_share = 1e-6;
 constexpr double nearly_detached = 0.9;
 /// Of the bonds' stiffness at a free face, where about half of them are gone.
 constexpr double most_correction = 2.;
+
+double by_share_left(const double damage)
+{
+  return std::min(1. / (1. - damage), most_correction);
+}
 } // namespace
 
 
@@ -43,6 +52,66 @@ void Peridynamics<dim>::add_couplings(
         }
         couple(dofs);
       }
+  for_each_dilatation(
+    [&](const std::vector<unsigned int> &family, const std::vector<Tensor<1, dim>> &, const double)
+    {
+      dofs.clear();
+      for (const unsigned int site : family)
+        dofs.insert(dofs.end(), zone.sites()[site].dofs.begin(), zone.sites()[site].dofs.end());
+      couple(dofs);
+    });
+}
+
+
+template <int dim>
+double Peridynamics<dim>::dilatation_factor(const unsigned int site) const
+{
+  if (!parameters.surface_correction || damage[site] == 0.)
+    return 1.;
+  double left = 0.; // of the dilatation of a uniform expansion, which is dim
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+    if (!bonds.is_broken(site, b))
+      left += coefficients[b].dilatation * coefficients[b].length;
+  return left > 0. ? std::min(dim / left, most_correction) : most_correction;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::for_each_dilatation(
+  const std::function<void(const std::vector<unsigned int> &family,
+                           const std::vector<Tensor<1, dim>> &functional,
+                           double modulus)> &use) const
+{
+  if (!parameters.state_based)
+    return;
+  const double volume = dealii::Utilities::fixed_power<dim>(zone.spacing());
+  std::vector<unsigned int> family(stencil.size() + 1);
+  std::vector<Tensor<1, dim>> functional;
+  for (const auto *sites : {&zone.peridynamic_sites(), &zone.rim_sites()})
+    for (const unsigned int i : *sites)
+    {
+      const Site<dim> &site = zone.sites()[i];
+      bool acts_here = has_rows(i);
+      family.back() = i;
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+      {
+        family[b] = zone.far_end(i, b).site;
+        acts_here = acts_here || has_rows(family[b]);
+      }
+      if (!acts_here)
+        continue;
+      // Bonds that lead out of the zone hold.
+      dilatation_functional(
+        coefficients,
+        [&](const unsigned int b) { return site.peridynamic && bonds.is_broken(i, b); },
+        functional);
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (zone.far_end(i, b).mirrored >> d & 1)
+            functional[b][d] = -functional[b][d];
+      const double factor = dilatation_factor(i);
+      use(family, functional, law.dilatation_modulus * volume * site.share * factor * factor);
+    }
 }
 
 
@@ -55,8 +124,7 @@ double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int 
     return std::max(here, there) > nearly_detached ? remaining_share * whole : 0.;
   if (!parameters.surface_correction)
     return whole;
-  const auto share_lost = [](const double d) { return std::min(1. / (1. - d), most_correction); };
-  return 0.5 * (share_lost(here) + share_lost(there)) * whole;
+  return 0.5 * (by_share_left(here) + by_share_left(there)) * whole;
 }
 
 
@@ -72,6 +140,17 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
   for (const unsigned int i : zone.peridynamic_sites())
     for (unsigned int b = 0; b < stencil.size(); ++b)
       energy += half_bond(i, b);
+  if (parameters.state_based)
+    for (const unsigned int i : zone.peridynamic_sites())
+    {
+      double theta = 0.;
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+        if (!bonds.is_broken(i, b))
+          theta += coefficients[b].dilatation * elongation(i, b, u);
+      theta *= dilatation_factor(i);
+      energy += 0.5 * law.dilatation_modulus * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
+                zone.sites()[i].share * theta * theta;
+    }
   for (const SofteningBond &bond : softening_bonds)
     for (const auto &[i, b] : views_of(bond.view.first, bond.view.second))
       energy -= softening.damage(bond.trial) * half_bond(i, b);
@@ -111,6 +190,27 @@ void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &sink) const
       sink.add(local);
     }
   }
+
+  // What else is in state-based bonds: the dilatation of every site acts on all of its family.
+  for_each_dilatation(
+    [&](const std::vector<unsigned int> &family, const std::vector<Tensor<1, dim>> &functional,
+        const double modulus)
+    {
+      local.bulk.resize(family.size() * dim);
+      local.reinit();
+      for (unsigned int k = 0; k < family.size(); ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          local.bulk[k * dim + d] = zone.sites()[family[k]].dofs[d];
+          if (functional[k][d] == 0. || !has_rows(family[k]))
+            continue;
+          for (unsigned int l = 0; l < family.size(); ++l)
+            for (unsigned int c = 0; c < dim; ++c)
+              local.matrix(k * dim + d, l * dim + c) =
+                modulus * functional[k][d] * functional[l][c];
+        }
+      sink.add(local);
+    });
 }
 
 
@@ -149,6 +249,10 @@ void Peridynamics<dim>::assemble(const StepContext &, const State &state, Sink &
     const std::function<void(const std::vector<dealii::types::global_dof_index> &)> &) const; \
   template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;             \
   template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;        \
+  template double Peridynamics<dim>::dilatation_factor(unsigned int) const;                   \
+  template void Peridynamics<dim>::for_each_dilatation(                                       \
+    const std::function<void(const std::vector<unsigned int> &,                               \
+                             const std::vector<Tensor<1, dim>> &, double)> &) const;          \
   template void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &) const;          \
   template void Peridynamics<dim>::assemble(const StepContext &, const State &, Sink &) const;
 INSTANTIATE(2)

@@ -15,6 +15,12 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
 {
   prm.declare_entry("Horizon", "3", Patterns::Integer(2, 6),
                     "Radius of the neighbourhood that a node has bonds with, in cells.");
+  prm.declare_entry("Bond law", "bond-based", Patterns::Selection("bond-based|state-based"),
+                    "bond-based: springs, so that Poisson's ratio is 1/4 (1/3 in plane stress). "
+                    "state-based: ordinary, linear; the force in a bond depends on the change of "
+                    "volume at both its ends, too, which frees Poisson's ratio, couples nodes two "
+                    "horizons apart and makes the solution dearer. These bonds are brittle, "
+                    "whatever 'Softening' says.");
   prm.declare_entry("Bond volumes", "exact", Patterns::Selection("exact|isotropic|full|ramp"),
                     "How much of a cell counts as within the horizon. exact: its intersection with "
                     "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
@@ -86,6 +92,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
 
   Parameters p;
   p.horizon = prm.get_integer("Horizon");
+  p.state_based = prm.get("Bond law") == "state-based";
   const std::string volumes = prm.get("Bond volumes");
   p.volumes = volumes == "isotropic" ? VolumeRule::isotropic
               : volumes == "full"    ? VolumeRule::full
@@ -103,7 +110,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   if (p.stretch_factor <= 0.)
     throw bad("Critical stretch factor", "a number > 0");
   p.surface_correction = prm.get_bool("Surface correction");
-  p.softening = prm.get_double("Softening");
+  p.softening = p.state_based ? 1. : prm.get_double("Softening");
   if (p.softening > 1. && p.softening < 3.)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Stretch") == "effective";

@@ -14,6 +14,7 @@ template <int dim>
 struct Parameters
 {
   unsigned int horizon;                        ///< m, in lattice spacings
+  bool state_based;                            ///< bonds are, and Poisson's ratio is free
   VolumeRule volumes;                          ///< of the cells that the horizon cuts
   double margin;                               ///< of the zone around the initial cracks, in cells
   std::vector<dealii::BoundingBox<dim>> boxes; ///< more of the zone

@@ -2,6 +2,7 @@
 
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/published_load.h"
+#include "fracture/peridynamics/state_based.h"
 #include "stockwork/base/error.h"
 
 #include <boost/serialization/array.hpp>
@@ -39,11 +40,12 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
 {
   const RockProperties &rock = scene.rock.main();
   const double nu = bond_based_poisson_ratio(rock.plane_stress);
-  if (std::abs(rock.poisson_ratio - nu) > 1e-6)
+  if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
     throw EntryError("Rock/Poisson ratio", text(rock.poisson_ratio),
                      (rock.plane_stress ? std::string("1/3") : std::string("0.25")) +
                        " with bond-based peridynamics" +
-                       (rock.plane_stress ? " in plane stress" : ""));
+                       (rock.plane_stress ? " in plane stress" : "") +
+                       "; others with 'Bond law = state-based'");
   if (!(rock.energy_release_rate > 0.) && parameters.growth)
     throw InputError("Peridynamics needs the rock's energy release rate G_c (Rock / Critical "
                      "energy release rate, or Fracture toughness), or 'Growth = false'.");
@@ -74,21 +76,27 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
                               const Collectives &collectives)
 {
   rank = collectives.rank();
-  zone.setup(shape, parameters.cell_size, stencil, discretization, collectives);
+  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, discretization,
+             collectives);
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 
   const RockProperties &rock = scene.rock.main();
   const double horizon = parameters.horizon * zone.spacing();
-  law = bond_based_law<dim>(rock, stencil, zone.spacing());
+  law = parameters.state_based ? state_based_law<dim>(rock, stencil, zone.spacing())
+                               : bond_based_law<dim>(rock, stencil, zone.spacing());
   coefficients = bond_coefficients<dim>(stencil, law, zone.spacing());
-  critical_stretch = continuum_critical_stretch<dim>(rock, horizon);
+  critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
   const double held = crossing_energy<dim>(stencil, law, zone.spacing(), critical_stretch);
   critical_stretch *= !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
                       : parameters.softening > 1. && held > 0.
                         ? std::sqrt(rock.energy_release_rate / held)
                         : trapping_factor(parameters.horizon);
+  energy_over_spring =
+    std::pow(continuum_critical_stretch<dim>(rock, horizon) /
+               continuum_critical_stretch<dim>(rock, horizon, parameters.state_based),
+             2);
   in_situ_is_zero = true;
   for (const unsigned int i : zone.peridynamic_sites())
     in_situ_is_zero =
@@ -266,7 +274,9 @@ void Peridynamics<dim>::wanted_cell_size(
     {
       const double outside = shape.distance(cell->center(), h) - 0.5 * cell->diameter();
       const double wanted =
-        h + parameters.cell_growth * std::max(0., outside - (parameters.horizon + 2.) * h);
+        h + parameters.cell_growth *
+              std::max(0., outside -
+                             ((parameters.state_based ? 2. : 1.) * parameters.horizon + 2.) * h);
       float &size = sizes[cell->active_cell_index()];
       size = std::min(size, static_cast<float>(wanted));
     }

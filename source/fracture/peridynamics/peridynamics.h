@@ -169,6 +169,24 @@ private:
   /// its ends, and counts if the end is peridynamic.
   double strain_energy(const std::vector<double> &u) const;
 
+  /// By `Surface correction`, of the dilatation of a site that has lost bonds: with it, a uniform
+  /// expansion has the same dilatation as everywhere.
+  double dilatation_factor(unsigned int site) const;
+
+  /// Call use(family, functional, modulus) for each site whose dilatation theta acts on momentum
+  /// rows of this rank: its energy is modulus/2 (sum functional_k . u_k)^2 over sites k of its
+  /// family.
+  void for_each_dilatation(
+    const std::function<void(const std::vector<unsigned int> &family,
+                             const std::vector<dealii::Tensor<1, dim>> &functional,
+                             double modulus)> &use) const;
+
+  /// Whether this rank assembles the momentum rows of a site as bonds'.
+  bool has_rows(unsigned int site) const
+  {
+    return zone.sites()[site].peridynamic && zone.sites()[site].owner == rank;
+  }
+
   Parameters<dim> parameters;
   const Scene<dim> &scene;
   ZoneShape<dim> shape;
@@ -179,6 +197,7 @@ private:
   std::vector<BondCoefficients<dim>> coefficients;
   double critical_stretch = 0.;
   SofteningLaw softening;
+  double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
   unsigned int rank = 0;
   bool in_situ_is_zero = true;
 

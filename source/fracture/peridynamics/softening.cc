@@ -60,7 +60,7 @@ double Peridynamics<dim>::energy_at_unit_stretch(const BondView &view) const
   for (const auto &[s, b] : views_of(view.first, view.second))
     energy += 0.25 * zone.sites()[s].share * coefficients[b].stiffness * coefficients[b].length *
               coefficients[b].length;
-  return energy;
+  return energy_over_spring * energy;
 }
 
 

@@ -280,66 +280,85 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
 
 
 template <int dim>
-void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil)
+void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil, const bool with_rim)
 {
   far_ends.clear();
   inner_sites.clear();
+  outer_sites.clear();
   first_far_end.assign(all_sites.size(), 0);
   for (unsigned int i = 0; i < all_sites.size(); ++i)
   {
-    Site<dim> &site = all_sites[i];
     const unsigned int planes = planes_of(i);
-    site.share = 1.;
+    all_sites[i].share = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       if (planes >> d & 1)
-        site.share *= 0.5;
-    if (!site.peridynamic)
+        all_sites[i].share *= 0.5;
+    if (!all_sites[i].peridynamic)
       continue;
     inner_sites.push_back(i);
-    first_far_end[i] = far_ends.size();
-    for (const StencilBond<dim> &bond : stencil)
+    find_far_ends_of(i, stencil);
+  }
+  if (!with_rim)
+    return;
+  std::vector<bool> is_outer(all_sites.size(), false);
+  for (const FarEnd &end : far_ends)
+    is_outer[end.site] = !all_sites[end.site].peridynamic;
+  for (unsigned int i = 0; i < all_sites.size(); ++i)
+    if (is_outer[i])
     {
-      FarEnd end;
-      Place<dim> place = site.place;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        place[d] += bond.offset[d];
-        // Between two planes closer than the horizon there are images of images.
-        for (bool again = true; again;)
-        {
-          again = false;
-          for (const unsigned int side : {0u, 1u})
-            if (const int m = mirrors[d][side];
-                m != no_mirror && (side == 0 ? place[d] < m : place[d] > m))
-            {
-              place[d] = 2 * m - place[d];
-              end.mirrored ^= 1 << d;
-              again = true;
-            }
-        }
-      }
-      end.site = find(place);
-      if (end.site == dealii::numbers::invalid_unsigned_int)
-      {
-        const Point<dim> far = position(place);
-        bool outside = false;
-        for (unsigned int d = 0; d < dim; ++d)
-          outside |=
-            far[d] < domain.lower_bound(d) - 1e-6 * h || far[d] > domain.upper_bound(d) + 1e-6 * h;
-        std::ostringstream message;
-        message << "The horizon of the peridynamic node at (" << position(site.place) << ") m ";
-        if (outside)
-          message << "is cut by the boundary of the domain, which there is no plane of symmetry "
-                     "('Roller'). Leave as many cells between zone and boundary as the horizon "
-                     "has.";
-        else
-          message << "leaves the cells of size " << h
-                  << " m. Uniform cells must go on for the horizon around the zone; change the "
-                     "spacing in subsection Mesh, or set 'Cell size'.";
-        throw unsuitable_mesh(message.str());
-      }
-      far_ends.push_back(end);
+      outer_sites.push_back(i);
+      find_far_ends_of(i, stencil);
     }
+}
+
+
+template <int dim>
+void Zone<dim>::find_far_ends_of(const unsigned int i, const std::vector<StencilBond<dim>> &stencil)
+{
+  const Site<dim> &site = all_sites[i];
+  first_far_end[i] = far_ends.size();
+  for (const StencilBond<dim> &bond : stencil)
+  {
+    FarEnd end;
+    Place<dim> place = site.place;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      place[d] += bond.offset[d];
+      // Between two planes closer than the horizon there are images of images.
+      for (bool again = true; again;)
+      {
+        again = false;
+        for (const unsigned int side : {0u, 1u})
+          if (const int m = mirrors[d][side];
+              m != no_mirror && (side == 0 ? place[d] < m : place[d] > m))
+          {
+            place[d] = 2 * m - place[d];
+            end.mirrored ^= 1 << d;
+            again = true;
+          }
+      }
+    }
+    end.site = find(place);
+    if (end.site == dealii::numbers::invalid_unsigned_int)
+    {
+      const Point<dim> far = position(place);
+      bool outside = false;
+      for (unsigned int d = 0; d < dim; ++d)
+        outside |=
+          far[d] < domain.lower_bound(d) - 1e-6 * h || far[d] > domain.upper_bound(d) + 1e-6 * h;
+      std::ostringstream message;
+      message << "The horizon of the peridynamic node at (" << position(site.place) << ") m ";
+      if (outside)
+        message << "is cut by the boundary of the domain, which there is no plane of symmetry "
+                   "('Roller'). Leave as many cells between zone and boundary as the horizon "
+                   "has.";
+      else
+        message << "leaves the cells of size " << h
+                << " m. Uniform cells must go on for the horizon around the zone; change the "
+                   "spacing in subsection Mesh, or set 'Cell size'.";
+      throw unsuitable_mesh(message.str());
+    }
+    far_ends.push_back(end);
   }
 }
 
@@ -348,6 +367,7 @@ template <int dim>
 void Zone<dim>::setup(const ZoneShape<dim> &shape,
                       const double spacing,
                       const std::vector<StencilBond<dim>> &stencil,
+                      const bool with_rim,
                       const Discretization<dim> &discretization,
                       const Collectives &collectives)
 {
@@ -362,10 +382,10 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
     if (h == 0.)
       find_spacing(shape, discretization, collectives);
   }
-  gather_sites(shape, reach, discretization, collectives);
+  gather_sites(shape, with_rim ? 2 * reach : reach, discretization, collectives);
   for (Site<dim> &site : all_sites)
     site.peridynamic = shape.contains(position(site.place), h);
-  find_far_ends(stencil);
+  find_far_ends(stencil, with_rim);
 
   patterns.assign(1u << (1u << dim), std::vector<bool>(1 << dim, false));
   for (unsigned int pattern = 0; pattern < patterns.size(); ++pattern)

@@ -69,11 +69,13 @@ public:
   using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
   /// @param spacing [m]; zero: the edge of the smallest cell in the zone
+  /// @param with_rim whether the bonds of sites count that a bond leads to from the zone
   /// @throws InputError where cells in the zone differ, or a horizon leaves the domain through a
   /// boundary that is not a plane of symmetry
   void setup(const ZoneShape<dim> &shape,
              double spacing,
              const std::vector<StencilBond<dim>> &stencil,
+             const bool with_rim,
              const Discretization<dim> &discretization,
              const Collectives &collectives);
 
@@ -112,12 +114,18 @@ public:
     return inner_sites;
   }
 
+  /// Numbers of the sites beside the zone whose bonds are known, if asked for.
+  const std::vector<unsigned int> &rim_sites() const
+  {
+    return outer_sites;
+  }
+
   /// Invalid if there is none.
   unsigned int find(const Place<dim> &place) const;
 
   dealii::Point<dim> position(const Place<dim> &place) const;
 
-  /// Far end of a bond of a peridynamic site.
+  /// Far end of a bond of a peridynamic site, or of one of the rim.
   FarEnd far_end(const unsigned int site, const unsigned int bond) const
   {
     return far_ends[first_far_end[site] + bond];
@@ -162,15 +170,16 @@ private:
                     unsigned int reach,
                     const Discretization<dim> &,
                     const Collectives &);
-  void find_far_ends(const std::vector<StencilBond<dim>> &stencil);
+  void find_far_ends(const std::vector<StencilBond<dim>> &stencil, const bool with_rim);
+  void find_far_ends_of(const unsigned int site, const std::vector<StencilBond<dim>> &stencil);
 
   dealii::Point<dim> corner;
   bool has_corner = false;
   double h = 0.;
 
   std::vector<Site<dim>> all_sites;
-  std::vector<unsigned int> inner_sites;
-  std::vector<FarEnd> far_ends;           ///< of the peridynamic sites, by bond
+  std::vector<unsigned int> inner_sites, outer_sites;
+  std::vector<FarEnd> far_ends;           ///< of these sites, by bond
   std::vector<std::size_t> first_far_end; ///< of each site
   std::vector<Place<dim>> inner_cells;
   std::map<Place<dim>, unsigned int> owned_cells;
