@@ -60,7 +60,7 @@ foreach(poisson_ratio 0.15 0.35)
 endforeach()
 stockwork_same_test(NAME convergence/sneddon/state_based/0.25
   DECK prm/sneddon/state_based/peridynamics.prm
-  SET "Resolution=medium" "Rock/Poisson ratio=0.25"
+  SET "Resolution=medium" "Rock/Poisson ratio=0.25" "Fracture/peridynamics/Softening=1"
   SECOND_SET "Fracture/peridynamics/Bond law=bond-based" TOLERANCE 1e-9)
 stockwork_case_test(NAME convergence/peridynamics/bar_3d/state_based
   DECK tests/data/peridynamic_bar.prm
