@@ -50,7 +50,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "The stretch at which a bond is broken over the one at which it begins to "
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
-                    "that is spread over more cells.");
+                    "that is spread over more cells. State-based bonds are always brittle.");
   prm.declare_entry("Stretch", "total", Patterns::Selection("total|effective"),
                     "What breaks a bond. total: its stretch. effective: as if the fluid in the "
                     "nearest piece of the fracture pressed on the rock from all sides no longer, "
