@@ -52,7 +52,7 @@ template <int dim>
 bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper)
 {
   bool changed = false;
-  while (flag())
+  while (flag() || model.wants_setup())
   {
     changed = true;
     const auto vectors = stepper.bulk_vectors();

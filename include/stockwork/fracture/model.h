@@ -75,6 +75,13 @@ public:
   {
   }
 
+  /// Whether setup() shall be called between steps though the mesh may stay as it is: the part of
+  /// it that the model works on has grown. The same on every rank.
+  virtual bool wants_setup() const
+  {
+    return false;
+  }
+
   virtual void begin_step(const StepContext &)
   {
   }

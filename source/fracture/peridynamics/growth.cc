@@ -120,7 +120,7 @@ double Peridynamics<dim>::relief_at(const unsigned int site,
 
 template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
-  const std::vector<double> &u, const std::vector<double> &relief, bool &at_rim) const
+  const std::vector<double> &u, const std::vector<double> &relief, Rim &rim) const
 {
   const double least = softening.brittle() ? 1. : soon_to_soften;
   double most_relief = 0.;
@@ -151,8 +151,10 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
         continue;
       if (breakable)
         candidates.push_back({ratio, i, b});
+      else if (zone_may_include(i, b))
+        rim = std::max(rim, Rim::grows);
       else
-        at_rim = true;
+        rim = Rim::stays;
     }
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate &a, const Candidate &b)
@@ -224,14 +226,20 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   displacement = zone.displacement(state.current.bulk, collectives);
   if (!parameters.growth)
     return verdict;
-  bool at_rim = false;
+  Rim rim = Rim::away;
   const std::vector<double> relief = pressure_stretch(state, collectives);
-  const std::vector<Candidate> candidates = overstretched(displacement, relief, at_rim);
-  if (at_rim && !told_of_rim)
+  const std::vector<Candidate> candidates = overstretched(displacement, relief, rim);
+  if (rim == Rim::stays && !told_of_rim)
   {
     messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
                        "beyond. Enlarge 'Fracture/peridynamics/Zone'.");
     told_of_rim = true;
+  }
+  if (rim == Rim::grows)
+  {
+    verdict.kind = Verdict::Kind::reject;
+    verdict.reason = "a crack has come to the rim of the zone, which grows between steps";
+    return verdict;
   }
 
   warn_of_pressure(state);
@@ -283,7 +291,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                     \
                                                const std::vector<double> &) const;             \
   template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
-    const std::vector<double> &, const std::vector<double> &, bool &) const;                   \
+    const std::vector<double> &, const std::vector<double> &, Rim &) const;                    \
   template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \
   template void Peridynamics<dim>::warn_of_pressure(const State &);                            \
   template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,              \

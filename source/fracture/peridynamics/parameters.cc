@@ -33,6 +33,11 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Zone", "", Patterns::Anything(),
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
+  prm.declare_entry("Zone growth", "8", Patterns::Integer(0),
+                    "Cells by which the zone is enlarged ahead of a fracture when less than the "
+                    "margin of it is left there; 0: the zone stays as it is, and fractures stop at "
+                    "its rim. It grows only where 'Cell size' is given, which the new cells are "
+                    "refined to.");
   prm.declare_entry("Cell size", "0", Quantity(dimension::length, Range::non_negative()),
                     "Wanted size of the cells in the zone and for a horizon around it, which must "
                     "be squares (cubes) of one size [m]; zero: that of the given mesh.");
@@ -105,6 +110,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   for (const auto &labelled : parse_boxes<dim>(prm.get("Zone")))
     p.boxes.push_back(labelled.box);
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
+  p.zone_growth = p.cell_size > 0. ? prm.get_integer("Zone growth") : 0;
   p.cell_growth = prm.get_double("Cell growth");
   p.stretch_factor = number("Critical stretch factor", std::numeric_limits<double>::quiet_NaN());
   if (p.stretch_factor <= 0.)

@@ -19,6 +19,7 @@ struct Parameters
   double margin;                               ///< of the zone around the initial cracks, in cells
   std::vector<dealii::BoundingBox<dim>> boxes; ///< more of the zone
   double cell_size;                            ///< wanted in the zone [m]; zero: as the mesh is
+  unsigned int zone_growth;                    ///< in cells, at once; zero: the zone stays
   double cell_growth;                          ///< size over distance outside the zone
   double stretch_factor;                       ///< of the critical stretch; NaN: the lattice's own
   double softening; ///< last over first stretch of a bond that softens; 1: brittle

@@ -78,6 +78,7 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
   rank = collectives.rank();
   zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, discretization,
              collectives);
+  zone_has_grown = false;
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 
@@ -229,6 +230,7 @@ void Peridynamics<dim>::commit(const StepContext &, const State &)
       committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
                                                                     cells[i].normal.end_raw()));
   initial_pressure.clear();
+  enlarge_zone();
 }
 
 
@@ -289,7 +291,10 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   std::array<double, dim> origin;
   for (unsigned int d = 0; d < dim; ++d)
     origin[d] = zone.origin()[d];
-  archive << origin << committed_bonds << committed_cracked << committed_softening
+  std::vector<std::array<Point<dim>, 2>> grown;
+  for (auto box = shape.boxes.begin() + parameters.boxes.size(); box != shape.boxes.end(); ++box)
+    grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
+  archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_energy << told_of_rim << told_of_pressure;
 }
 
@@ -298,11 +303,17 @@ template <int dim>
 void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::array<double, dim> origin;
-  archive >> origin >> committed_bonds >> committed_cracked >> committed_softening >>
+  std::vector<std::array<Point<dim>, 2>> grown;
+  archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_energy >> told_of_rim >> told_of_pressure;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)
     corner[d] = origin[d];
+  const std::size_t n_boxes = shape.boxes.size();
+  shape.boxes = parameters.boxes;
+  for (const auto &[lower, upper] : grown)
+    shape.boxes.emplace_back(std::make_pair(lower, upper));
+  zone_has_grown = shape.boxes.size() != n_boxes;
   started = true;
   dissipated = committed_energy;
   const bool known_mesh = !zone.sites().empty();

@@ -26,6 +26,11 @@ public:
 
   void setup(const Discretization<dim> &discretization, const Collectives &collectives) override;
 
+  bool wants_setup() const override
+  {
+    return zone_has_grown;
+  }
+
   void begin_step(const StepContext &context) override;
 
   dealii::ArrayView<const Segment<dim>> segments() const override;
@@ -74,6 +79,12 @@ private:
   void cut_along_plane(const dealii::Point<dim> &origin,
                        const dealii::Tensor<1, dim> &normal,
                        const std::function<bool(const dealii::Point<dim> &crossing)> &is_on_crack);
+
+  /// Enlarge the zone ahead of where the rock cracks, if there is less than the margin of it left.
+  void enlarge_zone();
+
+  /// Whether a bond that leads out of the zone may do so no longer after enlarge_zone().
+  bool zone_may_include(unsigned int site, unsigned int bond) const;
 
   /// The fracture cells of initial cracks have the cracks' own normals.
   void set_initial_normals();
@@ -138,10 +149,18 @@ private:
   /// The softening bonds as they are committed.
   void restore_softening();
 
-  /// The most stretched first. `at_rim`: some cannot break, for they lead out of the zone.
+  /// Where bonds that are stretched too far lead out of the zone, and so cannot break.
+  enum class Rim
+  {
+    away,  ///< nowhere
+    grows, ///< where it will be enlarged
+    stays
+  };
+
+  /// The most stretched first.
   std::vector<Candidate> overstretched(const std::vector<double> &displacement,
                                        const std::vector<double> &relief,
-                                       bool &at_rim) const;
+                                       Rim &rim) const;
 
   /// Of each fracture cell, the stretch that bonds would gain if the rock was pressed on from all
   /// sides no longer: by the in-situ stress normal to the fracture or, with effective stretches, by
@@ -221,6 +240,7 @@ private:
   std::map<Place<dim>, std::vector<double>> committed_normals;
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
+  bool zone_has_grown = false;
   bool told_of_rim = false, told_of_pressure = false;
 
   // Of the current step.

@@ -260,6 +260,12 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
     m = {{no_mirror, no_mirror}};
   for (const auto &m : collectives.gather(my_mirrors))
     mirrors[m[0]][m[1]] = m[2];
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] += mirrors[d][0] == no_mirror ? reach * h : 0.;
+    upper[d] -= mirrors[d][1] == no_mirror ? reach * h : 0.;
+  }
+  largest = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
 
   std::vector<Site<dim>> contributions;
   for (const auto &[place, site] : mine)

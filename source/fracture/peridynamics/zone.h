@@ -102,6 +102,13 @@ public:
     return inside;
   }
 
+  /// The largest box that the zone may fill: a horizon away from the boundaries of the domain that
+  /// are not known to be planes of symmetry.
+  const dealii::BoundingBox<dim> &room() const
+  {
+    return largest;
+  }
+
   /// Sorted by place.
   const std::vector<Site<dim>> &sites() const
   {
@@ -188,7 +195,7 @@ private:
 
   /// Planes of symmetry, if any: the place along each direction, of the lower and of the upper one.
   std::array<std::array<int, 2>, dim> mirrors;
-  dealii::BoundingBox<dim> domain;
+  dealii::BoundingBox<dim> domain, largest;
   unsigned int rank = 0;
 };
 } // namespace stockwork::peridynamics
