@@ -50,7 +50,6 @@ std::vector<double> bulk_values(const LinearSystem &system)
 BorderedSolver::BorderedSolver(const MPI_Comm communicator)
   : communicator(communicator)
   , is_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-  , direct(communicator)
   , schur(communicator,
           [this](const auto &left, const auto &right) { return multiply(left, right); })
 {
@@ -255,9 +254,6 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
                                    dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                                    std::vector<double> &dx_extra)
 {
-  if (!system.elastic)
-    return direct.solve(system, stamps, tolerance, dx_bulk, dx_extra);
-
   const Stopwatch stopwatch;
   const bool has_factor = factor && stamps.mesh == factor_stamps.mesh;
   const bool same_bulk = has_factor && stamps.bulk_values == values_with_changes;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "solvers/direct_solver.h"
 #include "solvers/extra_schur.h"
 #include "solvers/linear_solver.h"
 #include "solvers/mumps.h"
@@ -10,7 +9,7 @@
 
 namespace stockwork
 {
-/// For elastic rock with a fracture: block elimination of the bulk,
+/// For rock with a fracture: block elimination of the bulk,
 ///
 ///   [ A  B ]
 ///   [ C  D ],   S = D - C A^-1 B,
@@ -19,8 +18,8 @@ namespace stockwork
 /// steps and growth of the fracture, and a small dense Schur complement (ExtraSchur). A Newton
 /// iteration then takes two back-substitutions and one dense factorisation. Where few rows of A
 /// have changed since it was factorised (bonds broke), the factor is kept as well (Woodbury):
-/// A + E dA is A with one more extra unknown f = dA u per changed row. Systems whose bulk has pore
-/// pressures go to the direct solver.
+/// A + E dA is A with one more extra unknown f = dA u per changed row. In porous rock A changes
+/// with the time step.
 class BorderedSolver : public LinearSolver
 {
 public:
@@ -58,7 +57,6 @@ private:
 
   MPI_Comm communicator;
   bool is_root;
-  DirectSolver direct;
 
   std::unique_ptr<Mumps> factor;
   SystemStamps factor_stamps;

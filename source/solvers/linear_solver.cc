@@ -19,10 +19,11 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
   prm.declare_entry(
     "Type", "auto", Selection("auto|direct|bordered|iterative"),
     "direct: one sparse factor of everything. bordered: a lasting factor of the "
-    "rock and a small dense system for the fracture; for elastic rock. iterative: "
-    "Krylov method with multigrid, and such a system for the fracture; for large "
-    "three-dimensional problems. auto: iterative above a size in 3-D, else bordered "
-    "in elastic rock and direct in porous rock.");
+    "rock and a small dense system for the fracture; the rock's lasts as long as it "
+    "stays as it is, and in porous rock the time step. iterative: Krylov method with "
+    "multigrid, and such a system for the fracture; for large three-dimensional "
+    "problems. auto: iterative above a size in 3-D, else bordered, and direct in porous "
+    "rock without a fracture.");
   prm.declare_entry("Direct below", "30000", Integer(0),
                     "Number of bulk unknowns in 3-D up to which auto chooses the direct solver.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
@@ -70,14 +71,23 @@ public:
                      dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                      std::vector<double> &dx_extra) override
   {
-    auto &solver =
-      wants_hierarchy(system.residual_bulk.size())
-        ? get<BlockAmgSolver>(iterative, parameters, communicator)
-        :
-        // Without a fracture as well: one may come, and the factor of the rock will serve.
-        system.elastic ? get<BorderedSolver>(bordered, communicator)
-                       : get<DirectSolver>(direct, communicator);
-    return solver.solve(system, stamps, tolerance, dx_bulk, dx_extra);
+    const auto solve_with = [&](LinearSolver &solver)
+    { return solver.solve(system, stamps, tolerance, dx_bulk, dx_extra); };
+    if (wants_hierarchy(system.residual_bulk.size()))
+      return solve_with(get<BlockAmgSolver>(iterative, parameters, communicator));
+    // In elastic rock without a fracture as well: one may come, and the factor will serve.
+    if (system.elastic)
+      return solve_with(get<BorderedSolver>(bordered, communicator));
+    if (!system.residual_extra.empty() && !rock_is_singular)
+      try
+      {
+        return solve_with(get<BorderedSolver>(bordered, communicator));
+      }
+      catch (const SolveError &)
+      {
+        rock_is_singular = true; // without its fracture: closed, and nothing can be compressed
+      }
+    return solve_with(get<DirectSolver>(direct, communicator));
   }
 
 private:
@@ -93,6 +103,7 @@ private:
   unsigned int dim;
   MPI_Comm communicator;
   std::unique_ptr<LinearSolver> direct, bordered, iterative;
+  bool rock_is_singular = false;
 };
 } // namespace
 

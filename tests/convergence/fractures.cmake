@@ -32,6 +32,11 @@ stockwork_case_test(NAME convergence/kgd/sun/peridynamics NEGATIVE
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse"
   EXPECT "errors/fracture_length/mean < 0.03" "errors/inlet_aperture/mean < 0.015"
          "errors/inlet_pressure/mean < 0.045" "fluid_balance/relative_error < 1e-8")
+# The zone that grows with the fracture does what one does that has been there before.
+stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone
+  DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
+  SECOND_SET "Fracture/peridynamics/Zone=(0, -1.1 m) to (7.2 m, 0.9 m)"
+  TOLERANCE 1e-3 IGNORE "error")
 # A hydraulic fracture joins a natural crack across its way: a T.
 stockwork_case_test(NAME convergence/natural_crack/peridynamics
   DECK tests/data/natural_crack.prm

@@ -334,18 +334,20 @@ const std::vector<std::pair<double, double>> asymmetries = {{0., 0.}, {0., 0.4},
 
 TEST_CASE("the bordered solver agrees with a dense solve")
 {
-  for (const unsigned int n_extra : {0u, 6u})
-    for (const auto &[bulk, border] : asymmetries)
-    {
-      CAPTURE(n_extra);
-      CAPTURE(bulk);
-      CAPTURE(border);
-      auto solver = make(Type::bordered);
-      const auto run = solve(*solver, make_dense(31, 0, n_extra, 0., bulk, border), {});
-      CHECK(run.report.converged);
-      CHECK(run.report.factorised);
-      CHECK(run.error < 1e-10);
-    }
+  for (const unsigned int n_p : {0u, 13u})
+    for (const unsigned int n_extra : {0u, 6u})
+      for (const auto &[bulk, border] : asymmetries)
+      {
+        CAPTURE(n_p);
+        CAPTURE(n_extra);
+        CAPTURE(bulk);
+        CAPTURE(border);
+        auto solver = make(Type::bordered);
+        const auto run = solve(*solver, make_dense(31, n_p, n_extra, 0., bulk, border), {});
+        CHECK(run.report.converged);
+        CHECK(run.report.factorised);
+        CHECK(run.error < 1e-10);
+      }
 }
 
 TEST_CASE("the bordered solver keeps the rock's factor while the fracture changes")
