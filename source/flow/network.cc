@@ -96,8 +96,8 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
                     segment.given_pressure, segment.initial_pressure,
                     segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
-                    segment.pore_distance, segment.bare_aperture, collectives.rank(),
-                    segment.at_tip, segment.neighbours});
+                    segment.pore_distance, segment.share_of_pores, segment.bare_aperture,
+                    collectives.rank(), segment.at_tip, segment.neighbours});
   network = collectives.gather(mine);
   std::sort(network.begin(), network.end(),
             [](const auto &a, const auto &b) { return a.key < b.key; });
@@ -293,13 +293,14 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
                                                      const Collectives &collectives) const
 {
   const unsigned int n = network.size();
-  std::vector<double> all(3 * n);
+  std::vector<double> all(4 * n);
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
     const unsigned int i = owned_index[k];
     all[i] = value(owned[k].opening, state.current);
     all[n + i] = value(owned[k].opening, state.rate_reference);
     all[2 * n + i] = value(owned[k].pore_pressure, state.current);
+    all[3 * n + i] = value(owned[k].opening, state.committed);
   }
   collectives.sum(all);
 
@@ -307,12 +308,21 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
   values.aperture.assign(all.begin(), all.begin() + n);
   values.aperture_reference.assign(all.begin() + n, all.begin() + 2 * n);
   // Where a fracture has just grown to, there was no room for fluid, even if the unknowns that the
-  // opening is read from were there and not zero, as those of an older piece around the corner.
+  // opening is read from were there and not zero, as those of an older piece around the corner. And
+  // where a segment has turned, the room was what its old opening says. What had been room in pores
+  // all the same held the fluid that is in the segment now.
   for (unsigned int i = 0; i < n; ++i)
-    if (const auto fresh = appeared.find(network[i].key);
-        fresh != appeared.end() && fresh->second > 0)
-      values.aperture_reference[i] = 0.;
-  values.pore_pressure.assign(all.begin() + 2 * n, all.end());
+  {
+    const auto fresh = appeared.find(network[i].key);
+    const auto old = history.find(network[i].key);
+    double &reference = values.aperture_reference[i];
+    if (fresh != appeared.end() && fresh->second > 0)
+      reference *= network[i].share_of_pores;
+    else if (old != history.end())
+      reference += (1. - network[i].share_of_pores) *
+                   (old->second.volume / network[i].area - all[3 * n + i]);
+  }
+  values.pore_pressure.assign(all.begin() + 2 * n, all.begin() + 3 * n);
   values.pressure = pressures(state.current);
   values.pressure_reference = pressures(state.rate_reference);
   values.cake_drop.resize(n);

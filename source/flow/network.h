@@ -141,11 +141,12 @@ private:
     double exposure = 0.; ///< time for which fluid has been at its faces [s]
     double wetted = 0.;   ///< share of it that has fluid at its faces
     double leaked = 0.;   ///< volume through both faces so far [m^3]
+    double volume = 0.;   ///< between the faces [m^3]
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &exposure &wetted &leaked;
+      ar &exposure &wetted &leaked &volume;
     }
   };
 

@@ -95,6 +95,7 @@ void Network<dim>::commit(const StepContext &context,
     entry.exposure = exposed;
     entry.wetted = wetted_share(values.aperture[i], bare_aperture(i)).value;
     entry.leaked += leaked[i];
+    entry.volume = network[i].area * values.aperture[i];
   }
   rollback(); // nothing is on trial any more
 }

@@ -20,6 +20,7 @@ struct NetworkSegment
   double in_situ_pore_pressure = 0.;
   bool rock_has_pore_pressure = false; ///< as unknowns
   double pore_distance = 0.;           ///< see Segment [m]
+  double share_of_pores = 0.;          ///< see Segment
   double bare_aperture = 0.;           ///< see Segment [m]
   unsigned int owner = 0;              ///< rank
   bool at_tip = false;
@@ -40,7 +41,7 @@ struct NetworkSegment
   void serialize(Archive &ar, const unsigned int)
   {
     ar &key &centre &normal &area &given_pressure &initial_pressure &in_situ_pore_pressure
-      &rock_has_pore_pressure &pore_distance &bare_aperture &owner &at_tip &neighbours;
+      &rock_has_pore_pressure &pore_distance &share_of_pores &bare_aperture &owner &at_tip &neighbours;
   }
 };
 

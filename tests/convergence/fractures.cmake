@@ -37,10 +37,11 @@ stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
   SECOND_SET "Fracture/peridynamics/Zone=(0, -1.1 m) to (7.2 m, 0.9 m)"
   TOLERANCE 1e-3 IGNORE "error")
-# A hydraulic fracture joins a natural crack across its way: a T.
+# A hydraulic fracture joins a natural crack across its way: a T, which holds what was injected.
 stockwork_case_test(NAME convergence/natural_crack/peridynamics
   DECK tests/data/natural_crack.prm
   EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
+         "final/fracture_volume = final/injected_volume within 1e-9"
          "fluid_balance/relative_error < 1e-8")
 # Static cracks.
 stockwork_case_test(NAME convergence/sneddon DECK prm/sneddon/prescribed.prm NEGATIVE

@@ -51,6 +51,11 @@ struct Segment
   /// Mean aperture [m]. Known on the rank that owns the host cell only.
   LinearFunctional opening;
 
+  /// Share of the opening that had been room in the rock's pores, with fluid in it, before there was
+  /// a segment: Biot's coefficient where the opening is strain of the rock's own elements (see
+  /// CellRole::fracture_normal), zero where it is a jump.
+  double share_of_pores = 0.;
+
   /// What the fluid's pressure does to the rock where that is not the transpose of `opening`: unit
   /// pressure exerts the forces area times the coefficients, and the work p A dw does not equal
   /// that of these forces. For closures that are there for comparison; empty everywhere else. Same

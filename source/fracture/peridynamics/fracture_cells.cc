@@ -130,24 +130,32 @@ void align_normals(std::vector<FractureCell<dim>> &cells, const unsigned int rad
   std::map<Place<dim>, unsigned int> index;
   for (unsigned int i = 0; i < cells.size(); ++i)
     index[cells[i].place] = i;
-  const int r = radius, n_around = static_cast<int>(std::pow(2 * r + 1, dim) + 0.5);
+  constexpr int n_beside = dim == 2 ? 9 : 27;
   for (FractureCell<dim> &cell : cells)
   {
+    // The cells around that are joined to this one: another crack nearby does not count.
+    std::vector<Place<dim>> joined{cell.place};
     std::vector<Tensor<1, dim>> around;
     Tensor<1, dim> mean;
-    for (int k = 0; k < n_around; ++k)
+    for (unsigned int k = 0; k < joined.size(); ++k)
     {
-      Place<dim> place = cell.place;
       Tensor<1, dim> offset;
-      for (int d = 0, rest = k; d < dim; ++d, rest /= 2 * r + 1)
+      for (unsigned int d = 0; d < dim; ++d)
+        offset[d] = joined[k][d] - cell.place[d];
+      around.push_back(offset);
+      mean += offset;
+      for (int n = 0; n < n_beside; ++n)
       {
-        offset[d] = rest % (2 * r + 1) - r;
-        place[d] += rest % (2 * r + 1) - r;
-      }
-      if (offset.norm() < r + 0.5 && index.count(place) != 0)
-      {
-        around.push_back(offset);
-        mean += offset;
+        Place<dim> place = joined[k];
+        double square = 0.;
+        for (int d = 0, rest = n; d < dim; ++d, rest /= 3)
+        {
+          place[d] += rest % 3 - 1;
+          square += std::pow(place[d] - cell.place[d], 2);
+        }
+        if (std::sqrt(square) < radius + 0.5 && index.count(place) != 0 &&
+            std::find(joined.begin(), joined.end(), place) == joined.end())
+          joined.push_back(place);
       }
     }
     mean /= around.size();

@@ -155,6 +155,8 @@ void Peridynamics<dim>::refresh_segments()
     at_front.push_back(is_at_front(zone, cells[i], segment));
     const auto &n = segment.normal;
     segment.given_pressure = scene.crack_pressure;
+    if (scene.has_pore_pressure)
+      segment.share_of_pores = scene.rock.main().biot_coefficient;
     const auto carried = initial_pressure.find(segment.key);
     segment.initial_pressure = carried != initial_pressure.end()
                                  ? carried->second
