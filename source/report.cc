@@ -235,6 +235,8 @@ void Report<dim>::finish(const unsigned long n_cells)
   summary.warnings = run.warnings;
   if (run.rank == 0)
     write_summary(directory + "/summary.json", summary);
+  if (const std::string cost = model.cost(); !cost.empty())
+    run.out << '\n' << cost << ".\n";
   run.timers.print(run.out.get_stream(), run.communicator);
   for (const auto &[name, error] : summary.errors)
     run.out << "error of " << name << ": " << 100. * error.final << " % at the end, "

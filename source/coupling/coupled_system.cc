@@ -249,6 +249,7 @@ void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
   if (bulk->matrix(context, anew, system.bulk,
                    discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
   {
+    const auto scope = run.timers.scope("fracture");
     SystemSink sink(increment_constraints, system, system.residual_bulk, linear_residual_extra,
                     linear_extra_extra, true);
     model.assemble_bulk(context, sink);

@@ -183,6 +183,13 @@ public:
   {
   }
 
+  /// A sentence on what the model costs, where elements would do without a fracture; for the report
+  /// at the end of a run. Empty: nothing worth a sentence.
+  virtual std::string cost() const
+  {
+    return {};
+  }
+
   virtual FractureSummary summary(const State &, const Collectives &) const
   {
     return {};

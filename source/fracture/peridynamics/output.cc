@@ -1,5 +1,9 @@
 #include "fracture/peridynamics/peridynamics.h"
 
+#include <cmath>
+#include <set>
+#include <sstream>
+
 namespace stockwork::peridynamics
 {
 using dealii::Point;
@@ -22,6 +26,33 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   result.dissipated_energy = dissipated;
   result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));
   return result;
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::cost() const
+{
+  // Displacements that the row of a node has entries for, itself included.
+  std::set<Place<dim>> reach{Place<dim>()};
+  for (const StencilBond<dim> &bond : stencil)
+    reach.insert(bond.offset);
+  if (parameters.state_based)
+    for (const Place<dim> &first : std::set<Place<dim>>(reach))
+      for (const StencilBond<dim> &bond : stencil)
+      {
+        Place<dim> place = first;
+        for (unsigned int d = 0; d < dim; ++d)
+          place[d] += bond.offset[d];
+        reach.insert(place);
+      }
+  const double of_elements = std::pow(3., dim), longer = reach.size() / of_elements;
+  const double share = static_cast<double>(zone.peridynamic_sites().size()) / n_nodes;
+  std::ostringstream text;
+  text.precision(3);
+  text << "Peridynamic zone: " << zone.peridynamic_sites().size() << " nodes, " << 100. * share
+       << " % of all; their momentum rows have " << longer << " times the entries of elements', "
+       << "which makes the matrix of the rock " << 1. + share * (longer - 1.) << " times as large";
+  return text.str();
 }
 
 
@@ -87,6 +118,7 @@ void Peridynamics<dim>::write_bonds(FieldSink<dim> &sink) const
 }
 
 #define INSTANTIATE(dim)                                                                         \
+  template std::string Peridynamics<dim>::cost() const;                                          \
   template FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) const; \
   template void Peridynamics<dim>::write_bonds(FieldSink<dim> &) const;                          \
   template void Peridynamics<dim>::write_fields(const State &, FieldSink<dim> &) const;

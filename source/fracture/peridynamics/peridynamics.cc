@@ -76,6 +76,8 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
                               const Collectives &collectives)
 {
   rank = collectives.rank();
+  n_nodes =
+    discretization.dof_handler.n_dofs() / discretization.dof_handler.get_fe().dofs_per_vertex;
   zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, discretization,
              collectives);
   zone_has_grown = false;

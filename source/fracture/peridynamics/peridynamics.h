@@ -67,6 +67,8 @@ public:
 
   void load(boost::archive::binary_iarchive &archive) override;
 
+  std::string cost() const override;
+
   FractureSummary summary(const State &state, const Collectives &collectives) const override;
 
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
@@ -218,6 +220,7 @@ private:
   SofteningLaw softening;
   double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
   unsigned int rank = 0;
+  unsigned int n_nodes = 0; ///< of the mesh, about
   bool in_situ_is_zero = true;
 
   BondSet<dim> bonds;                         ///< broken ones
