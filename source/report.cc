@@ -156,7 +156,7 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
   const auto scope = run.timers.scope("output");
   const double time = stepper.last_context().time;
   const double balance_error = stepper.fluid_balance().relative_error;
-  const auto observed = observe();
+  auto observed = observe();
   const auto pores = system.pore_fluid(stepper.last_context(), stepper.last_state());
 
   ++summary.steps;
@@ -167,6 +167,19 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
   summary.fluid_balance.outflow += pores.outflow + stepper.fluid_balance().step.outflow;
   summary.fluid_balance.relative_error =
     std::max(summary.fluid_balance.relative_error, balance_error);
+
+  if (system.bulk_dofs().get_fe().n_components() > dim)
+  {
+    observed["pore_volume"] = pores.volume;
+    // Of what was injected, what is neither in fractures nor in boreholes nor in pores by their
+    // volumes as they are, nor has left; where what leaks off stays in the model. The compression
+    // of the fluid in fractures is in it.
+    const FluidBalance &balance = stepper.fluid_balance();
+    if (network.needs_pore_pressure() || balance.total.leaked == 0.)
+      observed["missing_volume"] = balance.total.injected - summary.fluid_balance.outflow -
+                                   balance.fracture_volume - balance.total.in_boreholes -
+                                   pores.volume;
+  }
 
   statistics.set("step", step);
   statistics.set("time", time, "s");

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """Draw a field of the rock, deformed, with the fracture opened by as much.
 
-    field.py DIRECTORY [--field pore_pressure] [--component yy] [--time T] [--warp FACTOR]
-             [--window x0,x1,y0,y1] [--mirror] [--output FILE.png]
+    field.py DIRECTORY [--field pore_pressure] [--component yy] [--time T...] [--warp FACTOR]
+             [--window x0,x1,y0,y1] [--mirror] [--fluid] [--output FILE.png]
 
+Several times are drawn side by side. --fluid fills the opening with the pressure of the fluid, in
+the colours of the pore pressure; otherwise it is white.
 Without --window, what surrounds the fracture is shown (without a fracture, everything). --warp is
 the factor on displacement and opening; by default the greatest opening is drawn as 6 % of the
 window's height. --mirror adds the mirror image at x = 0 of a half model.
@@ -41,13 +43,18 @@ def choose(grid, name, component):
 
 def fracture_lines(fracture):
     """The pieces of the fracture as ((n, 2, 2) end points, apertures)."""
-    ends, cells = fracture.cells(vtu.LINE)
-    if not len(cells):
+    ends, _ = fracture.cells(vtu.LINE)
+    if not len(ends):
         return np.zeros((0, 2, 2)), np.zeros(0)
-    lines = fracture.points[ends][:, :, :2]
-    if "aperture" in fracture.cell_data:
-        return lines, fracture.cell_data["aperture"][cells]
-    return lines, fracture.point_data["aperture"][ends].mean(axis=1)
+    return fracture.points[ends][:, :, :2], fracture_values(fracture, "aperture")
+
+
+def fracture_values(fracture, name):
+    """A value per piece of the fracture."""
+    ends, cells = fracture.cells(vtu.LINE)
+    if name in fracture.cell_data:
+        return fracture.cell_data[name][cells]
+    return fracture.point_data[name][ends].mean(axis=1)
 
 
 def is_open(aperture):
@@ -66,13 +73,16 @@ def window_of(grid, lines, aperture):
     return *x, *y
 
 
-def draw(options):
-    time, path = vtu.at_time(vtu.series(options.directory, "fields"), options.time)
+def panel(ax, options, time):
+    """One picture: its time, its factor on the opening, and what the colours belong to."""
+    time, path = vtu.at_time(vtu.series(options.directory, "fields"), time)
     grid = vtu.read(path)
-    lines, aperture = np.zeros((0, 2, 2)), np.zeros(0)
+    lines, aperture, pressure = np.zeros((0, 2, 2)), np.zeros(0), None
     if os.path.exists(os.path.join(options.directory, "fracture.pvd")):
-        fractures = vtu.series(options.directory, "fracture")
-        lines, aperture = fracture_lines(vtu.read(vtu.at_time(fractures, time)[1]))
+        fracture = vtu.read(vtu.at_time(vtu.series(options.directory, "fracture"), time)[1])
+        lines, aperture = fracture_lines(fracture)
+        if options.fluid:
+            pressure = 1e-6 * fracture_values(fracture, "fluid_pressure")
     window = options.window or window_of(grid, lines, aperture)
     opening = aperture.max(initial=0.)
     warp = options.warp if options.warp is not None else (
@@ -90,11 +100,9 @@ def draw(options):
     moved = grid.points[:, :2].copy()
     if "displacement" in grid.point_data:
         moved += warp * grid.point_data["displacement"][:, :2]
-    unit, factor = UNITS.get(options.field, ("-", 1.))
+    factor = UNITS.get(options.field, ("-", 1.))[1]
     colour = factor * (values[corners].mean(axis=1) if at_points else values[cells])
 
-    figure, ax = plt.subplots(figsize=(7, 7 * min(1.2, max(
-        0.35, (window[3] - window[2]) / (window[1] - window[0]))) + 0.3))
     polygons = moved[corners]
     faces = lines
     if options.mirror:
@@ -102,9 +110,10 @@ def draw(options):
         polygons = np.concatenate([polygons, polygons * flip])
         colour = np.concatenate([colour, colour])
         faces, aperture = np.concatenate([faces, faces * flip]), np.concatenate([aperture] * 2)
+        pressure = None if pressure is None else np.concatenate([pressure] * 2)
         window = (-window[1], window[1], window[2], window[3])
-    shown = ax.add_collection(PolyCollection(polygons, array=colour, cmap="viridis",
-                                             antialiaseds=False, rasterized=True))
+    shown = [ax.add_collection(PolyCollection(polygons, array=colour, cmap="viridis",
+                                              antialiaseds=False, rasterized=True))]
     if len(faces):
         tangent = faces[:, 1] - faces[:, 0]
         normal = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
@@ -114,21 +123,44 @@ def draw(options):
         closed, opened = ~is_open(aperture), is_open(aperture)
         ax.add_collection(LineCollection(faces[closed], colors="0.6", linewidths=0.8))
         upper, lower = upper[opened], lower[opened]
-        ax.add_collection(PolyCollection(np.concatenate([upper, lower[:, ::-1]], axis=1),
-                                         facecolors="white", edgecolors="white"))
+        inside = np.concatenate([upper, lower[:, ::-1]], axis=1)
+        if pressure is None:
+            ax.add_collection(PolyCollection(inside, facecolors="white", edgecolors="white"))
+        else:
+            shown.append(ax.add_collection(PolyCollection(
+                inside, array=pressure[opened], cmap="viridis", linewidths=0.)))
         ax.add_collection(LineCollection(np.concatenate([upper, lower]), colors="crimson",
                                          linewidths=1.))
     ax.set_xlim(window[0], window[1])
     ax.set_ylim(window[2], window[3])
     ax.set_aspect("equal")
     ax.set_xlabel("x [m]")
-    ax.set_ylabel("y [m]")
-    name = " ".join(filter(None, (options.field.replace("_", " "), options.component)))
-    figure.colorbar(shown, ax=ax, shrink=0.8, label=f"{name} [{unit}]")
     ax.set_title(f"t = {time:.4g} s" + (f", opening drawn × {float(f'{warp:.2g}'):g}" if warp else ""),
                  fontsize=10)
+    return shown, window
+
+
+def draw(options):
+    times = options.time or [None]
+    figure, axes = plt.subplots(1, len(times), squeeze=False, sharey=True)
+    panels = [panel(ax, options, time) for ax, time in zip(axes[0], times)]
+    window = panels[0][1]
+    height = 7 if len(times) == 1 else 4.5
+    shape = min(1.2, max(0.35, (window[3] - window[2]) / (window[1] - window[0])))
+    figure.set_size_inches(len(times) * height / max(1., shape if len(times) > 1 else 1.),
+                           height * (shape if len(times) == 1 else 1.) + 0.3)
+    coloured = [collection for shown, _ in panels for collection in shown]
+    low = min(c.get_array().min() for c in coloured)
+    high = max(c.get_array().max() for c in coloured)
+    for collection in coloured:
+        collection.set_clim(low, high)
+    axes[0, 0].set_ylabel("y [m]")
+    name = " ".join(filter(None, (options.field.replace("_", " "), options.component)))
+    unit = UNITS.get(options.field, ("-", 1.))[0]
+    figure.colorbar(coloured[0], ax=list(axes[0]), shrink=0.8, label=f"{name} [{unit}]",
+                    **({"pad": 0.01} if len(times) > 1 else {}))
     output = options.output or os.path.join(options.directory, options.field + ".png")
-    figure.savefig(output, dpi=110, bbox_inches="tight")
+    figure.savefig(output, dpi=110 if len(times) == 1 else 80, bbox_inches="tight")
     print(output)
 
 
@@ -138,10 +170,11 @@ def main():
     parser.add_argument("directory")
     parser.add_argument("--field", default="pore_pressure")
     parser.add_argument("--component", choices=COMPONENTS)
-    parser.add_argument("--time", type=float)
+    parser.add_argument("--time", type=float, nargs="+")
     parser.add_argument("--warp", type=float)
     parser.add_argument("--window", type=lambda text: tuple(float(x) for x in text.split(",")))
     parser.add_argument("--mirror", action="store_true")
+    parser.add_argument("--fluid", action="store_true")
     parser.add_argument("--output")
     draw(parser.parse_args())
 

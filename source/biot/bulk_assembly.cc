@@ -382,16 +382,36 @@ double BulkAssembly<dim>::stored_fluid(const StepContext &context,
                                        const State &state,
                                        const Role &role) const
 {
-  double stored = 0.;
   BlockVector gain = owned_part(state.current.bulk, owned);
   gain -= owned_part(state.rate_reference.bulk, owned);
-  for (unsigned int b = 0; b < gain.n_blocks(); ++b)
+  if (gain.n_blocks() > 1)
+    gain.block(1) *= context.pressure_rate / context.rate;
+  std::vector<double> extra = state.current.extra;
+  for (unsigned int k = 0; k < extra.size(); ++k)
+    extra[k] -= state.rate_reference.extra[k];
+  return fluid_content(gain, extra, role);
+}
+
+
+template <int dim>
+double BulkAssembly<dim>::pore_volume(const Unknowns &unknowns, const Role &role) const
+{
+  return fluid_content(owned_part(unknowns.bulk, owned), unknowns.extra, role);
+}
+
+
+template <int dim>
+double BulkAssembly<dim>::fluid_content(const BlockVector &bulk,
+                                        const std::vector<double> &extra,
+                                        const Role &role) const
+{
+  double volume = 0.;
+  for (unsigned int b = 0; b < bulk.n_blocks(); ++b)
   {
-    const auto &change = gain.block(b).trilinos_vector();
+    const auto &values = bulk.block(b).trilinos_vector();
     const double *per_unknown = content.block(b).trilinos_vector()[0];
-    const double weight = b == 0 ? 1. : context.pressure_rate / context.rate;
-    for (int i = 0; i < change.MyLength(); ++i)
-      stored += weight * per_unknown[i] * change[0][i];
+    for (int i = 0; i < values.MyLength(); ++i)
+      volume += per_unknown[i] * values[0][i];
   }
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -399,14 +419,11 @@ double BulkAssembly<dim>::stored_fluid(const StepContext &context,
       if (const CutCell<dim> *cut = role(cell).cut)
         for (unsigned int q = 0; q < cut->points.size(); ++q)
           for (unsigned int c = 0; c < cut->n_columns(); ++c)
-          {
-            const unsigned int k = cut->extra[c];
-            stored += rock(cell->material_id()).biot_coefficient * cut->weights[q] *
+            volume += rock(cell->material_id()).biot_coefficient * cut->weights[q] *
                       cut->gradients[q * cut->n_columns() + c][cut->component[c]] *
-                      (state.current.extra[k] - state.rate_reference.extra[k]);
-          }
+                      extra[cut->extra[c]];
     }
-  return stored;
+  return volume;
 }
 
 

@@ -67,6 +67,9 @@ public:
   /// Fluid that the pores of the owned cells have gained since the rate references [m^3 (/m)].
   double stored_fluid(const StepContext &context, const State &state, const Role &role) const;
 
+  /// Fluid that the pores of the owned cells hold over what they held in situ [m^3 (/m)].
+  double pore_volume(const Unknowns &unknowns, const Role &role) const;
+
   /// Fluid that has left the owned cells through the boundary in the step [m^3 (/m)]: the reactions
   /// to prescribed pore pressures, less the prescribed flux.
   double outflow(const StepContext &context, const State &state) const;
@@ -81,6 +84,11 @@ private:
   void subtract_history(const StepContext &context,
                         const LocalVector &rate_reference,
                         LocalVector &residual) const;
+
+  /// The fluid in the pores per these values of the unknowns; the owned ones of the bulk.
+  double fluid_content(const dealii::TrilinosWrappers::MPI::BlockVector &bulk,
+                       const std::vector<double> &extra,
+                       const Role &role) const;
 
   /// Work and volume of the boundary loads on a cell.
   void

@@ -554,8 +554,9 @@ typename CoupledSystem<dim>::PoreFluid CoupledSystem<dim>::pore_fluid(const Step
   PoreFluid fluid;
   if (!discretisation.has_pore_pressure)
     return fluid;
-  fluid.stored = communication.sum(
-    bulk->stored_fluid(context, state, [this](const auto &cell) { return model.role(cell); }));
+  const auto role = [this](const auto &cell) { return model.role(cell); };
+  fluid.stored = communication.sum(bulk->stored_fluid(context, state, role));
+  fluid.volume = communication.sum(bulk->pore_volume(state.current, role));
   fluid.outflow = communication.sum(bulk->outflow(context, state));
   return fluid;
 }

@@ -117,11 +117,12 @@ public:
               const Unknowns &acceleration_reference) const;
 
   /// Content of fluid that the pores have gained since the references, and what has left through
-  /// the boundary, in the step [m^3 (/m)].
+  /// the boundary, in the step; and what they hold over what they held in situ [m^3 (/m)].
   struct PoreFluid
   {
     double stored = 0.;
     double outflow = 0.;
+    double volume = 0.;
   };
   PoreFluid pore_fluid(const StepContext &context, const State &state) const;
 

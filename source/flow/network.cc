@@ -319,8 +319,8 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
     if (fresh != appeared.end() && fresh->second > 0)
       reference *= network[i].share_of_pores;
     else if (old != history.end())
-      reference += (1. - network[i].share_of_pores) *
-                   (old->second.volume / network[i].area - all[3 * n + i]);
+      reference +=
+        (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - all[3 * n + i]);
   }
   values.pore_pressure.assign(all.begin() + 2 * n, all.begin() + 3 * n);
   values.pressure = pressures(state.current);

@@ -41,7 +41,8 @@ struct NetworkSegment
   void serialize(Archive &ar, const unsigned int)
   {
     ar &key &centre &normal &area &given_pressure &initial_pressure &in_situ_pore_pressure
-      &rock_has_pore_pressure &pore_distance &share_of_pores &bare_aperture &owner &at_tip &neighbours;
+      &rock_has_pore_pressure &pore_distance &share_of_pores &bare_aperture &owner &at_tip
+        &neighbours;
   }
 };
 

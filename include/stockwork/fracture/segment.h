@@ -51,8 +51,8 @@ struct Segment
   /// Mean aperture [m]. Known on the rank that owns the host cell only.
   LinearFunctional opening;
 
-  /// Share of the opening that had been room in the rock's pores, with fluid in it, before there was
-  /// a segment: Biot's coefficient where the opening is strain of the rock's own elements (see
+  /// Share of the opening that had been room in the rock's pores, with fluid in it, before there
+  /// was a segment: Biot's coefficient where the opening is strain of the rock's own elements (see
   /// CellRole::fracture_normal), zero where it is a jump.
   double share_of_pores = 0.;
 

@@ -216,9 +216,11 @@ void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &sink) const
 
 /// The cracks release the in-situ traction of their faces.
 template <int dim>
-void Peridynamics<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
+void Peridynamics<dim>::assemble(const StepContext &context, const State &state, Sink &sink) const
 {
   assemble_softening(state, sink);
+  if (parameters.tensor_fluid)
+    assemble_tensor_fluid(context, state, sink);
   if (in_situ_is_zero)
     return;
   LocalSystem local;

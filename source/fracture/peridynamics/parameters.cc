@@ -72,6 +72,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "and does the work of their opening. as published: it lengthens unbroken bonds "
     "(Sun et al. 2021, Eqs. 7 and 28), which leaves the faces without a load and "
     "opens a crack to a tenth; for comparison, in elastic rock.");
+  prm.declare_entry(
+    "Fluid", "network", Patterns::Selection("network|permeability tensor"),
+    "What carries the fluid along a fracture. network: pressures of its own, which may differ from "
+    "the rock's within a cell. permeability tensor: the pore pressure's elements, which conduct as "
+    "much as the fracture does along its cells; as in the paper, with the cubic law. The pressure "
+    "falls from the fracture's to the rock's within one cell then, whatever the permeability. For "
+    "porous rock and 'Fracture flow/Leak-off = resolved'.");
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry("Bonds per pass", "20", Patterns::Integer(1),
                     "Bonds that break, the most stretched first, before the step is solved again.");
@@ -121,6 +128,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Stretch") == "effective";
   p.as_published = prm.get("Closure") == "as published";
+  p.tensor_fluid = prm.get("Fluid") == "permeability tensor";
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   p.most_advances = prm.get_integer("Most advances per step");

@@ -26,6 +26,7 @@ struct Parameters
   bool surface_correction;
   bool effective_stretch; ///< bonds break by effective stress
   bool as_published;      ///< the pressure's load on bonds, as printed
+  bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
   bool growth;
   enum class Bonds
   {

@@ -49,7 +49,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   if (!(rock.energy_release_rate > 0.) && parameters.growth)
     throw InputError("Peridynamics needs the rock's energy release rate G_c (Rock / Critical "
                      "energy release rate, or Fracture toughness), or 'Growth = false'.");
-  if (parameters.as_published && scene.has_pore_pressure)
+  if (parameters.as_published && scene.rock.bulk_model() == "poroelastic")
     throw EntryError("Fracture/peridynamics/Closure", "as published",
                      "'conserving' in porous rock (Rock/Bulk model)");
   if (scene.cracks.empty() && parameters.boxes.empty())
@@ -67,6 +67,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.symmetric = false;
   requirements.symmetric_bulk = false;
   requirements.linear_elements = true;
+  requirements.pore_pressure = parameters.tensor_fluid;
   return requirements;
 }
 
@@ -171,6 +172,11 @@ void Peridynamics<dim>::refresh_segments()
       if (scene.has_pore_pressure)
         normals[zone.active_cell_index(cells[i].place)] = cells[i].normal;
       owned_segments.push_back(segment);
+      if (parameters.tensor_fluid)
+      {
+        owned_segments.back().neighbours.clear();
+        owned_segments.back().pore_distance = 0.;
+      }
     }
   }
   // Whose Biot tensors are new is known to all ranks.

@@ -148,6 +148,9 @@ private:
 
   void assemble_softening(const State &state, Sink &sink) const;
 
+  /// What fracture cells conduct along the fracture, in the elements of the pore pressure.
+  void assemble_tensor_fluid(const StepContext &context, const State &state, Sink &sink) const;
+
   /// The softening bonds as they are committed.
   void restore_softening();
 
