@@ -146,12 +146,13 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
   const auto &constraints = discretization.constraints;
 
   // The domain, and a vertex of the lattice to count from: the lowest of all in the zone.
-  Point<dim> lower, upper, first;
+  Point<dim> lower, upper, first, last;
   for (unsigned int d = 0; d < dim; ++d)
   {
     lower[d] = std::numeric_limits<double>::infinity();
     upper[d] = -lower[d];
     first[d] = lower[d];
+    last[d] = upper[d];
   }
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -161,13 +162,17 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
           lower[d] = std::min(lower[d], cell->vertex(v)[d]);
           upper[d] = std::max(upper[d], cell->vertex(v)[d]);
           if (shape.contains(cell->vertex(v), h))
+          {
             first[d] = std::min(first[d], cell->vertex(v)[d]);
+            last[d] = std::max(last[d], cell->vertex(v)[d]);
+          }
         }
   for (unsigned int d = 0; d < dim; ++d)
   {
     lower[d] = collectives.min(lower[d]);
     upper[d] = collectives.max(upper[d]);
     first[d] = collectives.min(first[d]);
+    last[d] = collectives.max(last[d]);
   }
   domain = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
   if (!has_corner)
@@ -260,12 +265,7 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
     m = {{no_mirror, no_mirror}};
   for (const auto &m : collectives.gather(my_mirrors))
     mirrors[m[0]][m[1]] = m[2];
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    lower[d] += mirrors[d][0] == no_mirror ? reach * h : 0.;
-    upper[d] -= mirrors[d][1] == no_mirror ? reach * h : 0.;
-  }
-  largest = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
+  find_room(first, last, reach, discretization, collectives);
 
   std::vector<Site<dim>> contributions;
   for (const auto &[place, site] : mine)
@@ -282,6 +282,57 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
       site.owner &= ~not_owner;
       all_sites.push_back(site);
     }
+}
+
+
+template <int dim>
+void Zone<dim>::find_room(const Point<dim> &first,
+                          const Point<dim> &last,
+                          const unsigned int reach,
+                          const Discretization<dim> &discretization,
+                          const Collectives &collectives)
+{
+  std::array<std::array<double, 2>, dim> bound;
+  for (unsigned int d = 0; d < dim; ++d)
+    bound[d] = {{domain.lower_bound(d) + (mirrors[d][0] == no_mirror ? reach * h : 0.),
+                 domain.upper_bound(d) - (mirrors[d][1] == no_mirror ? reach * h : 0.)}};
+  for (const auto &cell : discretization.triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const Point<dim> low = cell->vertex(0), high = cell->vertex((1 << dim) - 1);
+      const double halvings = std::log2((high[0] - low[0]) / h);
+      bool suits = std::abs(halvings - std::round(halvings)) < 1e-4;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double place = (low[d] - corner[d]) / h;
+        suits = suits && std::abs(place - std::round(place)) < 1e-4 &&
+                std::abs(high[d] - low[d] - (high[0] - low[0])) < 1e-4 * h;
+      }
+      if (suits)
+        continue;
+      // The bound is in the direction in which the cell is farthest from the zone.
+      double farthest = 0.;
+      unsigned int direction = 0, side = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const unsigned int s : {0u, 1u})
+          if (const double away = s == 0 ? first[d] - high[d] : low[d] - last[d]; away > farthest)
+          {
+            farthest = away;
+            direction = d;
+            side = s;
+          }
+      if (farthest > 0. && side == 0)
+        bound[direction][0] = std::max(bound[direction][0], high[direction] + reach * h);
+      else if (farthest > 0.)
+        bound[direction][1] = std::min(bound[direction][1], low[direction] - reach * h);
+    }
+  Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = std::min(first[d], collectives.max(bound[d][0]));
+    upper[d] = std::max(last[d], collectives.min(bound[d][1]));
+  }
+  largest = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
 }
 
 

@@ -103,7 +103,8 @@ public:
   }
 
   /// The largest box that the zone may fill: a horizon away from the boundaries of the domain that
-  /// are not known to be planes of symmetry.
+  /// are not known to be planes of symmetry, and from cells that cannot be halved until they are
+  /// those of the lattice.
   const dealii::BoundingBox<dim> &room() const
   {
     return largest;
@@ -177,6 +178,12 @@ private:
                     unsigned int reach,
                     const Discretization<dim> &,
                     const Collectives &);
+  /// For a zone between the vertices `first` and `last`.
+  void find_room(const dealii::Point<dim> &first,
+                 const dealii::Point<dim> &last,
+                 unsigned int reach,
+                 const Discretization<dim> &,
+                 const Collectives &);
   void find_far_ends(const std::vector<StencilBond<dim>> &stencil, const bool with_rim);
   void find_far_ends_of(const unsigned int site, const std::vector<StencilBond<dim>> &stencil);
 
