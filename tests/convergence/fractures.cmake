@@ -43,6 +43,11 @@ stockwork_case_test(NAME convergence/natural_crack/peridynamics
   EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
          "final/fracture_volume = final/injected_volume within 1e-9"
          "fluid_balance/relative_error < 1e-8")
+# In three dimensions: a disc that grows.
+stockwork_case_test(NAME convergence/radial/toughness/peridynamics
+  DECK prm/radial/toughness/peridynamics.prm SET "Resolution=coarse" "Time/End time=0.45 s"
+  EXPECT "final/fracture_length > 9" "errors/fracture_volume/final < 1e-4"
+         "fluid_balance/relative_error < 1e-8")
 # Static cracks.
 stockwork_case_test(NAME convergence/sneddon DECK prm/sneddon/prescribed.prm NEGATIVE
   SET "Resolution=coarse"
