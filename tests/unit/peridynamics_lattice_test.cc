@@ -3,6 +3,7 @@
 
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/state_based.h"
+#include "lattice_rock.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -13,16 +14,6 @@ using namespace stockwork::peridynamics;
 
 namespace
 {
-RockProperties rock(const double poisson_ratio, const bool plane_stress = false)
-{
-  RockProperties rock;
-  rock.young_modulus = 1e10;
-  rock.poisson_ratio = poisson_ratio;
-  rock.plane_stress = plane_stress;
-  rock.energy_release_rate = 100.;
-  return rock;
-}
-
 /// The law with the constants of the continuum.
 template <int dim>
 BondLaw uncalibrated(const RockProperties &rock, const double horizon)
@@ -63,7 +54,7 @@ TEST_CASE("the study's table: stiffness and energy of a line with the constants 
     CAPTURE(row.m);
     const auto stencil = horizon_stencil<2>(row.m, row.rule);
     const double horizon = row.m * spacing;
-    const RockProperties r = rock(0.25);
+    const RockProperties r = lattice_rock(0.25);
     const BondLaw law = uncalibrated<2>(r, horizon);
     const double E = r.young_modulus;
     const auto moduli = lattice_moduli(stencil, law, spacing);
@@ -155,7 +146,7 @@ TEST_CASE_TEMPLATE("calibrated, the bulk modulus and the mean shear modulus are 
   {
     if (dim == 3 && plane_stress)
       continue;
-    const RockProperties r = rock(bond_based_poisson_ratio(plane_stress), plane_stress);
+    const RockProperties r = lattice_rock(bond_based_poisson_ratio(plane_stress), plane_stress);
     const double lambda = r.lame_lambda(), G = r.shear_modulus();
     CHECK(lambda == doctest::Approx(G).epsilon(1e-14));
     for (const auto rule : {VolumeRule::exact, VolumeRule::isotropic, VolumeRule::full})
@@ -187,7 +178,7 @@ TEST_CASE_TEMPLATE("state-based, any Poisson's ratio has the same two moduli exa
     {
       if (dim == 3 && plane_stress)
         continue;
-      const RockProperties r = rock(poisson_ratio, plane_stress);
+      const RockProperties r = lattice_rock(poisson_ratio, plane_stress);
       const double lambda = r.lame_lambda(), G = r.shear_modulus();
       for (const auto rule :
            {VolumeRule::exact, VolumeRule::isotropic, VolumeRule::full, VolumeRule::ramp})
@@ -211,9 +202,9 @@ TEST_CASE_TEMPLATE("state-based, any Poisson's ratio has the same two moduli exa
 TEST_CASE("state-based rock of the bond-based ratio is bond-based")
 {
   const auto stencil = horizon_stencil<3>(3, VolumeRule::exact);
-  const BondLaw law = state_based_law<3>(rock(0.25), stencil, spacing);
-  CHECK(std::abs(law.dilatation_modulus) < 1e-14 * rock(0.25).young_modulus);
-  CHECK(law.micromodulus == bond_based_law<3>(rock(0.25), stencil, spacing).micromodulus);
+  const BondLaw law = state_based_law<3>(lattice_rock(0.25), stencil, spacing);
+  CHECK(std::abs(law.dilatation_modulus) < 1e-14 * lattice_rock(0.25).young_modulus);
+  CHECK(law.micromodulus == bond_based_law<3>(lattice_rock(0.25), stencil, spacing).micromodulus);
 }
 
 TEST_CASE_TEMPLATE("calibrated, a cut at the critical stretch takes G_c",
@@ -228,7 +219,7 @@ TEST_CASE_TEMPLATE("calibrated, a cut at the critical stretch takes G_c",
       {
         CAPTURE(poisson_ratio);
         CAPTURE(m);
-        const RockProperties r = rock(poisson_ratio);
+        const RockProperties r = lattice_rock(poisson_ratio);
         const auto stencil = horizon_stencil<dim>(m, rule);
         const double s_c = continuum_critical_stretch<dim>(r, m * spacing, true);
         const double energy =
@@ -245,7 +236,7 @@ TEST_CASE("what calibration leaves: the anisotropy C11/(3 C12) of the study")
   {
     const auto stencil = horizon_stencil<2>(m, VolumeRule::exact);
     const auto moduli =
-      lattice_moduli(stencil, bond_based_law<2>(rock(0.25), stencil, spacing), spacing);
+      lattice_moduli(stencil, bond_based_law<2>(lattice_rock(0.25), stencil, spacing), spacing);
     CHECK(std::abs(moduli.c11 / (3. * moduli.c12) - ratio) < 0.0005);
   }
 }
@@ -253,19 +244,19 @@ TEST_CASE("what calibration leaves: the anisotropy C11/(3 C12) of the study")
 TEST_CASE("constants of the continuum")
 {
   const double E = 1e10, delta = 0.3, G_c = 100.;
-  CHECK(continuum_micromodulus<2>(rock(0.25), delta) ==
+  CHECK(continuum_micromodulus<2>(lattice_rock(0.25), delta) ==
         doctest::Approx(9.6 * E / (M_PI * std::pow(delta, 3))));
   // Eq. 8b of Sun et al., plane stress, nu = 1/3.
-  CHECK(continuum_micromodulus<2>(rock(1. / 3., true), delta) ==
+  CHECK(continuum_micromodulus<2>(lattice_rock(1. / 3., true), delta) ==
         doctest::Approx(9. * E / (M_PI * std::pow(delta, 3))));
-  CHECK(continuum_micromodulus<3>(rock(0.25), delta) ==
+  CHECK(continuum_micromodulus<3>(lattice_rock(0.25), delta) ==
         doctest::Approx(12. * E / (M_PI * std::pow(delta, 4))));
   // Eq. 19, and Silling and Askari with K = 2E/3.
-  CHECK(continuum_critical_stretch<2>(rock(0.25), delta) ==
+  CHECK(continuum_critical_stretch<2>(lattice_rock(0.25), delta) ==
         doctest::Approx(std::sqrt(5. * M_PI * G_c / (12. * E * delta))));
-  CHECK(continuum_critical_stretch<2>(rock(1. / 3., true), delta) ==
+  CHECK(continuum_critical_stretch<2>(lattice_rock(1. / 3., true), delta) ==
         doctest::Approx(std::sqrt(4. * M_PI * G_c / (9. * E * delta))));
-  CHECK(continuum_critical_stretch<3>(rock(0.25), delta) ==
+  CHECK(continuum_critical_stretch<3>(lattice_rock(0.25), delta) ==
         doctest::Approx(std::sqrt(5. * G_c / (9. * 2. / 3. * E * delta))));
 }
 

@@ -5,6 +5,7 @@
 #include "fracture/peridynamics/bond_forces.h"
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/state_based.h"
+#include "lattice_rock.h"
 
 #include <cmath>
 #include <functional>
@@ -16,15 +17,6 @@ using namespace stockwork::peridynamics;
 
 namespace
 {
-RockProperties rock(const double poisson_ratio, const bool plane_stress = false)
-{
-  RockProperties rock;
-  rock.young_modulus = 1e10;
-  rock.poisson_ratio = poisson_ratio;
-  rock.plane_stress = plane_stress;
-  return rock;
-}
-
 template <int dim>
 double dot(const LatticeField<dim> &a, const LatticeField<dim> &b)
 {
@@ -231,7 +223,7 @@ TEST_CASE_TEMPLATE("forces are the derivative of the energy, with bonds broken",
   {
     CAPTURE(poisson_ratio);
     const auto stencil = horizon_stencil<dim>(2, VolumeRule::exact);
-    BondLaw law = state_based_law<dim>(rock(poisson_ratio), stencil, spacing);
+    BondLaw law = state_based_law<dim>(lattice_rock(poisson_ratio), stencil, spacing);
     if (poisson_ratio == 0.25)
       law.dilatation_modulus = 0.;
     LatticeBox<dim> box;
@@ -292,7 +284,7 @@ TEST_CASE("the dilatation of a homogeneous strain is its trace; a cut site's is 
 {
   const double spacing = 0.25;
   const auto stencil = horizon_stencil<3>(3, VolumeRule::exact);
-  const BondLaw law = state_based_law<3>(rock(0.35), stencil, spacing);
+  const BondLaw law = state_based_law<3>(lattice_rock(0.35), stencil, spacing);
   const auto bonds = bond_coefficients(stencil, law, spacing);
   std::vector<dealii::Tensor<1, 3>> theta;
   dilatation_functional(
@@ -333,7 +325,7 @@ TEST_CASE_TEMPLATE("patch test, linear: exact whatever the modulus",
   for (const double poisson_ratio : {0.15, 0.25, 0.35})
     for (const double scale : {1., 1.1}) // this test cannot see a wrong modulus
       for (const auto rule : {VolumeRule::exact, VolumeRule::ramp})
-        CHECK(patch_error(linear, rock(poisson_ratio), 3, rule, n, scale, false) < 1e-11);
+        CHECK(patch_error(linear, lattice_rock(poisson_ratio), 3, rule, n, scale, false) < 1e-11);
 }
 
 TEST_CASE_TEMPLATE("patch test, quadratic with body force",
@@ -344,9 +336,9 @@ TEST_CASE_TEMPLATE("patch test, quadratic with body force",
   constexpr int dim = D::value;
   const unsigned int n = (dim == 2 ? 24 : 6);
   const Quadratic<dim> quadratic(1.);
-  std::vector<RockProperties> rocks{rock(0.15), rock(0.25), rock(0.35)};
+  std::vector<RockProperties> rocks{lattice_rock(0.15), lattice_rock(0.25), lattice_rock(0.35)};
   if (dim == 2)
-    rocks.insert(rocks.end(), {rock(1. / 3., true), rock(0.2, true)});
+    rocks.insert(rocks.end(), {lattice_rock(1. / 3., true), lattice_rock(0.2, true)});
   for (const RockProperties &r : rocks)
     for (const unsigned int m : {3u, 4u})
     {
@@ -370,9 +362,9 @@ TEST_CASE("patch test, quadratic: the worst single term shows the lattice's anis
   for (const auto &[m, worst] : {std::pair{3u, 1.8e-3}, {4u, 0.7e-3}})
     for (const auto &term : {Quadratic<2>(0, 0, 0), Quadratic<2>(0, 0, 1), Quadratic<2>(0, 1, 1)})
     {
-      CHECK(patch_error(term, rock(0.25), m, VolumeRule::exact, 24) < worst);
-      CHECK(patch_error(term, rock(0.25), m, VolumeRule::exact, 24) > 0.9 * worst);
-      CHECK(patch_error(term, rock(0.25), m, VolumeRule::isotropic, 24) < 1e-11);
+      CHECK(patch_error(term, lattice_rock(0.25), m, VolumeRule::exact, 24) < worst);
+      CHECK(patch_error(term, lattice_rock(0.25), m, VolumeRule::exact, 24) > 0.9 * worst);
+      CHECK(patch_error(term, lattice_rock(0.25), m, VolumeRule::isotropic, 24) < 1e-11);
     }
 }
 
@@ -384,11 +376,11 @@ TEST_CASE("a bar of bonds under its own weight, between rigid ends, fails with a
   for (const double scale : {0.87, 0.97, 1.03, 1.33})
   {
     CAPTURE(scale);
-    const double error = patch_error(bar, rock(0.25), 3, VolumeRule::isotropic, 24, scale);
+    const double error = patch_error(bar, lattice_rock(0.25), 3, VolumeRule::isotropic, 24, scale);
     // The bar's own sag, a quarter of (1/scale - 1) at mid-length, confined by the walls.
     CHECK(error > 0.1 * std::abs(1. / scale - 1.));
     CHECK(error < 0.25 * std::abs(1. / scale - 1.));
   }
-  CHECK(patch_error(bar, rock(0.25), 3, VolumeRule::isotropic, 24, 1.) < 1e-11);
+  CHECK(patch_error(bar, lattice_rock(0.25), 3, VolumeRule::isotropic, 24, 1.) < 1e-11);
 }
 } // namespace stockwork::peridynamics_patch_test

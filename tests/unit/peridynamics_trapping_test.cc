@@ -5,6 +5,7 @@
 #include "fracture/peridynamics/bond_forces.h"
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/state_based.h"
+#include "lattice_rock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -237,14 +238,6 @@ double driving_force(const RockProperties &rock,
   return sum / (n_cells - 4);
 }
 
-RockProperties rock(const double poisson_ratio)
-{
-  RockProperties rock;
-  rock.young_modulus = 1e10;
-  rock.poisson_ratio = poisson_ratio;
-  rock.energy_release_rate = 100.;
-  return rock;
-}
 } // namespace
 
 TEST_CASE("with the calibrated critical stretch a crack grows steadily at G_c")
@@ -252,7 +245,7 @@ TEST_CASE("with the calibrated critical stretch a crack grows steadily at G_c")
   for (const unsigned int m : {2u, 3u, 4u})
   {
     CAPTURE(m);
-    const double force = driving_force(rock(0.25), m, VolumeRule::exact);
+    const double force = driving_force(lattice_rock(0.25), m, VolumeRule::exact);
     MESSAGE("m = ", m, ": J/G_c = ", force);
     CHECK(force * trapping_factor(m) * trapping_factor(m) == doctest::Approx(1.).epsilon(0.02));
   }
@@ -260,15 +253,18 @@ TEST_CASE("with the calibrated critical stretch a crack grows steadily at G_c")
 
 TEST_CASE("the driving force does not depend on the size of the square")
 {
-  const double small = driving_force(rock(0.25), 3, VolumeRule::exact, 30);
-  const double large = driving_force(rock(0.25), 3, VolumeRule::exact, 60);
+  const double small = driving_force(lattice_rock(0.25), 3, VolumeRule::exact, 30);
+  const double large = driving_force(lattice_rock(0.25), 3, VolumeRule::exact, 60);
   CHECK(small == doctest::Approx(large).epsilon(0.01));
 }
 
 TEST_CASE("driving force with isotropic volumes, and of state-based rock")
 {
-  CHECK(driving_force(rock(0.25), 3, VolumeRule::isotropic) == doctest::Approx(1.48).epsilon(0.03));
-  CHECK(driving_force(rock(0.15), 3, VolumeRule::exact) == doctest::Approx(1.33).epsilon(0.03));
-  CHECK(driving_force(rock(0.35), 3, VolumeRule::exact) == doctest::Approx(1.60).epsilon(0.03));
+  CHECK(driving_force(lattice_rock(0.25), 3, VolumeRule::isotropic) ==
+        doctest::Approx(1.48).epsilon(0.03));
+  CHECK(driving_force(lattice_rock(0.15), 3, VolumeRule::exact) ==
+        doctest::Approx(1.33).epsilon(0.03));
+  CHECK(driving_force(lattice_rock(0.35), 3, VolumeRule::exact) ==
+        doctest::Approx(1.60).epsilon(0.03));
 }
 } // namespace stockwork::peridynamics_trapping_test
