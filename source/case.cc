@@ -235,7 +235,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   CouplingParameters coupling;
   coupling.parse_parameters(prm);
-  coupling.check(rock.main(), discretisation.has_pore_pressure, model_name != "none");
+  coupling.check(rock.main(), discretisation.has_pore_pressure,
+                 model_name != "none" && !model->requirements().bulk_alone);
 
   ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
   input.has_pore_pressure = discretisation.has_pore_pressure;
@@ -260,12 +261,11 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
   const bool moved = boundary_conditions.greatest_displacement(control.end_time) > 0.;
-  audits_energy = !discretisation.has_pore_pressure && in_situ.is_zero() &&
-                  !model->requirements().changes_bulk &&
-                  (scheme.kind() == TimeScheme::Kind::newmark
-                     ? scene.cracks.empty() && !moved
-                     : (scene.cracks.empty() || scene.crack_pressure == 0.) && moved &&
-                         boundary_conditions.loads().empty());
+  audits_energy =
+    !discretisation.has_pore_pressure && in_situ.is_zero() && !model->requirements().changes_bulk &&
+    (scene.cracks.empty() || scene.crack_pressure == 0.) &&
+    (scheme.kind() == TimeScheme::Kind::newmark ? !moved
+                                                : moved && boundary_conditions.loads().empty());
   if (const std::string &entry = boundary_conditions.entry_with_reference(); !entry.empty())
   {
     if (!reference || !reference->field())

@@ -37,7 +37,8 @@ struct CouplingParameters
 
   /// Throws InputError for a scheme that cannot converge in this rock, unless it is forced: drained
   /// and fixed-strain splits need alpha^2 M / K < 1 (Kim, Tchelepi & Juanes 2011), the undrained
-  /// split a fluid or grains that can be compressed. Fracture unknowns are not split yet.
+  /// split a fluid or grains that can be compressed. Fractures are not split: their opening couples
+  /// rock and fluid far more strongly than the pores do. Bonds without a fracture are.
   void check(const RockProperties &rock, bool has_pore_pressure, bool has_fracture) const;
 };
 

@@ -68,6 +68,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.symmetric_bulk = false;
   requirements.linear_elements = true;
   requirements.pore_pressure = parameters.tensor_fluid;
+  requirements.bulk_alone = scene.cracks.empty() && !parameters.growth;
   return requirements;
 }
 
