@@ -13,7 +13,8 @@
              anything is computed
 
 An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
-(`errors/pore_pressure/final`); OP is one of < <= > >= ==, or = which needs the relative TOLERANCE;
+(`errors/pore_pressure/final`), or is `rates/COLUMN` of statistics.csv: its growth per time in the
+second half of the run; OP is one of < <= > >= ==, or = which needs the relative TOLERANCE;
 VALUE is a number or another path. A list stands for its length (`warnings == 0`), and what is
 missing, null or not finite fails.
 """
@@ -105,6 +106,14 @@ def check_all(expectations, summary):
     return failed
 
 
+def late_rates(table):
+    """Of each column that is all numbers."""
+    times = table["time"]
+    first = next(i for i, time in enumerate(times) if time >= 0.5 * times[-1])
+    return {name: (column[-1] - column[first]) / (times[-1] - times[first])
+            for name, column in table.items() if all(isinstance(x, float) for x in column)}
+
+
 # ------------------------------------------------------------------------------------------ runs
 
 class Runner:
@@ -174,6 +183,8 @@ class Runner:
 def run_case(runner, options):
     expectations = [Expectation(text) for text in options.expect]
     summary = runner.run("run", options.deck, options.set, options.ranks)
+    if any(e.path.startswith("rates/") for e in expectations):
+        summary["rates"] = late_rates(read_statistics(runner.output("run")))
     failed = check_all(expectations, summary)
     failed += [f"no warning says '{text}', but {summary['warnings']}" for text in options.warns
                if not any(text in warning for warning in summary["warnings"])]

@@ -127,3 +127,22 @@ stockwork_case_test(NAME convergence/dcb/medium DECK prm/dcb/cohesive_xfem.prm N
   SET "Resolution=medium"
   EXPECT "errors/peak_load/final < 0.005" "errors/load/final < 0.01"
          "errors/dissipated_energy/final < 0.012")
+
+# A crack that follows a wave of opening: the power of the edges over its speed, 8 m/s, is the energy
+# release rate. G_c is 100 J/m^2. The surface correction adds energy as bonds break, 5 % of G_c.
+stockwork_case_test(NAME convergence/surfing/peridynamics DECK prm/surfing/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
+      "Fracture/peridynamics/Surface correction=false"
+  EXPECT "rates/external_work = 800 within 0.02" "rates/dissipated_energy = 800 within 0.02")
+stockwork_case_test(NAME convergence/surfing/peridynamics/corrected DECK prm/surfing/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
+  EXPECT "rates/external_work = 800 within 0.06" "rates/dissipated_energy = 800 within 0.04")
+# A plate with a notch, pulled suddenly.
+stockwork_case_test(NAME convergence/peridynamics/dynamic_notch DECK tests/data/dynamic_notch.prm
+  EXPECT "final/energy_balance_error < 0.004" "final/dissipated_energy > 40"
+         "final/kinetic_energy > 100")
+stockwork_case_test(NAME convergence/peridynamics/dynamic_notch/brittle
+  DECK tests/data/dynamic_notch.prm
+  SET "Fracture/peridynamics/Softening=1"
+  EXPECT "final/energy_balance_error < 0.01" "final/dissipated_energy > 20"
+         "final/kinetic_energy > 100")
