@@ -133,6 +133,11 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
     const double rate = the_case.network.rate_of_first_well(the_case.control.end_time);
     if (dim == 2 && rate > 0.)
       add_hydraulic_numbers(the_case, rate, numbers);
+    if (rate > 0. && the_case.scheme.kind() == TimeScheme::Kind::newmark &&
+        !the_case.scheme.damps())
+      numbers.push_back({"Newmark gamma", 0.5,
+                         "nothing damps the pressure in the fracture, which swings from step to "
+                         "step the more, the shorter these are: try 0.6, and beta = 0.3025"});
   }
   return numbers;
 }

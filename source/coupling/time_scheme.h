@@ -53,6 +53,12 @@ public:
 
   unsigned int order() const;
 
+  /// Whether Newmark's scheme damps high frequencies.
+  bool damps() const
+  {
+    return gamma > 0.5;
+  }
+
   Kind kind() const
   {
     return scheme;

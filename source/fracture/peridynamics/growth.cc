@@ -237,6 +237,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   }
   if (rim == Rim::grows)
   {
+    enlarge_zone(); // for where this step wants to go: it takes effect after a shorter one
     verdict.kind = Verdict::Kind::reject;
     verdict.reason = "a crack has come to the rim of the zone, which grows between steps";
     return verdict;
