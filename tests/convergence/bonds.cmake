@@ -75,7 +75,13 @@ stockwork_case_test(NAME convergence/kgd/sun/permeable/peridynamics
   EXPECT "final/fracture_length = 1.6 within 0.13" "final/inlet_pressure = 9.51e5 within 0.05"
          "final/inlet_aperture = 2.38e-4 within 0.05" "fluid_balance/relative_error < 1e-8"
          "final/missing_volume < 1e-12" "final/missing_volume > -1e-12")
-# The same, with the fluid in the elements of the pore pressure, as in the prototype.
+# As published, load and fluid: four times the pressure, and faces that overlap.
+stockwork_case_test(NAME convergence/kgd/sun/as_published/peridynamics
+  DECK prm/kgd/sun/as_published/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false"
+  EXPECT "final/inlet_pressure > 3e6" "final/inlet_aperture < -2e-5" "final/fracture_length < 1.2"
+         "final/fracture_volume < 6e-5")
+# With the fluid in the elements of the pore pressure, as in the prototype.
 stockwork_case_test(NAME convergence/kgd/sun/permeable/tensor
   DECK prm/kgd/sun/permeable/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=5 s" "Output/Fields=false"

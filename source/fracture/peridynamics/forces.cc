@@ -50,6 +50,12 @@ void Peridynamics<dim>::add_couplings(
           dofs[d] = zone.sites()[i].dofs[d];
           dofs[dim + d] = far.dofs[d];
         }
+        if (parameters.tensor_fluid && parameters.as_published)
+        {
+          dofs.resize(2 * dim);
+          dofs.push_back(zone.sites()[i].pressure_dof);
+          dofs.push_back(far.pressure_dof);
+        }
         couple(dofs);
       }
   for_each_dilatation(
@@ -221,6 +227,8 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   assemble_softening(state, sink);
   if (parameters.tensor_fluid)
     assemble_tensor_fluid(context, state, sink);
+  if (parameters.tensor_fluid && parameters.as_published)
+    assemble_published_closure(context, state, sink);
   if (in_situ_is_zero)
     return;
   LocalSystem local;

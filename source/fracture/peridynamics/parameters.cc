@@ -71,7 +71,10 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "What the pressure in a crack does to the rock. conserving: it loads the faces, "
     "and does the work of their opening. as published: it lengthens unbroken bonds "
     "(Sun et al. 2021, Eqs. 7 and 28), which leaves the faces without a load and "
-    "opens a crack to a tenth; for comparison, in elastic rock.");
+    "opens a crack to a tenth; for comparison. In porous rock with 'Fluid = permeability tensor' "
+    "only, and with the balance of fluid that is printed: fracture cells conduct by w^2/12 over "
+    "all "
+    "of their height, store 1/K_f, and their change of volume does not count.");
   prm.declare_entry(
     "Fluid", "network", Patterns::Selection("network|permeability tensor"),
     "What carries the fluid along a fracture. network: pressures of its own, which may differ from "

@@ -49,9 +49,11 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   if (!(rock.energy_release_rate > 0.) && parameters.growth)
     throw InputError("Peridynamics needs the rock's energy release rate G_c (Rock / Critical "
                      "energy release rate, or Fracture toughness), or 'Growth = false'.");
-  if (parameters.as_published && scene.rock.bulk_model() == "poroelastic")
+  if (parameters.as_published && !parameters.tensor_fluid &&
+      scene.rock.bulk_model() == "poroelastic")
     throw EntryError("Fracture/peridynamics/Closure", "as published",
-                     "'conserving' in porous rock (Rock/Bulk model)");
+                     "'conserving' in porous rock (Rock/Bulk model), or 'Fluid = permeability "
+                     "tensor'");
   if (scene.cracks.empty() && parameters.boxes.empty())
     throw InputError("Peridynamics needs an initial crack, or the box of its 'Zone'.");
   shape.cracks = scene.cracks;
@@ -142,7 +144,7 @@ void Peridynamics<dim>::refresh_segments()
         cell.normal[d] = old->second[d];
   all_segments = make_segments(zone, cells);
   at_front.clear();
-  if (parameters.as_published)
+  if (parameters.as_published && !parameters.tensor_fluid)
   {
     const RockProperties &rock = scene.rock.main();
     const double stretch_of_pressure = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
@@ -170,13 +172,20 @@ void Peridynamics<dim>::refresh_segments()
     if (zone.owns(cells[i].place))
     {
       owned_cells.push_back(i);
-      if (scene.has_pore_pressure)
+      if (scene.has_pore_pressure && !parameters.as_published)
         normals[zone.active_cell_index(cells[i].place)] = cells[i].normal;
       owned_segments.push_back(segment);
       if (parameters.tensor_fluid)
       {
         owned_segments.back().neighbours.clear();
         owned_segments.back().pore_distance = 0.;
+        // As published, its load is the bonds' affair, and its opening makes no room.
+        if (parameters.as_published)
+        {
+          owned_segments.back().share_of_pores = 1.;
+          owned_segments.back().load.bulk = {segment.opening.bulk[0]};
+          owned_segments.back().load.bulk_coefficients = {0.};
+        }
       }
     }
   }

@@ -151,6 +151,9 @@ private:
   /// What fracture cells conduct along the fracture, in the elements of the pore pressure.
   void assemble_tensor_fluid(const StepContext &context, const State &state, Sink &sink) const;
 
+  /// What the closure as published does otherwise in porous rock.
+  void assemble_published_closure(const StepContext &context, const State &state, Sink &sink) const;
+
   /// The softening bonds as they are committed.
   void restore_softening();
 

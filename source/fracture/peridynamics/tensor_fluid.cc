@@ -11,12 +11,46 @@ namespace
 {
 /// Aperture at which a closed fracture conducts [m], as that of the network by default.
 constexpr double minimum_aperture = 10e-6;
+
+/// Of a cell's corners, at a point of the unit cell.
+template <int dim>
+struct ShapeFunctions
+{
+  std::array<double, 1 << dim> value;
+  std::array<Tensor<1, dim>, 1 << dim> gradient; ///< [1/m]
+
+  ShapeFunctions(const dealii::Point<dim> &x, const double spacing)
+  {
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+    {
+      value[v] = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[v] *= v >> d & 1 ? x[d] : 1. - x[d];
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        gradient[v][d] = (v >> d & 1 ? 1. : -1.) / spacing;
+        for (unsigned int e = 0; e < dim; ++e)
+          if (e != d)
+            gradient[v][d] *= v >> e & 1 ? x[e] : 1. - x[e];
+      }
+    }
+  }
+};
+
+/// Cube of the hydraulic aperture; w^2 height in the closure as published.
+ValueAndSlope conductance(const double w, const double height, const bool as_published)
+{
+  if (!as_published)
+    return hydraulic_aperture_cubed(w, minimum_aperture);
+  return w > minimum_aperture ? ValueAndSlope{w * w * height, 2. * w * height}
+                              : ValueAndSlope{minimum_aperture * minimum_aperture * height, 0.};
+}
 } // namespace
 
 
 /// After Sun et al. (2021), Eqs. 16 and 17, with the cubic law: in a cell that the fracture passes
 /// with area A, rock of height V/A and permeability w^3/(12 V/A) (I - n n) conducts what the
-/// fracture does (printed: w^2/12 I, by V/(A w) too much). Segments have no neighbours then and no
+/// fracture does (printed: w^2/12, by V/(A w) too much). Segments have no neighbours then and no
 /// drop of pressure to the pores, so that their pressure is the cell's mean; their opening, their
 /// load on the rock and the wells stay the network's.
 template <int dim>
@@ -35,9 +69,9 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
     double w = B.constant;
     for (unsigned int k = 0; k < B.bulk.size(); ++k)
       w += B.bulk_coefficients[k] * state.current.bulk(B.bulk[k]);
-    const ValueAndSlope cubed = hydraulic_aperture_cubed(w, minimum_aperture);
-    const double factor =
-      context.effective_dt() / (12. * scene.rock.fluid().viscosity * volume / segment.area);
+    const double height = volume / segment.area;
+    const ValueAndSlope cubed = conductance(w, height, parameters.as_published);
+    const double factor = context.effective_dt() / (12. * scene.rock.fluid().viscosity * height);
 
     local.bulk = P.bulk;
     local.bulk.insert(local.bulk.end(), B.bulk.begin(), B.bulk.end());
@@ -45,16 +79,10 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
     for (unsigned int q = 0; q < quadrature.size(); ++q)
     {
       Tensor<1, dim> flow; // gradient of the pressure along the fracture
+      const ShapeFunctions<dim> shape(quadrature.point(q), zone.spacing());
       for (unsigned int v = 0; v < n; ++v)
       {
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          gradient[v][d] = (v >> d & 1 ? 1. : -1.) / zone.spacing();
-          for (unsigned int e = 0; e < dim; ++e)
-            if (e != d)
-              gradient[v][d] *= v >> e & 1 ? quadrature.point(q)[e] : 1. - quadrature.point(q)[e];
-        }
-        gradient[v] -= (gradient[v] * segment.normal) * segment.normal;
+        gradient[v] = shape.gradient[v] - (shape.gradient[v] * segment.normal) * segment.normal;
         flow += state.current.bulk(P.bulk[v]) * gradient[v];
       }
       const double weight = factor * quadrature.weight(q) * volume;
@@ -72,8 +100,88 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
   }
 }
 
-template void
-Peridynamics<2>::assemble_tensor_fluid(const StepContext &, const State &, Sink &) const;
-template void
-Peridynamics<3>::assemble_tensor_fluid(const StepContext &, const State &, Sink &) const;
+/// What Sun et al. (2021) print for porous rock, as corrections of what there is otherwise.
+/// Momentum: a bond pushes its ends apart by the mean of their pore pressures (Eqs. 7 and 28), and
+/// a broken one does not; intact, all bonds together are the elements' load. Mass: in a fracture
+/// cell the volume strain does not count, and the storage is that of fluid alone, 1/K_f over the
+/// whole cell.
+template <int dim>
+void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
+                                                   const State &state,
+                                                   Sink &sink) const
+{
+  constexpr unsigned int n = 1 << dim;
+  const RockProperties &rock = scene.rock.main();
+  LocalSystem local;
+
+  const double stretch_of_pressure =
+    rock.biot_coefficient / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
+  local.bulk.resize(dim + 2);
+  for (const unsigned int i : zone.peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size() && has_rows(i); ++b)
+    {
+      const Site<dim> &site = zone.sites()[i], &far = zone.sites()[zone.far_end(i, b).site];
+      if (!bonds.is_broken(i, b))
+        continue;
+      const double push =
+        0.5 * stretch_of_pressure * site.share * coefficients[b].stiffness * coefficients[b].length;
+      local.bulk[dim] = site.pressure_dof;
+      local.bulk[dim + 1] = far.pressure_dof;
+      local.reinit();
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        local.bulk[d] = site.dofs[d];
+        for (unsigned int end = 0; end < 2; ++end)
+        {
+          local.matrix(d, dim + end) = -push * coefficients[b].direction[d];
+          local.residual(d) +=
+            local.matrix(d, dim + end) * state.current.bulk(local.bulk[dim + end]);
+        }
+      }
+      sink.add(local);
+    }
+
+  const double volume = dealii::Utilities::fixed_power<dim>(zone.spacing());
+  const double more_storage = (scene.rock.fluid().compressibility - rock.inverse_biot_modulus) *
+                              context.pressure_rate / context.rate;
+  const dealii::QGauss<dim> quadrature(2);
+  for (const Segment<dim> &segment : owned_segments)
+  {
+    const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
+    const auto gain = [&](const auto dof)
+    { return state.current.bulk(dof) - state.rate_reference.bulk(dof); };
+    local.bulk = P.bulk;
+    local.bulk.insert(local.bulk.end(), B.bulk.begin(), B.bulk.end());
+    local.reinit();
+    for (unsigned int a = 0; a < n; ++a) // what the segment's opening takes comes from nowhere
+      for (unsigned int k = 0; k < B.bulk.size(); ++k)
+        local.matrix(a, n + k) += segment.area / n * B.bulk_coefficients[k];
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+    {
+      const ShapeFunctions<dim> shape(quadrature.point(q), zone.spacing());
+      const double weight = quadrature.weight(q) * volume;
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int v = 0; v < n; ++v)
+        {
+          local.matrix(a, v) -= more_storage * shape.value[a] * shape.value[v] * weight;
+          for (unsigned int d = 0; d < dim; ++d) // the order of the functional, see jump()
+            local.matrix(a, n + v * dim + d) +=
+              rock.biot_coefficient * shape.value[a] * shape.gradient[v][d] * weight;
+        }
+    }
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int k = 0; k < local.bulk.size(); ++k)
+        local.residual(a) += local.matrix(a, k) * gain(local.bulk[k]);
+    sink.add(local);
+  }
+}
+
+#define INSTANTIATE(dim)                                                                          \
+  template void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &, const State &,      \
+                                                         Sink &) const;                           \
+  template void Peridynamics<dim>::assemble_published_closure(const StepContext &, const State &, \
+                                                              Sink &) const;
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace stockwork::peridynamics
