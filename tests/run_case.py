@@ -36,7 +36,8 @@ from results import lookup, read_statistics, read_summary  # noqa: E402
 MPIRUN = "mpirun --allow-run-as-root --oversubscribe -np"
 
 # Columns and finals that differ between equal computations.
-NOT_PHYSICS = re.compile(r"wall|second|iteration|memory|relative_error|residual|time_left")
+NOT_PHYSICS = re.compile(
+    r"wall|second|iteration|memory|relative_error|residual|time_left|missing_volume")
 
 OPERATORS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge,
              "==": operator.eq}

@@ -3,6 +3,9 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace stockwork::peridynamics
 {
 using dealii::Tensor;
@@ -42,8 +45,9 @@ ValueAndSlope conductance(const double w, const double height, const bool as_pub
 {
   if (!as_published)
     return hydraulic_aperture_cubed(w, minimum_aperture);
-  return w > minimum_aperture ? ValueAndSlope{w * w * height, 2. * w * height}
-                              : ValueAndSlope{minimum_aperture * minimum_aperture * height, 0.};
+  const double open = std::max(w, 0.),
+               squared = std::hypot(open * open, std::pow(minimum_aperture, 2));
+  return {squared * height, 2. * std::pow(open, 3) / squared * height};
 }
 } // namespace
 
