@@ -293,14 +293,13 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
                                                      const Collectives &collectives) const
 {
   const unsigned int n = network.size();
-  std::vector<double> all(4 * n);
+  std::vector<double> all(3 * n);
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
     const unsigned int i = owned_index[k];
     all[i] = value(owned[k].opening, state.current);
-    all[n + i] = value(owned[k].opening, state.rate_reference);
+    all[n + i] = value(owned[k].opening, state.committed);
     all[2 * n + i] = value(owned[k].pore_pressure, state.current);
-    all[3 * n + i] = value(owned[k].opening, state.committed);
   }
   collectives.sum(all);
 
@@ -320,11 +319,11 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
       reference *= network[i].share_of_pores;
     else if (old != history.end())
       reference +=
-        (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - all[3 * n + i]);
+        (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - all[n + i]);
   }
   values.pore_pressure.assign(all.begin() + 2 * n, all.begin() + 3 * n);
   values.pressure = pressures(state.current);
-  values.pressure_reference = pressures(state.rate_reference);
+  values.pressure_reference = pressures(state.committed);
   values.cake_drop.resize(n);
   for (unsigned int i = 0; i < n; ++i)
     values.cake_drop[i] = leak_off_rows[i] == no_row ? values.pressure[i] - values.pore_pressure[i]
@@ -362,11 +361,12 @@ void Network<dim>::assemble_segment(const unsigned int index,
                                     const Values &values,
                                     LocalSystem &local) const
 {
+  // The fluid's volumes are those of the step, whatever the scheme of the rock: rates of apertures
+  // by Newmark's do not add up to apertures, and where cells open, fluid would be lost.
   const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
-  const double area = segment.area, dt = context.effective_dt();
+  const double area = segment.area, dt = context.dt;
   const double w = values.aperture[index], p = values.pressure[index];
-  // Pressures have a rate of their own; balances are integrated over 1/rate.
-  const double c_f = compressibility * context.pressure_rate / context.rate;
+  const double c_f = compressibility;
 
   // Places in the local system: bulk of B, P and a load of its own, extra of B, own row, others'.
   const unsigned int cake_row = leak_off_rows[index], p_bulk = B.bulk.size();
@@ -451,7 +451,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
   if (leak_off == LeakOff::carter && own != no_row)
   {
     const Exposure times = exposure(index, context, values);
-    const double faces = 2. * area * dt / context.dt;
+    const double faces = 2. * area;
     local.residual(own) -= faces * carter_volume(carter_coefficient, times.begin, times.end);
     if (times.end > 0.)
       add_aperture_slope(own, -faces * carter_coefficient / std::sqrt(times.end) * times.slope);
@@ -469,17 +469,18 @@ void Network<dim>::assemble_segment(const unsigned int index,
   {
     local.residual(cake) += c * (d - p + values.pore_pressure[index]);
     local.matrix(cake, cake) += c;
-    const auto couple = [&](const unsigned int place, const double entry)
-    {
-      local.matrix(cake, place) += entry;
-      local.matrix(place, cake) += entry;
-    };
     if (own != no_row)
-      couple(own, -c);
+    {
+      local.matrix(cake, own) -= c;
+      local.matrix(own, cake) -= c;
+    }
+    // The balance of the rock is over the time of its scheme.
+    const double c_rock = c * context.effective_dt() / context.dt;
     for (unsigned int i = 0; i < P.bulk.size(); ++i)
     {
-      local.residual(p_bulk + i) += c * d * P.bulk_coefficients[i];
-      couple(p_bulk + i, c * P.bulk_coefficients[i]);
+      local.residual(p_bulk + i) += c_rock * d * P.bulk_coefficients[i];
+      local.matrix(cake, p_bulk + i) += c * P.bulk_coefficients[i];
+      local.matrix(p_bulk + i, cake) += c_rock * P.bulk_coefficients[i];
     }
   }
 }

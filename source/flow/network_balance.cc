@@ -34,19 +34,15 @@ FluidBalance Network<dim>::balance(const StepContext &context,
 {
   const Values values = evaluate(state, collectives);
   const std::vector<double> leaked = leaked_in_step(context, values);
-  // Storage terms of the scheme, carried over from its effective time to that of the step.
-  const double scheme = context.dt * context.rate;
-  const double c_f = compressibility * context.pressure_rate / context.rate;
 
   FluidBalance balance;
   balance.step = all_wells.volumes(context, state);
   for (unsigned int i = 0; i < network.size(); ++i)
   {
     const double area = network[i].area, w = values.aperture[i];
-    const double gain =
-      scheme * area *
-      (w - values.aperture_reference[i] +
-       std::max(w, 0.) * c_f * (values.pressure[i] - values.pressure_reference[i]));
+    const double gain = area * (w - values.aperture_reference[i] +
+                                std::max(w, 0.) * compressibility *
+                                  (values.pressure[i] - values.pressure_reference[i]));
     balance.fracture_volume += area * w;
     balance.step.in_fractures += gain;
     balance.step.leaked += leaked[i];

@@ -265,7 +265,7 @@ void Wells<dim>::assemble(const StepContext &context,
                           const std::vector<unsigned int> &rows,
                           Sink &sink) const
 {
-  const double dt = context.effective_dt();
+  const double dt = context.dt;
   LocalSystem local;
   for (const Well &well : wells)
   {
@@ -309,11 +309,11 @@ void Wells<dim>::assemble(const StepContext &context,
     if (!well.is_direct() && !well.pressure_control)
     {
       const unsigned int index = well.pressure_index();
-      const double c = well.volume * compressibility * context.pressure_rate / context.rate;
+      const double c = well.volume * compressibility;
       local.extra = {index};
       local.reinit();
-      local.residual(0) = dt * well.given(context) -
-                          c * (state.current.extra[index] - state.rate_reference.extra[index]);
+      local.residual(0) =
+        dt * well.given(context) - c * (state.current.extra[index] - state.committed.extra[index]);
       local.matrix(0, 0) = -c;
       sink.add(local);
     }
@@ -332,9 +332,8 @@ FluidVolumes Wells<dim>::volumes(const StepContext &context, const State &state)
     if (!well.is_direct() && !well.pressure_control)
     {
       const unsigned int index = well.pressure_index();
-      volumes.in_boreholes += well.volume * compressibility *
-                              (state.current.extra[index] - state.rate_reference.extra[index]) *
-                              context.pressure_rate * context.dt;
+      volumes.in_boreholes +=
+        well.volume * compressibility * (state.current.extra[index] - state.committed.extra[index]);
     }
   }
   return volumes;
