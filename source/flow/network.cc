@@ -289,17 +289,20 @@ double Network<dim>::pressure(const std::uint64_t key, const Unknowns &unknowns)
 
 
 template <int dim>
-typename Network<dim>::Values Network<dim>::evaluate(const State &state,
+typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
+                                                     const State &state,
                                                      const Collectives &collectives) const
 {
   const unsigned int n = network.size();
-  std::vector<double> all(3 * n);
+  const Unknowns &reference_state = state.fracture_reference(context);
+  std::vector<double> all(4 * n);
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
     const unsigned int i = owned_index[k];
     all[i] = value(owned[k].opening, state.current);
-    all[n + i] = value(owned[k].opening, state.committed);
+    all[n + i] = value(owned[k].opening, reference_state);
     all[2 * n + i] = value(owned[k].pore_pressure, state.current);
+    all[3 * n + i] = value(owned[k].opening, state.committed);
   }
   collectives.sum(all);
 
@@ -319,11 +322,11 @@ typename Network<dim>::Values Network<dim>::evaluate(const State &state,
       reference *= network[i].share_of_pores;
     else if (old != history.end())
       reference +=
-        (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - all[n + i]);
+        (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - all[3 * n + i]);
   }
   values.pore_pressure.assign(all.begin() + 2 * n, all.begin() + 3 * n);
   values.pressure = pressures(state.current);
-  values.pressure_reference = pressures(state.committed);
+  values.pressure_reference = pressures(reference_state);
   values.cake_drop.resize(n);
   for (unsigned int i = 0; i < n; ++i)
     values.cake_drop[i] = leak_off_rows[i] == no_row ? values.pressure[i] - values.pore_pressure[i]
@@ -340,7 +343,7 @@ void Network<dim>::assemble(const StepContext &context,
 {
   if (network.empty())
     return;
-  const Values values = evaluate(state, collectives);
+  const Values values = evaluate(context, state, collectives);
   LocalSystem local;
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
@@ -361,12 +364,11 @@ void Network<dim>::assemble_segment(const unsigned int index,
                                     const Values &values,
                                     LocalSystem &local) const
 {
-  // The fluid's volumes are those of the step, whatever the scheme of the rock: rates of apertures
-  // by Newmark's do not add up to apertures, and where cells open, fluid would be lost.
   const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
-  const double area = segment.area, dt = context.dt;
+  const double area = segment.area, dt = context.fracture_dt();
   const double w = values.aperture[index], p = values.pressure[index];
-  const double c_f = compressibility;
+  // Pressures have a rate of their own; balances are integrated over 1/rate.
+  const double c_f = compressibility * context.fracture_pressure_factor();
 
   // Places in the local system: bulk of B, P and a load of its own, extra of B, own row, others'.
   const unsigned int cake_row = leak_off_rows[index], p_bulk = B.bulk.size();
@@ -451,7 +453,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
   if (leak_off == LeakOff::carter && own != no_row)
   {
     const Exposure times = exposure(index, context, values);
-    const double faces = 2. * area;
+    const double faces = 2. * area * dt / context.dt;
     local.residual(own) -= faces * carter_volume(carter_coefficient, times.begin, times.end);
     if (times.end > 0.)
       add_aperture_slope(own, -faces * carter_coefficient / std::sqrt(times.end) * times.slope);
@@ -475,7 +477,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
       local.matrix(own, cake) -= c;
     }
     // The balance of the rock is over the time of its scheme.
-    const double c_rock = c * context.effective_dt() / context.dt;
+    const double c_rock = c * context.effective_dt() / dt;
     for (unsigned int i = 0; i < P.bulk.size(); ++i)
     {
       local.residual(p_bulk + i) += c_rock * d * P.bulk_coefficients[i];

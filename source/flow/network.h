@@ -159,7 +159,7 @@ private:
     double width;          ///< of the edge; at a tip less, see tip_gradient_factor()
   };
 
-  Values evaluate(const State &, const Collectives &) const;
+  Values evaluate(const StepContext &, const State &, const Collectives &) const;
 
   /// The time of exposure of a segment's faces before and after a step.
   struct Exposure

@@ -32,17 +32,22 @@ FluidBalance Network<dim>::balance(const StepContext &context,
                                    const State &state,
                                    const Collectives &collectives) const
 {
-  const Values values = evaluate(state, collectives);
+  const Values values = evaluate(context, state, collectives);
   const std::vector<double> leaked = leaked_in_step(context, values);
+
+  // Storage terms of the scheme, carried over from its effective time to that of the step.
+  const double scheme = context.dt / context.fracture_dt();
+  const double c_f = compressibility * context.fracture_pressure_factor();
 
   FluidBalance balance;
   balance.step = all_wells.volumes(context, state);
   for (unsigned int i = 0; i < network.size(); ++i)
   {
     const double area = network[i].area, w = values.aperture[i];
-    const double gain = area * (w - values.aperture_reference[i] +
-                                std::max(w, 0.) * compressibility *
-                                  (values.pressure[i] - values.pressure_reference[i]));
+    const double gain =
+      scheme * area *
+      (w - values.aperture_reference[i] +
+       std::max(w, 0.) * c_f * (values.pressure[i] - values.pressure_reference[i]));
     balance.fracture_volume += area * w;
     balance.step.in_fractures += gain;
     balance.step.leaked += leaked[i];
@@ -81,7 +86,7 @@ void Network<dim>::commit(const StepContext &context,
                           const State &state,
                           const Collectives &collectives)
 {
-  const Values values = evaluate(state, collectives);
+  const Values values = evaluate(context, state, collectives);
   const std::vector<double> leaked = leaked_in_step(context, values);
   total = balance(context, state, collectives).total;
   for (unsigned int i = 0; i < network.size(); ++i)

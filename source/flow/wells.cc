@@ -265,7 +265,7 @@ void Wells<dim>::assemble(const StepContext &context,
                           const std::vector<unsigned int> &rows,
                           Sink &sink) const
 {
-  const double dt = context.dt;
+  const double dt = context.fracture_dt();
   LocalSystem local;
   for (const Well &well : wells)
   {
@@ -309,11 +309,12 @@ void Wells<dim>::assemble(const StepContext &context,
     if (!well.is_direct() && !well.pressure_control)
     {
       const unsigned int index = well.pressure_index();
-      const double c = well.volume * compressibility;
+      const double c = well.volume * compressibility * context.fracture_pressure_factor();
       local.extra = {index};
       local.reinit();
       local.residual(0) =
-        dt * well.given(context) - c * (state.current.extra[index] - state.committed.extra[index]);
+        dt * well.given(context) -
+        c * (state.current.extra[index] - state.fracture_reference(context).extra[index]);
       local.matrix(0, 0) = -c;
       sink.add(local);
     }
@@ -333,7 +334,9 @@ FluidVolumes Wells<dim>::volumes(const StepContext &context, const State &state)
     {
       const unsigned int index = well.pressure_index();
       volumes.in_boreholes +=
-        well.volume * compressibility * (state.current.extra[index] - state.committed.extra[index]);
+        well.volume * compressibility *
+        (state.current.extra[index] - state.fracture_reference(context).extra[index]) *
+        context.fracture_pressure_factor() * context.dt / context.fracture_dt();
     }
   }
   return volumes;

@@ -31,6 +31,25 @@ struct StepContext
   {
     return 1. / rate;
   }
+
+  /// Newmark's scheme: its rates of apertures do not add up to apertures. So that no fluid is lost
+  /// where cells open, the fluid in fractures is balanced over the step by backward Euler then.
+  bool balances_fractures_by_step() const
+  {
+    return acceleration > 0.;
+  }
+
+  /// As effective_dt(), for the fluid in fractures [s].
+  double fracture_dt() const
+  {
+    return balances_fractures_by_step() ? dt : effective_dt();
+  }
+
+  /// pressure_rate over rate, for the fluid in fractures.
+  double fracture_pressure_factor() const
+  {
+    return balances_fractures_by_step() ? 1. : pressure_rate / rate;
+  }
 };
 
 /// One set of values of all unknowns.
@@ -50,6 +69,12 @@ struct State
   const Unknowns &committed;              ///< the last accepted step
   const Unknowns &rate_reference;         ///< see StepContext
   const Unknowns &acceleration_reference; ///< see StepContext; empty when quasi-static
+
+  /// What the fluid in fractures changes from, see StepContext.
+  const Unknowns &fracture_reference(const StepContext &context) const
+  {
+    return context.balances_fractures_by_step() ? committed : rate_reference;
+  }
 
   /// Fluid pressure in the segment with this key [Pa], solved for or given, of the iterate; the
   /// same on every rank. Zero where there is no fluid; empty function: no fluid anywhere.
