@@ -255,7 +255,9 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
                                    std::vector<double> &dx_extra)
 {
   const Stopwatch stopwatch;
-  const bool has_factor = factor && stamps.mesh == factor_stamps.mesh;
+  const bool has_factor = factor && stamps.mesh == factor_stamps.mesh &&
+                          factor_scaling.bulk.n_blocks() == system.residual_bulk.n_blocks() &&
+                          factor_scaling.bulk.size() == system.residual_bulk.size();
   const bool same_bulk = has_factor && stamps.bulk_values == values_with_changes;
   const bool may_keep = has_factor && !factor_values.empty() &&
                         solutions.size() <= std::max(most_solutions, least_memory / factor->size());
