@@ -72,6 +72,7 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   std::vector<double> values;
   append_bulk_values(op, definite, values);
   factor->factorise(values);
+  factor_scaling.bulk.reinit(op.scaling().bulk); // it may have another number of blocks
   factor_scaling = op.scaling();
   factor_stamps = stamps;
 
