@@ -43,13 +43,13 @@ stockwork_case_test(NAME convergence/natural_crack/peridynamics
   EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
          "final/fracture_volume = final/injected_volume within 1e-9"
          "fluid_balance/relative_error < 1e-8")
-# With inertia, which is too small to matter, the fracture keeps its fluid and its pressure.
-stockwork_case_test(NAME convergence/kgd/sun/peridynamics/inertia
-  DECK prm/kgd/sun/peridynamics.prm
-  SET "Resolution=coarse" "Time/End time=3 s" "Time/Inertia=on" "Rock/Density=1810 kg/m^3"
-      "Time/Newmark gamma=1" "Time/Newmark beta=0.5625"
-  EXPECT "errors/fracture_volume/final < 1e-4" "errors/inlet_pressure/final < 0.07"
-         "fluid_balance/relative_error < 1e-8")
+# Inertia that is too small to matter changes nothing: Newmark's scheme with gamma = 1 against the
+# quasi-static run.
+stockwork_same_test(NAME convergence/kgd/sun/peridynamics/inertia
+  DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=3 s"
+  SECOND_SET "Time/Inertia=on" "Rock/Density=1810 kg/m^3" "Time/Newmark gamma=1"
+             "Time/Newmark beta=0.5625"
+  TOLERANCE 1e-4 IGNORE "error")
 # In three dimensions: a disc that grows.
 stockwork_case_test(NAME convergence/radial/toughness/peridynamics
   DECK prm/radial/toughness/peridynamics.prm SET "Resolution=coarse" "Time/End time=0.45 s"
