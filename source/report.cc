@@ -62,7 +62,7 @@ void Report<dim>::open(const bool restarted, const double time)
 template <int dim>
 void Report<dim>::header() const
 {
-  run.out << progress_header() << std::endl;
+  run.out << progress_header(dim) << std::endl;
 }
 
 
@@ -181,12 +181,14 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
                                    pores.volume;
   }
 
-  statistics.set("step", step);
-  statistics.set("time", time, "s");
-  statistics.set("time_step", step_report.dt, "s");
+  const auto set = [this](const std::string &name, const double value)
+  { statistics.set(name, value, unit_of_column(name, dim)); };
+  set("step", step);
+  set("time", time);
+  set("time_step", step_report.dt);
   for (const auto &[name, value] : observed)
-    statistics.set(name, value);
-  statistics.set("fluid_balance_error", balance_error);
+    set(name, value);
+  set("fluid_balance_error", balance_error);
   if (errors)
   {
     const auto scope = run.timers.scope("verification");
@@ -194,9 +196,9 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
                        [this](const auto &cell) { return model.role(cell); });
     errors->add_values(time, step_report.dt, observed);
     for (const auto &[name, error] : errors->errors())
-      statistics.set("error_" + name, error.final);
+      set("error_" + name, error.final);
     for (const auto &[name, value] : reference->values(time))
-      statistics.set("reference_" + name, value);
+      set("reference_" + name, value);
   }
   statistics.end_row();
 

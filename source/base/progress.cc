@@ -44,11 +44,13 @@ std::string duration_text(const double seconds)
   return text;
 }
 
-std::string progress_header()
+std::string progress_header(const unsigned int dim)
 {
-  return "  step     time       %        dt   nonl/lin  length  aperture  pressure   balance"
-         "      left\n"
-         "              s                 s                  m        mm       MPa         -";
+  return std::string("  step     time       %        dt   nonl/lin  ") +
+         (dim == 2 ? "length" : "  area") +
+         "  aperture  pressure   balance      left\n"
+         "              s                 s                " +
+         (dim == 2 ? "  m" : "m^2") + "        mm       MPa         -";
 }
 
 std::string progress_line(const Progress &p)

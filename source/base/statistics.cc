@@ -41,6 +41,31 @@ std::string exact_text(const double value)
 }
 } // namespace
 
+std::string unit_of_column(const std::string &name, const unsigned int dim)
+{
+  static const struct
+  {
+    const char *word, *in_2d, *in_3d;
+  } units[] = {{"error", "", ""},
+               {"length", "m", "m^2"},
+               {"extent", "m", "m"},
+               {"aperture", "m", "m"},
+               {"pressure", "Pa", "Pa"},
+               {"volume", "m^2", "m^3"},
+               {"rate", "m^2/s", "m^3/s"},
+               {"energy", "J/m", "J"},
+               {"work", "J/m", "J"},
+               {"load", "N/m", "N"},
+               {"stress_intensity", "Pa m^(1/2)", "Pa m^(1/2)"},
+               {"angle", "rad", "rad"},
+               {"time", "s", "s"}};
+  for (const auto &unit : units)
+    if (name.find(unit.word) != std::string::npos)
+      return dim == 2 ? unit.in_2d : unit.in_3d;
+  return "";
+}
+
+
 void StatisticsTable::open(const std::string &file)
 {
   file_name = file;

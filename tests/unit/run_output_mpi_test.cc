@@ -178,7 +178,7 @@ TEST_CASE("the progress line stays in its columns")
   progress.inlet_pressure = 3.21e6;
   progress.fluid_balance = 1e-11;
   progress.wall_seconds = 10;
-  const std::string header = progress_header();
+  const std::string header = progress_header(2);
   const std::string line = progress_line(progress);
   CHECK(line ==
         "    12        25   25.0       0.5       4/61    12.5     1.234      3.21   1.0e-11 "
@@ -186,6 +186,9 @@ TEST_CASE("the progress line stays in its columns")
   progress = Progress();
   CHECK(progress_line(progress).size() == line.size());
   CHECK(header.find('\n') == line.size());
+  CHECK(header.find(" length ") != std::string::npos);
+  CHECK(progress_header(3).find(" area ") != std::string::npos);
+  CHECK(progress_header(3).size() == header.size());
   CHECK(duration_text(7200) == "2.0 h");
 }
 

@@ -39,6 +39,18 @@ void step(StatisticsTable &table, const double time)
 }
 } // namespace
 
+TEST_CASE("a fracture is a line in the plane, an area in space")
+{
+  CHECK(unit_of_column("fracture_length", 2) == "m");
+  CHECK(unit_of_column("reference_fracture_length", 3) == "m^2");
+  CHECK(unit_of_column("injected_volume", 2) == "m^2");
+  CHECK(unit_of_column("well_1_perforation_2_rate", 3) == "m^3/s");
+  CHECK(unit_of_column("peak_load", 2) == "N/m");
+  CHECK(unit_of_column("error_inlet_pressure", 2).empty());
+  CHECK(unit_of_column("energy_balance_error", 2).empty());
+  CHECK(unit_of_column("branches", 2).empty());
+}
+
 TEST_CASE("each row is in the file at once")
 {
   const File file;

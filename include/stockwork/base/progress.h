@@ -19,7 +19,7 @@ struct Progress
   unsigned int nonlinear_iterations = 0;
   unsigned long linear_iterations = 0;
   unsigned int rejected = 0;        ///< attempts before this one
-  double fracture_length = unknown; ///< [m]
+  double fracture_length = unknown; ///< [m], in 3-D the area [m^2]
   double inlet_aperture = unknown;  ///< [m]
   double inlet_pressure = unknown;  ///< [Pa]
   double fluid_balance = unknown;   ///< relative error
@@ -27,8 +27,8 @@ struct Progress
   double fraction_at_start = 0;     ///< of the time, where this run began (restart)
 };
 
-/// The two lines above the columns.
-std::string progress_header();
+/// The two lines above the columns. In 3-D the "length" of a fracture is its area.
+std::string progress_header(unsigned int dim);
 
 /// One line, without end of line. The time left is estimated from the simulated time done since
 /// the start of this run.
