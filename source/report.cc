@@ -111,6 +111,13 @@ std::map<std::string, double> Report<dim>::observe()
         std::accumulate(graph.fork_angles.begin(), graph.fork_angles.end(), 0.) /
         std::max<std::size_t>(graph.fork_angles.size(), 1);
     }
+  for (unsigned int d = 0; d < dim && !network.segments().empty(); ++d)
+  {
+    const auto [low, high] =
+      std::minmax_element(network.segments().begin(), network.segments().end(),
+                          [d](const auto &a, const auto &b) { return a.centre[d] < b.centre[d]; });
+    values[std::string("extent_") + "xyz"[d]] = high->centre[d] - low->centre[d];
+  }
   const double time = stepper.last_context().time;
   shown.n_tips = summary.n_tips;
   shown.length = summary.length;

@@ -7,8 +7,8 @@
 
 namespace stockwork
 {
-/// Unit of a column of statistics.csv, by its name: of fractures that are lines in 2-D, and areas in
-/// 3-D, and of what in 2-D is per metre of thickness. "" for a number.
+/// Unit of a column of statistics.csv, by its name: of fractures that are lines in 2-D, and areas
+/// in 3-D, and of what in 2-D is per metre of thickness. "" for a number.
 std::string unit_of_column(const std::string &name, unsigned int dim);
 
 /// statistics.csv: one row per accepted step, the same columns for every fracture model.
