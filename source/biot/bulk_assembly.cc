@@ -87,9 +87,8 @@ void BulkAssembly<dim>::set_up()
       if ((!loads.empty() && cell->at_boundary()) ||
           std::any_of(dofs.begin(), dofs.end(), constrained))
         edge_cells.push_back(cell);
-      const auto drained = [&](const unsigned int i)
-      { return constrained(dofs[i]) && constraints.get_constraint_entries(dofs[i])->empty(); };
-      if (std::any_of(layout.p.begin(), layout.p.end(), drained))
+      if (std::any_of(layout.p.begin(), layout.p.end(),
+                      [&](const unsigned int i) { return prescribed_share(dofs[i]) > 0.; }))
         drained_cells.push_back(cell);
     }
 }
@@ -428,9 +427,20 @@ double BulkAssembly<dim>::fluid_content(const BlockVector &bulk,
 
 
 template <int dim>
+double BulkAssembly<dim>::prescribed_share(const types::global_dof_index dof) const
+{
+  if (!discretization.constraints.is_constrained(dof))
+    return 0.;
+  double share = 1.;
+  for (const auto &[master, weight] : *discretization.constraints.get_constraint_entries(dof))
+    share -= weight;
+  return share < 1e-10 ? 0. : share;
+}
+
+
+template <int dim>
 double BulkAssembly<dim>::outflow(const StepContext &context, const State &state) const
 {
-  const auto &constraints = discretization.constraints;
   const auto &layout = matrices.layout();
   std::vector<types::global_dof_index> dofs(discretization.dof_handler.get_fe().n_dofs_per_cell());
   Vector<double> local(dofs.size()), x(dofs.size()), reference(dofs.size());
@@ -448,9 +458,7 @@ double BulkAssembly<dim>::outflow(const StepContext &context, const State &state
     subtract_history(context, reference, local);
     subtract_loads(context, cell, local);
     for (const unsigned int i : layout.p)
-      if (constraints.is_constrained(dofs[i]) &&
-          constraints.get_constraint_entries(dofs[i])->empty())
-        volume += local(i);
+      volume += prescribed_share(dofs[i]) * local(i);
   }
   if (!loads.flux.empty())
   {

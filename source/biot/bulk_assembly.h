@@ -99,6 +99,10 @@ private:
                    const State &state,
                    dealii::TrilinosWrappers::MPI::BlockVector &residual) const;
 
+  /// How much of a pressure is prescribed: all, or a half of that of a hanging node beside one that
+  /// is; its equation is that share of the prescribed one's.
+  double prescribed_share(dealii::types::global_dof_index dof) const;
+
   /// Part of the value of a dof that constraints prescribe; zero where it is free.
   double prescribed(dealii::types::global_dof_index dof,
                     const dealii::TrilinosWrappers::MPI::BlockVector &values) const;
@@ -110,8 +114,9 @@ private:
   std::vector<dealii::IndexSet> owned, relevant; ///< by block
   /// Of the pressures, numbered from zero.
   dealii::AffineConstraints<double> pressure_constraints;
-  std::vector<CellIterator> edge_cells;    ///< with loads or constrained dofs
-  std::vector<CellIterator> drained_cells; ///< with prescribed pressures
+  std::vector<CellIterator> edge_cells; ///< with loads or constrained dofs
+  std::vector<CellIterator>
+    drained_cells; ///< with prescribed pressures, or hanging nodes beside them
 
   // Of the pressure block, both positive semi-definite.
   dealii::TrilinosWrappers::SparseMatrix storage, diffusion;
