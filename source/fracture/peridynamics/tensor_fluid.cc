@@ -2,6 +2,7 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,36 +13,40 @@ using dealii::Tensor;
 
 namespace
 {
-/// Aperture at which a closed fracture conducts [m], as that of the network by default.
-constexpr double minimum_aperture = 10e-6;
-
-/// Of a cell's corners, at a point of the unit cell.
+/// The functions of a cell of the pore pressure, at the points that its integrals are sums over.
 template <int dim>
-struct ShapeFunctions
+struct CellShape
 {
-  std::array<double, 1 << dim> value;
-  std::array<Tensor<1, dim>, 1 << dim> gradient; ///< [1/m]
-
-  ShapeFunctions(const dealii::Point<dim> &x, const double spacing)
+  struct At
   {
-    for (unsigned int v = 0; v < 1u << dim; ++v)
+    double weight; ///< [m^dim]
+    std::array<double, 1 << dim> value;
+    std::array<Tensor<1, dim>, 1 << dim> gradient; ///< [1/m]
+  };
+  std::vector<At> points;
+
+  explicit CellShape(const double spacing)
+  {
+    const dealii::FE_Q<dim> element(1);
+    const dealii::QGauss<dim> quadrature(2);
+    points.resize(quadrature.size());
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
     {
-      value[v] = 1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        value[v] *= v >> d & 1 ? x[d] : 1. - x[d];
-      for (unsigned int d = 0; d < dim; ++d)
+      points[q].weight = quadrature.weight(q) * dealii::Utilities::fixed_power<dim>(spacing);
+      for (unsigned int v = 0; v < 1u << dim; ++v)
       {
-        gradient[v][d] = (v >> d & 1 ? 1. : -1.) / spacing;
-        for (unsigned int e = 0; e < dim; ++e)
-          if (e != d)
-            gradient[v][d] *= v >> e & 1 ? x[e] : 1. - x[e];
+        points[q].value[v] = element.shape_value(v, quadrature.point(q));
+        points[q].gradient[v] = element.shape_grad(v, quadrature.point(q)) / spacing;
       }
     }
   }
 };
 
 /// Cube of the hydraulic aperture; w^2 height in the closure as published.
-ValueAndSlope conductance(const double w, const double height, const bool as_published)
+ValueAndSlope conductance(const double w,
+                          const double minimum_aperture,
+                          const double height,
+                          const bool as_published)
 {
   if (!as_published)
     return hydraulic_aperture_cubed(w, minimum_aperture);
@@ -64,7 +69,7 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
 {
   constexpr unsigned int n = 1 << dim;
   const double volume = dealii::Utilities::fixed_power<dim>(zone.spacing());
-  const dealii::QGauss<dim> quadrature(2);
+  const CellShape<dim> shape(zone.spacing());
   LocalSystem local;
   std::array<Tensor<1, dim>, n> gradient; // along the fracture
   for (const Segment<dim> &segment : owned_segments)
@@ -74,22 +79,22 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
     for (unsigned int k = 0; k < B.bulk.size(); ++k)
       w += B.bulk_coefficients[k] * state.current.bulk(B.bulk[k]);
     const double height = volume / segment.area;
-    const ValueAndSlope cubed = conductance(w, height, parameters.as_published);
+    const ValueAndSlope cubed =
+      conductance(w, scene.minimum_aperture, height, parameters.as_published);
     const double factor = context.effective_dt() / (12. * scene.rock.fluid().viscosity * height);
 
     local.bulk = P.bulk;
     local.bulk.insert(local.bulk.end(), B.bulk.begin(), B.bulk.end());
     local.reinit();
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
+    for (const auto &at : shape.points)
     {
       Tensor<1, dim> flow; // gradient of the pressure along the fracture
-      const ShapeFunctions<dim> shape(quadrature.point(q), zone.spacing());
       for (unsigned int v = 0; v < n; ++v)
       {
-        gradient[v] = shape.gradient[v] - (shape.gradient[v] * segment.normal) * segment.normal;
+        gradient[v] = at.gradient[v] - (at.gradient[v] * segment.normal) * segment.normal;
         flow += state.current.bulk(P.bulk[v]) * gradient[v];
       }
-      const double weight = factor * quadrature.weight(q) * volume;
+      const double weight = factor * at.weight;
       for (unsigned int a = 0; a < n; ++a)
       {
         local.residual(a) -= weight * cubed.value * (gradient[a] * flow);
@@ -145,10 +150,9 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
       sink.add(local);
     }
 
-  const double volume = dealii::Utilities::fixed_power<dim>(zone.spacing());
+  const CellShape<dim> shape(zone.spacing());
   const double more_storage = (scene.rock.fluid().compressibility - rock.inverse_biot_modulus) *
                               context.pressure_rate / context.rate;
-  const dealii::QGauss<dim> quadrature(2);
   for (const Segment<dim> &segment : owned_segments)
   {
     const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
@@ -160,19 +164,15 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
     for (unsigned int a = 0; a < n; ++a) // what the segment's opening takes comes from nowhere
       for (unsigned int k = 0; k < B.bulk.size(); ++k)
         local.matrix(a, n + k) += segment.area / n * B.bulk_coefficients[k];
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-    {
-      const ShapeFunctions<dim> shape(quadrature.point(q), zone.spacing());
-      const double weight = quadrature.weight(q) * volume;
+    for (const auto &at : shape.points)
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int v = 0; v < n; ++v)
         {
-          local.matrix(a, v) -= more_storage * shape.value[a] * shape.value[v] * weight;
+          local.matrix(a, v) -= more_storage * at.value[a] * at.value[v] * at.weight;
           for (unsigned int d = 0; d < dim; ++d) // the order of the functional, see jump()
             local.matrix(a, n + v * dim + d) +=
-              rock.biot_coefficient * shape.value[a] * shape.gradient[v][d] * weight;
+              rock.biot_coefficient * at.value[a] * at.gradient[v][d] * at.weight;
         }
-    }
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int k = 0; k < local.bulk.size(); ++k)
         local.residual(a) += local.matrix(a, k) * gain(local.bulk[k]);
