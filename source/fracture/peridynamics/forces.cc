@@ -72,7 +72,7 @@ void Peridynamics<dim>::add_couplings(
 template <int dim>
 double Peridynamics<dim>::dilatation_factor(const unsigned int site) const
 {
-  if (!parameters.surface_correction || damage[site] == 0.)
+  if (!parameters.surface_correction || corrected_damage[site] == 0.)
     return 1.;
   double left = 0.; // of the dilatation of a uniform expansion, which is dim
   for (unsigned int b = 0; b < stencil.size(); ++b)
@@ -124,13 +124,14 @@ void Peridynamics<dim>::for_each_dilatation(
 template <int dim>
 double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int bond) const
 {
-  const double here = damage[site], there = damage[zone.far_end(site, bond).site];
+  const unsigned int far = zone.far_end(site, bond).site;
   const double whole = coefficients[bond].stiffness;
   if (bonds.is_broken(site, bond))
-    return std::max(here, there) > nearly_detached ? remaining_share * whole : 0.;
+    return std::max(damage[site], damage[far]) > nearly_detached ? remaining_share * whole : 0.;
   if (!parameters.surface_correction)
     return whole;
-  return 0.5 * (by_share_left(here) + by_share_left(there)) * whole;
+  return 0.5 * (by_share_left(corrected_damage[site]) + by_share_left(corrected_damage[far])) *
+         whole;
 }
 
 

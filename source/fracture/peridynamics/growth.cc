@@ -61,54 +61,63 @@ double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigne
 
 
 template <int dim>
-std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
-                                                        const Collectives &collectives) const
+std::vector<typename Peridynamics<dim>::Relief>
+Peridynamics<dim>::pressure_relief(const State &state, const Collectives &collectives) const
 {
-  std::vector<double> result(cells.size(), 0.);
+  std::vector<Relief> result(cells.size());
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
   const bool of_fluid = parameters.effective_stretch && state.segment_pressure;
-  if (scene.has_pore_pressure && (of_fluid || !in_situ_is_zero))
+  if (of_fluid && scene.has_pore_pressure)
   {
+    std::vector<double> carried(cells.size(), 0.);
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
     {
       const LinearFunctional &pore = owned_segments[i].pore_pressure;
       double pressure = pore.constant;
-      if (of_fluid)
-        for (unsigned int k = 0; k < pore.bulk.size(); ++k)
-          pressure += pore.bulk_coefficients[k] * state.current.bulk(pore.bulk[k]);
-      result[owned_cells[i]] = -rock.biot_coefficient * compliance * pressure;
+      for (unsigned int k = 0; k < pore.bulk.size(); ++k)
+        pressure += pore.bulk_coefficients[k] * state.current.bulk(pore.bulk[k]);
+      carried[owned_cells[i]] = rock.biot_coefficient * pressure;
     }
-    collectives.sum(result);
+    collectives.sum(carried);
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      result[i].fluid = -compliance * carried[i];
   }
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     const auto &n = cells[i].normal;
-    result[i] +=
-      compliance * (of_fluid ? state.segment_pressure(all_segments[i].key)
-                             : -(n * (scene.in_situ_stress(all_segments[i].centre) * n)));
+    result[i].in_situ = -compliance * (n * (scene.in_situ_stress(all_segments[i].centre) * n));
+    if (of_fluid)
+      result[i].fluid +=
+        compliance * state.segment_pressure(all_segments[i].key) - result[i].in_situ;
   }
   return result;
 }
 
 
 template <int dim>
-double Peridynamics<dim>::relief_at(const unsigned int site,
-                                    const unsigned int bond,
-                                    const std::vector<double> &relief) const
+typename Peridynamics<dim>::Relief Peridynamics<dim>::relief_at(
+  const unsigned int site, const unsigned int bond, const std::vector<Relief> &relief) const
 {
-  Point<dim> place; // of the middle, in spacings
+  Tensor<1, dim> half, middle; // in spacings
   for (unsigned int d = 0; d < dim; ++d)
-    place[d] = zone.sites()[site].place[d] + 0.5 * stencil[bond].offset[d];
-  double nearest = parameters.horizon + 1., result = 0.;
+  {
+    half[d] = 0.5 * stencil[bond].offset[d];
+    middle[d] = zone.sites()[site].place[d] + half[d];
+  }
+  double nearest = parameters.horizon + 1.;
+  Relief result;
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    double square = 0.;
+    Tensor<1, dim> away = middle;
     for (unsigned int d = 0; d < dim; ++d)
-      square += std::pow(place[d] - cells[i].place[d] - 0.5, 2);
+      away[d] -= cells[i].place[d] + 0.5;
+    if (std::abs(away * cells[i].normal) > std::abs(half * cells[i].normal) - resolution)
+      continue; // the plane of the fracture does not cross it
     // Of several equally near, the one that relieves most, whatever their order.
-    const double distance = std::sqrt(square);
-    if (distance < nearest - resolution || (distance < nearest + resolution && relief[i] > result))
+    const double distance = away.norm();
+    if (distance < nearest - resolution ||
+        (distance < nearest + resolution && relief[i].total() > result.total()))
     {
       nearest = std::min(nearest, distance);
       result = relief[i];
@@ -120,12 +129,12 @@ double Peridynamics<dim>::relief_at(const unsigned int site,
 
 template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
-  const std::vector<double> &u, const std::vector<double> &relief, Rim &rim) const
+  const std::vector<double> &u, const std::vector<Relief> &relief, Rim &rim) const
 {
   const double least = softening.brittle() ? 1. : soon_to_soften;
   double most_relief = 0.;
-  for (const double r : relief)
-    most_relief = std::max(most_relief, r);
+  for (const Relief &r : relief)
+    most_relief = std::max(most_relief, r.total());
   std::vector<Candidate> candidates;
   const unsigned int half = stencil.size() / 2;
   for (const unsigned int i : zone.peridynamic_sites())
@@ -146,7 +155,7 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       };
       if (ratio_with(most_relief) < least || softening_bond(i, b) != nullptr)
         continue;
-      const double ratio = ratio_with(relief_at(i, b, relief));
+      const double ratio = ratio_with(relief_at(i, b, relief).total());
       if (ratio < least)
         continue;
       if (breakable)
@@ -227,7 +236,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (!parameters.growth)
     return verdict;
   Rim rim = Rim::away;
-  const std::vector<double> relief = pressure_stretch(state, collectives);
+  const std::vector<Relief> relief = pressure_relief(state, collectives);
   const std::vector<Candidate> candidates = overstretched(displacement, relief, rim);
   if (rim == Rim::stays && !told_of_rim)
   {
@@ -239,6 +248,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   {
     enlarge_zone(); // for where this step wants to go: it takes effect after a shorter one
     verdict.kind = Verdict::Kind::reject;
+    has_rejected = true;
     verdict.reason = "a crack has come to the rim of the zone, which grows between steps";
     return verdict;
   }
@@ -252,11 +262,14 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (!changed)
   {
     verdict.dt_limit = context.dt * (n_new > n_tips ? 0.6 : n_new > 0 ? 0.8 : 1.25);
+    if (followed < 1.)
+      verdict.dt_limit = context.dt * std::pow(2., context.attempt);
     return verdict;
   }
   if (n_new > parameters.most_advances * n_tips || passes >= most_passes)
   {
     verdict.kind = Verdict::Kind::reject;
+    has_rejected = true;
     std::ostringstream reason;
     reason << "a tip wants to advance by more than " << parameters.most_advances
            << " cells in a step";
@@ -283,19 +296,19 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   return verdict;
 }
 
-#define INSTANTIATE(dim)                                                                       \
-  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                    \
-                                                const std::vector<double> &) const;            \
-  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const;        \
-  template std::vector<double> Peridynamics<dim>::pressure_stretch(const State &,              \
-                                                                   const Collectives &) const; \
-  template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                     \
-                                               const std::vector<double> &) const;             \
-  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
-    const std::vector<double> &, const std::vector<double> &, Rim &) const;                    \
-  template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \
-  template void Peridynamics<dim>::warn_of_pressure(const State &);                            \
-  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,              \
+#define INSTANTIATE(dim)                                                                \
+  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,             \
+                                                const std::vector<double> &) const;     \
+  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const; \
+  template std::vector<Peridynamics<dim>::Relief> Peridynamics<dim>::pressure_relief(   \
+    const State &, const Collectives &) const;                                          \
+  template Peridynamics<dim>::Relief Peridynamics<dim>::relief_at(                      \
+    unsigned int, unsigned int, const std::vector<Relief> &) const;                     \
+  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(  \
+    const std::vector<double> &, const std::vector<Relief> &, Rim &) const;             \
+  template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);         \
+  template void Peridynamics<dim>::warn_of_pressure(const State &);                     \
+  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,       \
                                               const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

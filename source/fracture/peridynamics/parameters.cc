@@ -56,12 +56,12 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
                     "that is spread over more cells. State-based bonds are always brittle.");
-  prm.declare_entry("Stretch", "total", Patterns::Selection("total|effective"),
-                    "What breaks a bond. total: its stretch. effective: as if the fluid in the "
-                    "nearest piece of the fracture pressed on the rock from all sides no longer, "
-                    "as it does at the tip of a pressurised fracture. With a horizon of 3, the "
-                    "fluid in the last cell, ahead of the elastic tip, makes up for that pressure: "
-                    "total is the better choice there.");
+  prm.declare_entry("Stretch", "effective", Patterns::Selection("effective|total"),
+                    "What breaks a bond. effective: its stretch, and that of the pressure that the "
+                    "fluid beside will load its cell with as it enters; so the work of the fluid "
+                    "goes into the rock from the start. total: its stretch alone; pressurised "
+                    "fractures are tougher then, by a share that falls with the root of the "
+                    "cells' size.");
   prm.declare_entry("Surface correction", "true", Patterns::Bool(),
                     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
                     "which makes its faces too soft. With the correction, the bonds that are left "

@@ -23,6 +23,9 @@ using dealii::Tensor;
 
 namespace
 {
+/// Of the stretch at which bonds soften, up to which the surface correction may make them stiffer.
+constexpr double relaxed = 0.5;
+
 std::string text(const double number)
 {
   std::ostringstream stream;
@@ -126,6 +129,9 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
     committed_bonds = committed_cracked = bonds.places();
     cracked.set_broken(committed_bonds);
     set_initial_normals();
+    for (const unsigned int i : zone.peridynamic_sites())
+      if (const double gone = bonds.damage(i); gone > 0.)
+        committed_correction[zone.sites()[i].place] = gone;
     started = true;
   }
   ++version;
@@ -139,6 +145,10 @@ void Peridynamics<dim>::refresh_segments()
   damage.assign(zone.sites().size(), 0.);
   for (const unsigned int i : zone.peridynamic_sites())
     damage[i] = bonds.damage(i);
+  corrected_damage.assign(zone.sites().size(), 0.);
+  for (const auto &[place, corrected] : committed_correction)
+    if (const unsigned int i = zone.find(place); i != dealii::numbers::invalid_unsigned_int)
+      corrected_damage[i] = corrected;
   const std::vector<FractureCell<dim>> before = cells;
   cells = find_fracture_cells(zone, cracked);
   align_normals(cells, parameters.horizon + 1);
@@ -210,9 +220,15 @@ dealii::ArrayView<const Segment<dim>> Peridynamics<dim>::segments() const
 
 
 template <int dim>
-void Peridynamics<dim>::begin_step(const StepContext &)
+void Peridynamics<dim>::begin_step(const StepContext &context)
 {
   passes = 0;
+  // An attempt that this model has not rejected has not converged. Half of the step may do.
+  if (context.attempt == 0)
+    followed = std::min(1., 2. * committed_followed);
+  else if (context.attempt > 1 && !has_rejected)
+    followed *= 0.5;
+  has_rejected = false;
   dissipated = committed_energy;
   n_messages_before = messages.size();
   told_of_rim_before = told_of_rim;
@@ -238,10 +254,11 @@ void Peridynamics<dim>::commit(const StepContext &, const State &)
     dissipated += energy_at_unit_stretch(bond.view) *
                   (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
     bond.committed = bond.trial;
-    committed_softening.push_back(
-      {bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
+    committed_softening.push_back({bonds.places(bond.view.first, bond.view.second),
+                                   {{bond.trial, bond.relief.in_situ, bond.relief.fluid}}});
   }
   committed_energy = dissipated;
+  committed_followed = followed;
   const double settled = (parameters.horizon + 1.5) * zone.spacing();
   std::vector<Point<dim>> front;
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -253,8 +270,35 @@ void Peridynamics<dim>::commit(const StepContext &, const State &)
                      { return end.distance(all_segments[i].centre) < settled; }))
       committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
                                                                     cells[i].normal.end_raw()));
+  correct_faces();
   initial_pressure.clear();
   enlarge_zone();
+}
+
+
+template <int dim>
+void Peridynamics<dim>::correct_faces()
+{
+  if (!parameters.surface_correction)
+    return;
+  const auto is_relaxed = [&](const unsigned int site)
+  {
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (!bonds.is_broken(site, b) &&
+          (1. - bond_damage(site, b)) * elongation(site, b, displacement) >
+            relaxed * softening.first * coefficients[b].length)
+        return false;
+    return true;
+  };
+  bool changed = false;
+  for (const unsigned int i : zone.peridynamic_sites())
+    if (damage[i] > corrected_damage[i] && is_relaxed(i))
+    {
+      corrected_damage[i] = committed_correction[zone.sites()[i].place] = damage[i];
+      changed = true;
+    }
+  if (changed)
+    ++version;
 }
 
 
@@ -319,7 +363,8 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   for (auto box = shape.boxes.begin() + parameters.boxes.size(); box != shape.boxes.end(); ++box)
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
-          << committed_normals << committed_energy << told_of_rim << told_of_pressure;
+          << committed_normals << committed_correction << committed_energy << committed_followed
+          << told_of_rim << told_of_pressure;
 }
 
 
@@ -329,7 +374,8 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::array<double, dim> origin;
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
-    committed_normals >> committed_energy >> told_of_rim >> told_of_pressure;
+    committed_normals >> committed_correction >> committed_energy >> committed_followed >>
+    told_of_rim >> told_of_pressure;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)
     corner[d] = origin[d];

@@ -82,6 +82,10 @@ private:
                        const dealii::Tensor<1, dim> &normal,
                        const std::function<bool(const dealii::Point<dim> &crossing)> &is_on_crack);
 
+  /// The surface correction makes up for the bonds that sites have lost, where those that are left
+  /// are hardly stretched.
+  void correct_faces();
+
   /// Enlarge the zone ahead of where the rock cracks, if there is less than the margin of it left.
   void enlarge_zone();
 
@@ -97,6 +101,21 @@ private:
 
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
   double in_situ_stretch(unsigned int site, unsigned int bond) const;
+
+  /// Stretch that the bonds ahead of a fracture gain where the rock is pressed on no longer. A cell
+  /// that fluid enters is open already, by its rock's stretch at that time. The fluid fills this
+  /// volume, and its work is lost to the rock, p w_0 per area, unless it has loaded the faces
+  /// since they began to part; which is what bonds are relieved of until the cell holds fluid.
+  struct Relief
+  {
+    double in_situ = 0.; ///< by the in-situ stress normal to the fracture, which its faces release
+    double fluid = 0.;   ///< by the fluid's pressure beyond that and what the pores carry
+
+    double total() const
+    {
+      return in_situ + fluid;
+    }
+  };
 
   /// A bond that is stretched too far.
   struct Candidate
@@ -118,9 +137,14 @@ private:
     BondView view;
     /// Greatest stretch so far, as of a bond of the lattice's stiffness.
     double committed = 0., trial = 0.;
-    /// Stretch that is not elongation: in situ, and what fluid relieves.
-    double offset = 0.;
+    Relief relief; ///< as it began to soften; with the in-situ stretch
   };
+
+  /// Stretch that is not elongation: in situ, and where no fluid loads the faces yet.
+  double offset(const SofteningBond &bond) const;
+
+  /// With a stretch now [-].
+  double greatest_stretch(const SofteningBond &bond, double stretch) const;
 
   /// The bond among `softening_bonds`, or null.
   const SofteningBond *softening_bond(unsigned int site, unsigned int bond) const;
@@ -137,7 +161,7 @@ private:
   /// Follow the softening bonds, and let candidates soften.
   /// @return whether unknowns or segments have changed
   bool soften_bonds(const std::vector<double> &displacement,
-                    const std::vector<double> &relief,
+                    const std::vector<Relief> &relief,
                     const std::vector<Candidate> &candidates);
 
   /// Elastic energy of a bond, all of its views, at stretch one [J/m].
@@ -167,17 +191,14 @@ private:
 
   /// The most stretched first.
   std::vector<Candidate> overstretched(const std::vector<double> &displacement,
-                                       const std::vector<double> &relief,
+                                       const std::vector<Relief> &relief,
                                        Rim &rim) const;
 
-  /// Of each fracture cell, the stretch that bonds would gain if the rock was pressed on from all
-  /// sides no longer: by the in-situ stress normal to the fracture or, with effective stretches, by
-  /// the fluid; for at the tip of a crack with pressure p the stress is that of its intensity and
-  /// -p I. What pressure the pores carry is part of the effective stress already.
-  std::vector<double> pressure_stretch(const State &state, const Collectives &collectives) const;
+  /// That of each fracture cell.
+  std::vector<Relief> pressure_relief(const State &state, const Collectives &collectives) const;
 
-  /// That of the cell nearest to the middle of a bond, if one is within a horizon.
-  double relief_at(unsigned int site, unsigned int bond, const std::vector<double> &relief) const;
+  /// Of the nearest cell whose plane crosses a bond, if one is within a horizon.
+  Relief relief_at(unsigned int site, unsigned int bond, const std::vector<Relief> &relief) const;
 
   void write_bonds(FieldSink<dim> &sink) const;
 
@@ -189,7 +210,9 @@ private:
 
   /// Of a bond, force per elongation [N/m]. Where bonds are broken the others are stiffer by the
   /// mean of V/V_left of both ends, so that a free face is not too soft (Le and Bobaru 2018, the
-  /// volume method); a site with hardly any bond left keeps a little of the broken ones.
+  /// volume method), once a tip has left them behind: near it, bonds are stretched, and to make
+  /// them stiffer then would add energy, 5 % of G_c. A site with hardly any bond left keeps a
+  /// little of the broken ones.
   double stiffness(unsigned int site, unsigned int bond) const;
 
   /// Of the bonds under displacements of all sites [J/m]: half of that of a bond belongs to each of
@@ -233,6 +256,7 @@ private:
   BondSet<dim> cracked;                       ///< broken ones and those that have begun to soften
   std::vector<SofteningBond> softening_bonds; ///< sorted by view
   std::vector<double> damage;                 ///< of all sites
+  std::vector<double> corrected_damage;       ///< what the surface correction makes up for
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;                 ///< of all ranks
   std::vector<bool> at_front;                             ///< which of them the fracture ends at
@@ -244,9 +268,10 @@ private:
 
   // Committed.
   std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;
-  /// Greatest stretch and offset.
-  std::vector<std::pair<BondPlaces<dim>, std::array<double, 2>>> committed_softening;
+  /// Greatest stretch and relief.
+  std::vector<std::pair<BondPlaces<dim>, std::array<double, 3>>> committed_softening;
   std::map<Place<dim>, std::vector<double>> committed_normals;
+  std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
   bool zone_has_grown = false;
@@ -256,6 +281,11 @@ private:
   std::size_t n_messages_before = 0;
   std::size_t n_segments_before = 0, n_tips_before = 0;
   unsigned int passes = 0;
+  /// How far bonds soften within the step, of what their stretch asks for. Where a crack jumps, no
+  /// step is short enough; so an attempt after one that has not converged lets them soften by less,
+  /// and the rest is left to the steps that follow.
+  double followed = 1., committed_followed = 1.;
+  bool has_rejected = false;        ///< the last attempt
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
   bool told_of_rim_before = false, told_of_pressure_before = false;
