@@ -19,6 +19,8 @@ constexpr double resolution = 1e-6;
 constexpr double soon_to_soften = 0.9;
 /// Solves within a step after which it is too long.
 constexpr unsigned int most_passes = 60;
+/// Attempts at a step after which it is no matter how far tips advance.
+constexpr unsigned int attempts_for_advances = 3;
 /// Net pressure over the strength from which on bonds may break in a blob.
 constexpr double high_pressure = 0.5;
 } // namespace
@@ -266,7 +268,10 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
       verdict.dt_limit = context.dt * std::pow(2., context.attempt);
     return verdict;
   }
-  if (n_new > parameters.most_advances * n_tips || passes >= most_passes)
+  // A fracture in viscous fluid may jump by several cells in steps of any length.
+  const bool too_far =
+    n_new > parameters.most_advances * n_tips && context.attempt + 1 < attempts_for_advances;
+  if (too_far || passes >= most_passes)
   {
     verdict.kind = Verdict::Kind::reject;
     has_rejected = true;

@@ -85,9 +85,10 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry("Bonds per pass", "20", Patterns::Integer(1),
                     "Bonds that break, the most stretched first, before the step is solved again.");
-  prm.declare_entry("Most advances per step", "2", Patterns::Integer(1),
+  prm.declare_entry("Most advances per step", "20", Patterns::Integer(1),
                     "Cells by which a tip may advance within a time step, else it is taken again "
-                    "with half its length.");
+                    "with half its length. Not more than twice: in viscous fluid a tip may jump, "
+                    "however short the step is.");
   prm.declare_entry("Write bonds", "none", Patterns::Selection("none|broken|all"),
                     "Bonds in the output files (bonds.pvd), as lines with their state and their "
                     "stretch over the critical one. There are dozens to a cell.");
