@@ -233,6 +233,9 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   control.parse_parameters(prm);
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
 
+  if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
+    throw EntryError("Time/Scheme", "BDF2",
+                     "backward Euler (or Newmark) with a finite 'Fracture flow/Least pressure'");
   if (model->requirements().quasi_static_only && scheme.kind() == TimeScheme::Kind::newmark)
     throw EntryError("Time/Scheme", "Newmark",
                      "a quasi-static scheme, because the fracture model has no inertia");

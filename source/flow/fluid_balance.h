@@ -44,7 +44,7 @@ struct FluidBalance
 {
   FluidVolumes step;           ///< in this step
   FluidVolumes total;          ///< since the start, this step included
-  double fracture_volume = 0.; ///< sum of A w
+  double fracture_volume = 0.; ///< sum of A w, but for vapour
   double relative_error = 0.;  ///< |step.defect()| over what moved in the step
 };
 } // namespace stockwork

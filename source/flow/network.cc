@@ -35,6 +35,12 @@ void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
     "w_min in the hydraulic aperture (w^4 + w_min^4)^(1/4). Enters the conductivity "
     "only, never the volume. Small beside the aperture near the tip: a larger "
     "value lets viscous fluid run ahead.");
+  prm.declare_entry("Least pressure", "-inf",
+                    Quantity(dimension::pressure, Range{-INFINITY, INFINITY, false, true}),
+                    "At which the fluid boils. A segment that it cannot fill keeps this pressure, "
+                    "and the fluid lags behind the tip. Where pressures are net ones, for the rock "
+                    "is unstressed, it is minus the stress that is left out. -inf: the fluid fills "
+                    "every tip, by suction if need be. Not with Carter's leak-off, nor BDF2.");
   prm.declare_entry("Leak-off", "none", Patterns::Selection("none|carter|filter cake|resolved"),
                     "How fluid passes from fractures into the rock. carter: C_L/sqrt(t-t_0) "
                     "per face, out of the model. filter cake: c_l (p_f - p_m) per face, into the "
@@ -55,6 +61,8 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
 {
   prm.enter_subsection("Fracture flow");
   minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
+  least_pressure = get_quantity(prm, "Least pressure", dimension::pressure);
+  const std::string least_text = prm.get("Least pressure");
   carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
   filter_cake_coefficient =
     get_quantity(prm, "Filter cake coefficient", dimension::leakoff_per_pressure);
@@ -66,6 +74,9 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   prm.leave_subsection();
   if (leak_off == LeakOff::carter && carter_coefficient == 0.)
     throw EntryError("Fracture flow/Carter coefficient", "0", "a value > 0 with Carter leak-off");
+  if (leak_off == LeakOff::carter && may_boil())
+    throw EntryError("Fracture flow/Least pressure", least_text,
+                     "-inf with Carter leak-off, which takes fluid that may not be there");
   if (leak_off == LeakOff::filter_cake && filter_cake_coefficient == 0.)
     throw EntryError("Fracture flow/Filter cake coefficient", "0",
                      "a value > 0 with leak-off through a filter cake");
@@ -323,6 +334,8 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
     else if (old != history.end())
       reference +=
         (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - all[3 * n + i]);
+    if (old != history.end())
+      reference -= old->second.vapour / network[i].area;
   }
   values.pore_pressure.assign(all.begin() + 2 * n, all.begin() + 3 * n);
   values.pressure = pressures(state.current);
@@ -331,7 +344,40 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
   for (unsigned int i = 0; i < n; ++i)
     values.cake_drop[i] = leak_off_rows[i] == no_row ? values.pressure[i] - values.pore_pressure[i]
                                                      : state.current.extra[leak_off_rows[i]];
+  find_vapour(context, values);
   return values;
+}
+
+
+/// Newton's method for the complementarity: of both conditions a segment has the one that is nearer
+/// to being violated (an active set; Hintermueller, Ito and Kunisch 2003).
+template <int dim>
+void Network<dim>::find_vapour(const StepContext &context, Values &values) const
+{
+  values.vapour.assign(network.size(), 0.);
+  values.boils.assign(network.size(), false);
+  if (!may_boil())
+    return;
+  const double dt = context.fracture_dt();
+  const double c_f = compressibility * context.fracture_pressure_factor();
+  for (unsigned int i = 0; i < network.size(); ++i)
+  {
+    if (rows[i] == no_row || all_wells.feeds(i))
+      continue;
+    const double w = values.aperture[i], p = values.pressure[i], area = network[i].area;
+    double lack = area * (w - values.aperture_reference[i] +
+                          std::max(w, 0.) * c_f * (p - values.pressure_reference[i])) +
+                  2. * area * dt * leak_off_coefficient(i) * values.cake_drop[i];
+    for (const Edge &edge : edges[i])
+      lack += dt *
+              transmissibility(w, values.aperture[edge.other], edge.distance, edge.other_distance,
+                               edge.width, viscosity, minimum_aperture)
+                .value *
+              (p - values.pressure[edge.other]);
+    values.boils[i] = lack > vapour_scale(i) * (p - least_pressure);
+    if (values.boils[i])
+      values.vapour[i] = lack;
+  }
 }
 
 
@@ -394,6 +440,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
   local.reinit();
 
   // For each entry of B, its place and coefficient.
+  const bool boils = values.boils[index];
   const auto for_B = [&](const auto &action)
   {
     for (unsigned int i = 0; i < B.bulk.size(); ++i)
@@ -419,8 +466,13 @@ void Network<dim>::assemble_segment(const unsigned int index,
   for (unsigned int i = 0; i < segment.load.bulk.size(); ++i)
     add_load(load_bulk + i, segment.load.bulk_coefficients[i]);
 
-  // Storage.
-  if (own != no_row)
+  // Storage; in a segment that boils, the whole row.
+  if (boils)
+  {
+    local.residual(own) -= vapour_scale(index) * (p - least_pressure);
+    local.matrix(own, own) -= vapour_scale(index);
+  }
+  else if (own != no_row)
   {
     const double open = std::max(w, 0.), dp = p - values.pressure_reference[index];
     local.residual(own) -= area * (w - values.aperture_reference[index] + open * c_f * dp);
@@ -437,7 +489,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
                        edge.width, viscosity, minimum_aperture);
     const double difference = p - values.pressure[edge.other];
     const unsigned int other = others[e];
-    if (own != no_row)
+    if (own != no_row && !boils)
     {
       local.residual(own) -= dt * T.value * difference;
       local.matrix(own, own) -= dt * T.value;
@@ -445,7 +497,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
         local.matrix(own, other) += dt * T.value;
       add_aperture_slope(own, -dt * T.slope_i * difference);
     }
-    if (other != no_row)
+    if (other != no_row && !values.boils[edge.other])
       add_aperture_slope(other, dt * T.slope_i * difference);
   }
 
@@ -461,7 +513,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
 
   // c d enters the balances of fracture and rock, and c (d - p + p_m) = 0.
   const double c = 2. * area * dt * leak_off_coefficient(index), d = values.cake_drop[index];
-  if (c > 0. && own != no_row)
+  if (c > 0. && own != no_row && !boils)
   {
     local.residual(own) -= c * d;
     if (cake == no_row)
@@ -474,7 +526,8 @@ void Network<dim>::assemble_segment(const unsigned int index,
     if (own != no_row)
     {
       local.matrix(cake, own) -= c;
-      local.matrix(own, cake) -= c;
+      if (!boils)
+        local.matrix(own, cake) -= c;
     }
     // The balance of the rock is over the time of its scheme.
     const double c_rock = c * context.effective_dt() / dt;

@@ -6,6 +6,7 @@
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -30,6 +31,12 @@ namespace stockwork
 /// (leak_off.h). The fluid loads the rock by A p B^T, the transpose of what the aperture adds to
 /// the balance, so that work and volume are conserved. Segments whose pressure is given have the
 /// load only; what they take from or give to others counts as injected or flowing out.
+///
+/// Where it would take less than the least pressure to fill a segment, that pressure rules there
+/// and part of the segment is vapour, which weighs nothing (after Jakobsson, Floberg and Olsson;
+/// see Elrod 1981). The fluid then lags behind the tip, and none is lost:
+///
+///   p >= p_least,  A w >= volume of the fluid,  one of the two is an equality.
 ///
 /// The minimum aperture enters the conductivity only. It should be small beside the aperture near
 /// the tip: in viscous fluid, 2 um runs as well as 10 um.
@@ -116,6 +123,12 @@ public:
     all_wells.check(cracks);
   }
 
+  /// The fluid may lag behind the tips.
+  bool may_boil() const
+  {
+    return std::isfinite(least_pressure);
+  }
+
   double rate_of_first_well(double t) const
   {
     return all_wells.first_rate(t);
@@ -133,6 +146,8 @@ private:
     std::vector<double> pressure, pressure_reference;
     std::vector<double> pore_pressure;
     std::vector<double> cake_drop; ///< of pressure across the face, for linear leak-off
+    std::vector<double> vapour;    ///< volume at the end of the step [m^3]
+    std::vector<bool> boils;       ///< the pressure is the least, else there is no vapour
   };
 
   /// What a segment remembers.
@@ -142,11 +157,12 @@ private:
     double wetted = 0.;   ///< share of it that has fluid at its faces
     double leaked = 0.;   ///< volume through both faces so far [m^3]
     double volume = 0.;   ///< between the faces [m^3]
+    double vapour = 0.;   ///< part of it that holds no fluid [m^3]
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &exposure &wetted &leaked &volume;
+      ar &exposure &wetted &leaked &volume &vapour;
     }
   };
 
@@ -160,6 +176,15 @@ private:
   };
 
   Values evaluate(const StepContext &, const State &, const Collectives &) const;
+
+  /// Which segments boil, and how much vapour there is in them.
+  void find_vapour(const StepContext &, Values &) const;
+
+  /// What a segment's row is divided by where it says p = p_least, to be a volume [m^3/Pa].
+  double vapour_scale(unsigned int segment) const
+  {
+    return network[segment].area * minimum_aperture / 1e6;
+  }
 
   /// The time of exposure of a segment's faces before and after a step.
   struct Exposure
@@ -194,6 +219,7 @@ private:
                         LocalSystem &) const;
 
   double minimum_aperture = 10e-6;
+  double least_pressure = -std::numeric_limits<double>::infinity();
   LeakOff leak_off = LeakOff::none;
   double carter_coefficient = 0.;
   double filter_cake_coefficient = 0.;

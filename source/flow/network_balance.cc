@@ -47,8 +47,9 @@ FluidBalance Network<dim>::balance(const StepContext &context,
     const double gain =
       scheme * area *
       (w - values.aperture_reference[i] +
-       std::max(w, 0.) * c_f * (values.pressure[i] - values.pressure_reference[i]));
-    balance.fracture_volume += area * w;
+       std::max(w, 0.) * c_f * (values.pressure[i] - values.pressure_reference[i]) -
+       values.vapour[i] / area);
+    balance.fracture_volume += area * w - values.vapour[i];
     balance.step.in_fractures += gain;
     balance.step.leaked += leaked[i];
 
@@ -97,6 +98,7 @@ void Network<dim>::commit(const StepContext &context,
     entry.wetted = wetted_share(values.aperture[i], bare_aperture(i)).value;
     entry.leaked += leaked[i];
     entry.volume = network[i].area * values.aperture[i];
+    entry.vapour = values.vapour[i];
   }
   rollback(); // nothing is on trial any more
 }

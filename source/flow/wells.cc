@@ -208,6 +208,18 @@ void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments)
 
 
 template <int dim>
+bool Wells<dim>::feeds(const unsigned int segment) const
+{
+  for (const Well &well : wells)
+    for (const Perforation &perforation : well.perforations)
+      if (std::find(perforation.segments.begin(), perforation.segments.end(), segment) !=
+          perforation.segments.end())
+        return true;
+  return false;
+}
+
+
+template <int dim>
 std::vector<ExtraUnknown> Wells<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> result;

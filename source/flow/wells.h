@@ -59,6 +59,9 @@ public:
   /// @throws EntryError naming a point that lies on no segment
   void locate(const std::vector<NetworkSegment<dim>> &segments);
 
+  /// Whether a perforation opens into a segment.
+  bool feeds(unsigned int segment) const;
+
   /// The same from the cracks of the deck, before there is a mesh: a perforation farther from every
   /// crack than a tenth of its length cannot lie on one.
   /// @throws EntryError naming the point
