@@ -25,13 +25,13 @@ stockwork_case_test(NAME convergence/clusters/without_friction DECK prm/clusters
 stockwork_case_test(NAME convergence/kgd/toughness/peridynamics NEGATIVE
   DECK prm/kgd/toughness/peridynamics.prm
   SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.03" "errors/inlet_aperture/final < 0.02"
-         "errors/inlet_pressure/final < 0.05"
+  EXPECT "errors/fracture_length/final < 0.01" "errors/inlet_aperture/final < 0.01"
+         "errors/inlet_pressure/final < 0.035"
          "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/kgd/sun/peridynamics NEGATIVE
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/mean < 0.03" "errors/inlet_aperture/mean < 0.015"
-         "errors/inlet_pressure/mean < 0.045" "fluid_balance/relative_error < 1e-8")
+  EXPECT "errors/fracture_length/mean < 0.02" "errors/inlet_aperture/mean < 0.008"
+         "errors/inlet_pressure/mean < 0.03" "fluid_balance/relative_error < 1e-8")
 # The zone that grows with the fracture does what one does that has been there before.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
@@ -68,13 +68,13 @@ stockwork_case_test(NAME convergence/sneddon/peridynamics DECK prm/sneddon/perid
   SET "Resolution=medium" EXPECT "errors/fracture_volume/final < 0.02")
 stockwork_case_test(NAME convergence/sneddon/penny/peridynamics NEGATIVE
   DECK prm/sneddon/penny/peridynamics.prm SET "Resolution=medium"
-  EXPECT "errors/fracture_volume/final < 0.045")
+  EXPECT "errors/fracture_volume/final < 0.06")
 # State-based bonds: any Poisson's ratio; at 1/4 they are the others.
 foreach(poisson_ratio 0.15 0.35)
   stockwork_case_test(NAME convergence/sneddon/state_based/${poisson_ratio} NEGATIVE
     DECK prm/sneddon/state_based/peridynamics.prm
     SET "Resolution=medium" "Rock/Poisson ratio=${poisson_ratio}"
-    EXPECT "errors/fracture_volume/final < 0.025")
+    EXPECT "errors/fracture_volume/final < 0.02")
 endforeach()
 stockwork_same_test(NAME convergence/sneddon/state_based/0.25
   DECK prm/sneddon/state_based/peridynamics.prm
@@ -136,14 +136,20 @@ stockwork_case_test(NAME convergence/dcb/medium DECK prm/dcb/cohesive_xfem.prm N
          "errors/dissipated_energy/final < 0.012")
 
 # A crack that follows a wave of opening: the power of the edges over its speed, 8 m/s, is the energy
-# release rate. G_c is 100 J/m^2. The surface correction adds energy as bonds break, 5 % of G_c.
+# release rate. G_c is 100 J/m^2.
 stockwork_case_test(NAME convergence/surfing/peridynamics DECK prm/surfing/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
+  EXPECT "rates/external_work = 800 within 0.02" "rates/dissipated_energy = 800 within 0.02")
+stockwork_case_test(NAME convergence/surfing/peridynamics/uncorrected
+  DECK prm/surfing/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
       "Fracture/peridynamics/Surface correction=false"
   EXPECT "rates/external_work = 800 within 0.02" "rates/dissipated_energy = 800 within 0.02")
-stockwork_case_test(NAME convergence/surfing/peridynamics/corrected DECK prm/surfing/peridynamics.prm
-  SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
-  EXPECT "rates/external_work = 800 within 0.06" "rates/dissipated_energy = 800 within 0.04")
+# With a horizon of two cells the crack jumps: bonds soften over several steps.
+stockwork_case_test(NAME convergence/surfing/peridynamics/jumps DECK prm/surfing/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=0.35 s" "Output/Fields=false"
+      "Fracture/peridynamics/Horizon=2"
+  EXPECT "rates/external_work = 800 within 0.05")
 # A plate with a notch, pulled suddenly.
 stockwork_case_test(NAME convergence/peridynamics/dynamic_notch DECK tests/data/dynamic_notch.prm
   SET "Time/End time=0.98e-3 s"

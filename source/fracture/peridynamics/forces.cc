@@ -19,9 +19,9 @@ constexpr double nearly_detached = 0.9;
 /// Of the bonds' stiffness at a free face, where about half of them are gone.
 constexpr double most_correction = 2.;
 
-double by_share_left(const double damage)
+double share_left(const double damage)
 {
-  return std::min(1. / (1. - damage), most_correction);
+  return std::max(1. - damage, 1. / most_correction);
 }
 } // namespace
 
@@ -130,8 +130,7 @@ double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int 
     return std::max(damage[site], damage[far]) > nearly_detached ? remaining_share * whole : 0.;
   if (!parameters.surface_correction)
     return whole;
-  return 0.5 * (by_share_left(corrected_damage[site]) + by_share_left(corrected_damage[far])) *
-         whole;
+  return 2. / (share_left(corrected_damage[site]) + share_left(corrected_damage[far])) * whole;
 }
 
 

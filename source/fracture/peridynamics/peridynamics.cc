@@ -225,7 +225,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   passes = 0;
   // An attempt that this model has not rejected has not converged. Half of the step may do.
   if (context.attempt == 0)
-    followed = std::min(1., 2. * committed_followed);
+    followed = std::min(1., 1.25 * committed_followed);
   else if (context.attempt > 1 && !has_rejected)
     followed *= 0.5;
   has_rejected = false;

@@ -208,8 +208,8 @@ private:
   /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
   double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
 
-  /// Of a bond, force per elongation [N/m]. Where bonds are broken the others are stiffer by the
-  /// mean of V/V_left of both ends, so that a free face is not too soft (Le and Bobaru 2018, the
+  /// Of a bond, force per elongation [N/m]. Where bonds are broken the others are stiffer by V over
+  /// the mean of V_left of both ends, so that a free face is not too soft (Le and Bobaru 2018, the
   /// volume method), once a tip has left them behind: near it, bonds are stretched, and to make
   /// them stiffer then would add energy, 5 % of G_c. A site with hardly any bond left keeps a
   /// little of the broken ones.
