@@ -63,43 +63,41 @@ double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigne
 
 
 template <int dim>
-std::vector<typename Peridynamics<dim>::Relief>
-Peridynamics<dim>::pressure_relief(const State &state, const Collectives &collectives) const
+std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
+                                                        const Collectives &collectives) const
 {
-  std::vector<Relief> result(cells.size());
+  std::vector<double> result(cells.size(), 0.);
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
-  const bool of_fluid = parameters.effective_stretch && state.segment_pressure;
-  if (of_fluid && scene.has_pore_pressure)
+  const double by_fluid = state.segment_pressure ? relief_by_fluid : 0.;
+  if (by_fluid > 0. && scene.has_pore_pressure)
   {
-    std::vector<double> carried(cells.size(), 0.);
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
     {
       const LinearFunctional &pore = owned_segments[i].pore_pressure;
       double pressure = pore.constant;
       for (unsigned int k = 0; k < pore.bulk.size(); ++k)
         pressure += pore.bulk_coefficients[k] * state.current.bulk(pore.bulk[k]);
-      carried[owned_cells[i]] = rock.biot_coefficient * pressure;
+      result[owned_cells[i]] = -rock.biot_coefficient * by_fluid * pressure;
     }
-    collectives.sum(carried);
-    for (unsigned int i = 0; i < cells.size(); ++i)
-      result[i].fluid = -compliance * carried[i];
+    collectives.sum(result);
   }
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     const auto &n = cells[i].normal;
-    result[i].in_situ = -compliance * (n * (scene.in_situ_stress(all_segments[i].centre) * n));
-    if (of_fluid)
-      result[i].fluid +=
-        compliance * state.segment_pressure(all_segments[i].key) - result[i].in_situ;
+    const double in_situ = n * (scene.in_situ_stress(all_segments[i].centre) * n);
+    result[i] -= compliance * in_situ;
+    if (by_fluid > 0.)
+      result[i] += by_fluid * (state.segment_pressure(all_segments[i].key) + in_situ);
   }
   return result;
 }
 
 
 template <int dim>
-typename Peridynamics<dim>::Relief Peridynamics<dim>::relief_at(
-  const unsigned int site, const unsigned int bond, const std::vector<Relief> &relief) const
+double Peridynamics<dim>::relief_at(const unsigned int site,
+                                    const unsigned int bond,
+                                    const std::vector<double> &relief) const
 {
   Tensor<1, dim> half, middle; // in spacings
   for (unsigned int d = 0; d < dim; ++d)
@@ -107,8 +105,7 @@ typename Peridynamics<dim>::Relief Peridynamics<dim>::relief_at(
     half[d] = 0.5 * stencil[bond].offset[d];
     middle[d] = zone.sites()[site].place[d] + half[d];
   }
-  double nearest = parameters.horizon + 1.;
-  Relief result;
+  double nearest = parameters.horizon + 1., result = 0.;
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     Tensor<1, dim> away = middle;
@@ -118,8 +115,7 @@ typename Peridynamics<dim>::Relief Peridynamics<dim>::relief_at(
       continue; // the plane of the fracture does not cross it
     // Of several equally near, the one that relieves most, whatever their order.
     const double distance = away.norm();
-    if (distance < nearest - resolution ||
-        (distance < nearest + resolution && relief[i].total() > result.total()))
+    if (distance < nearest - resolution || (distance < nearest + resolution && relief[i] > result))
     {
       nearest = std::min(nearest, distance);
       result = relief[i];
@@ -131,12 +127,12 @@ typename Peridynamics<dim>::Relief Peridynamics<dim>::relief_at(
 
 template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
-  const std::vector<double> &u, const std::vector<Relief> &relief, Rim &rim) const
+  const std::vector<double> &u, const std::vector<double> &relief, Rim &rim) const
 {
   const double least = softening.brittle() ? 1. : soon_to_soften;
   double most_relief = 0.;
-  for (const Relief &r : relief)
-    most_relief = std::max(most_relief, r.total());
+  for (const double r : relief)
+    most_relief = std::max(most_relief, r);
   std::vector<Candidate> candidates;
   const unsigned int half = stencil.size() / 2;
   for (const unsigned int i : zone.peridynamic_sites())
@@ -157,7 +153,7 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       };
       if (ratio_with(most_relief) < least || softening_bond(i, b) != nullptr)
         continue;
-      const double ratio = ratio_with(relief_at(i, b, relief).total());
+      const double ratio = ratio_with(relief_at(i, b, relief));
       if (ratio < least)
         continue;
       if (breakable)
@@ -238,7 +234,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (!parameters.growth)
     return verdict;
   Rim rim = Rim::away;
-  const std::vector<Relief> relief = pressure_relief(state, collectives);
+  const std::vector<double> relief = pressure_stretch(state, collectives);
   const std::vector<Candidate> candidates = overstretched(displacement, relief, rim);
   if (rim == Rim::stays && !told_of_rim)
   {
@@ -301,19 +297,19 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   return verdict;
 }
 
-#define INSTANTIATE(dim)                                                                \
-  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,             \
-                                                const std::vector<double> &) const;     \
-  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const; \
-  template std::vector<Peridynamics<dim>::Relief> Peridynamics<dim>::pressure_relief(   \
-    const State &, const Collectives &) const;                                          \
-  template Peridynamics<dim>::Relief Peridynamics<dim>::relief_at(                      \
-    unsigned int, unsigned int, const std::vector<Relief> &) const;                     \
-  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(  \
-    const std::vector<double> &, const std::vector<Relief> &, Rim &) const;             \
-  template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);         \
-  template void Peridynamics<dim>::warn_of_pressure(const State &);                     \
-  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,       \
+#define INSTANTIATE(dim)                                                                       \
+  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                    \
+                                                const std::vector<double> &) const;            \
+  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const;        \
+  template std::vector<double> Peridynamics<dim>::pressure_stretch(const State &,              \
+                                                                   const Collectives &) const; \
+  template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                     \
+                                               const std::vector<double> &) const;             \
+  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
+    const std::vector<double> &, const std::vector<double> &, Rim &) const;                    \
+  template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \
+  template void Peridynamics<dim>::warn_of_pressure(const State &);                            \
+  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,              \
                                               const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -118,6 +118,10 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
 
   softening.first = critical_stretch / std::sqrt(parameters.softening);
   softening.last = critical_stretch * std::sqrt(parameters.softening);
+  // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
+  if (const double at_one = crossing_energy<dim>(stencil, law, zone.spacing(), 1.);
+      parameters.effective_stretch && at_one > 0.)
+    relief_by_fluid = zone.spacing() * softening.when_wet() / softening.first / (2. * at_one);
   if (started)
   {
     bonds.set_broken(committed_bonds);
@@ -254,8 +258,8 @@ void Peridynamics<dim>::commit(const StepContext &, const State &)
     dissipated += energy_at_unit_stretch(bond.view) *
                   (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
     bond.committed = bond.trial;
-    committed_softening.push_back({bonds.places(bond.view.first, bond.view.second),
-                                   {{bond.trial, bond.relief.in_situ, bond.relief.fluid}}});
+    committed_softening.push_back(
+      {bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
   }
   committed_energy = dissipated;
   committed_followed = followed;

@@ -102,21 +102,6 @@ private:
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
   double in_situ_stretch(unsigned int site, unsigned int bond) const;
 
-  /// Stretch that the bonds ahead of a fracture gain where the rock is pressed on no longer. A cell
-  /// that fluid enters is open already, by its rock's stretch at that time. The fluid fills this
-  /// volume, and its work is lost to the rock, p w_0 per area, unless it has loaded the faces
-  /// since they began to part; which is what bonds are relieved of until the cell holds fluid.
-  struct Relief
-  {
-    double in_situ = 0.; ///< by the in-situ stress normal to the fracture, which its faces release
-    double fluid = 0.;   ///< by the fluid's pressure beyond that and what the pores carry
-
-    double total() const
-    {
-      return in_situ + fluid;
-    }
-  };
-
   /// A bond that is stretched too far.
   struct Candidate
   {
@@ -137,11 +122,9 @@ private:
     BondView view;
     /// Greatest stretch so far, as of a bond of the lattice's stiffness.
     double committed = 0., trial = 0.;
-    Relief relief; ///< as it began to soften; with the in-situ stretch
+    /// Stretch that is not elongation: in situ, and what fluid relieves.
+    double offset = 0.;
   };
-
-  /// Stretch that is not elongation: in situ, and where no fluid loads the faces yet.
-  double offset(const SofteningBond &bond) const;
 
   /// With a stretch now [-].
   double greatest_stretch(const SofteningBond &bond, double stretch) const;
@@ -161,7 +144,7 @@ private:
   /// Follow the softening bonds, and let candidates soften.
   /// @return whether unknowns or segments have changed
   bool soften_bonds(const std::vector<double> &displacement,
-                    const std::vector<Relief> &relief,
+                    const std::vector<double> &relief,
                     const std::vector<Candidate> &candidates);
 
   /// Elastic energy of a bond, all of its views, at stretch one [J/m].
@@ -191,14 +174,18 @@ private:
 
   /// The most stretched first.
   std::vector<Candidate> overstretched(const std::vector<double> &displacement,
-                                       const std::vector<Relief> &relief,
+                                       const std::vector<double> &relief,
                                        Rim &rim) const;
 
-  /// That of each fracture cell.
-  std::vector<Relief> pressure_relief(const State &state, const Collectives &collectives) const;
+  /// Of each fracture cell, the stretch that bonds ahead of it are relieved of: by the in-situ
+  /// stress normal to the fracture, which its faces release; and by the fluid. For a cell that
+  /// fluid enters is open already, by its rock's stretch w_0 / h. The fluid fills this volume, but
+  /// its work, p w_0 per area, does not reach the rock; so that it is not lost, the bonds take so
+  /// much less to break. What pressure the pores carry, the rock has seen already.
+  std::vector<double> pressure_stretch(const State &state, const Collectives &collectives) const;
 
-  /// Of the nearest cell whose plane crosses a bond, if one is within a horizon.
-  Relief relief_at(unsigned int site, unsigned int bond, const std::vector<Relief> &relief) const;
+  /// That of the nearest cell whose plane crosses a bond, if one is within a horizon.
+  double relief_at(unsigned int site, unsigned int bond, const std::vector<double> &relief) const;
 
   void write_bonds(FieldSink<dim> &sink) const;
 
@@ -247,6 +234,7 @@ private:
   std::vector<BondCoefficients<dim>> coefficients;
   double critical_stretch = 0.;
   SofteningLaw softening;
+  double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
   double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
   unsigned int rank = 0;
   unsigned int n_nodes = 0; ///< of the mesh, about
@@ -268,8 +256,8 @@ private:
 
   // Committed.
   std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;
-  /// Greatest stretch and relief.
-  std::vector<std::pair<BondPlaces<dim>, std::array<double, 3>>> committed_softening;
+  /// Greatest stretch and offset.
+  std::vector<std::pair<BondPlaces<dim>, std::array<double, 2>>> committed_softening;
   std::map<Place<dim>, std::vector<double>> committed_normals;
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;

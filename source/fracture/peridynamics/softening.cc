@@ -12,7 +12,9 @@ namespace
 {
 /// Damage of its bonds from which on the fluid gets into a cell; what softens beside a fracture
 /// that is there already has to be damaged more, or fractures would be several cells thick.
-constexpr double wet_damage = 0.1, wet_damage_beside = 0.5;
+constexpr double wet_damage_beside = 0.5;
+/// Damages that differ by less are equal, so that what is symmetric stays so.
+constexpr double resolution = 1e-6;
 } // namespace
 
 
@@ -94,14 +96,6 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
 
 
 template <int dim>
-double Peridynamics<dim>::offset(const SofteningBond &bond) const
-{
-  return bond.relief.in_situ +
-         (cracked.is_broken(bond.view.first, bond.view.second) ? 0. : bond.relief.fluid);
-}
-
-
-template <int dim>
 double Peridynamics<dim>::greatest_stretch(const SofteningBond &bond, const double stretch) const
 {
   return bond.committed + followed * std::max(0., stretch - bond.committed);
@@ -153,7 +147,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
                     e[d] * state.current.bulk(law_of_bond.bulk[d]);
     }
     // What an in-situ stress adds to the stretch is not the bond's to carry.
-    const double total = elongation + offset(softening_bonds[n]) * coefficients[bond].length;
+    const double total = elongation + softening_bonds[n].offset * coefficients[bond].length;
     const double stretch = equivalent_stretch(site, bond, total);
     const double committed = softening_bonds[n].committed;
     const double kappa = greatest_stretch(softening_bonds[n], stretch);
@@ -179,9 +173,9 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
 template <int dim>
 bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
 {
-  const double damage = softening.damage(bond.trial);
-  if (damage <= wet_damage || damage > wet_damage_beside)
-    return damage > wet_damage;
+  const double damage = std::round(softening.damage(bond.trial) / resolution) * resolution;
+  if (damage <= SofteningLaw::wet_damage || damage > wet_damage_beside)
+    return damage > SofteningLaw::wet_damage;
   const auto &[site, b] = bond.view;
   for (const FractureCell<dim> &cell : cells)
   {
@@ -199,11 +193,10 @@ bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
 
 template <int dim>
 bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
-                                     const std::vector<Relief> &relief,
+                                     const std::vector<double> &relief,
                                      const std::vector<Candidate> &candidates)
 {
   bool changed = false;
-  const BondSet<dim> cracked_before = cracked;
   const auto crack = [&](const BondView &view)
   {
     if (cracked.is_broken(view.first, view.second))
@@ -215,7 +208,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   {
     const auto &[site, b] = bond.view;
     return equivalent_stretch(site, b,
-                              elongation(site, b, u) + offset(bond) * coefficients[b].length);
+                              elongation(site, b, u) + bond.offset * coefficients[b].length);
   };
   for (SofteningBond &bond : softening_bonds)
   {
@@ -228,10 +221,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   for (const Candidate &candidate : candidates)
     changed = changed || candidate.stretch >= 1.;
   if (!changed)
-  {
-    cracked = cracked_before; // they keep their relief until a cell lets the fluid in
     return false;
-  }
 
   // Those that were broken before this step do not need their unknowns any more.
   std::vector<SofteningBond> softening_now;
@@ -252,8 +242,8 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   {
     SofteningBond bond;
     bond.view = view;
-    bond.relief = relief_at(view.first, view.second, relief);
-    bond.relief.in_situ += in_situ_stretch(view.first, view.second);
+    bond.offset =
+      in_situ_stretch(view.first, view.second) + relief_at(view.first, view.second, relief);
     bond.trial = greatest_stretch(bond, stretch_of(bond));
     if (lets_fluid_in(bond))
       cracked.set_broken(view.first, view.second);
@@ -278,9 +268,7 @@ void Peridynamics<dim>::restore_softening()
     for (unsigned int d = 0; d < dim; ++d)
       offset[d] = places.second[d] - places.first[d];
     softening_bonds.push_back({views_of(zone.find(places.first), bonds.bond(offset)).front(),
-                               values[0],
-                               values[0],
-                               {values[1], values[2]}});
+                               values[0], values[0], values[1]});
   }
   std::sort(softening_bonds.begin(), softening_bonds.end(),
             [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
@@ -296,11 +284,10 @@ void Peridynamics<dim>::restore_softening()
   template double Peridynamics<dim>::energy_at_unit_stretch(const BondView &) const;               \
   template double Peridynamics<dim>::equivalent_stretch(unsigned int, unsigned int, double) const; \
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \
-  template double Peridynamics<dim>::offset(const SofteningBond &) const;                          \
   template double Peridynamics<dim>::greatest_stretch(const SofteningBond &, double) const;        \
   template void Peridynamics<dim>::assemble_softening(const State &, Sink &) const;                \
   template bool Peridynamics<dim>::soften_bonds(                                                   \
-    const std::vector<double> &, const std::vector<Relief> &, const std::vector<Candidate> &);     \
+    const std::vector<double> &, const std::vector<double> &, const std::vector<Candidate> &);     \
   template bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &) const;                     \
   template void Peridynamics<dim>::restore_softening();
 INSTANTIATE(2)

@@ -11,6 +11,9 @@ namespace stockwork::peridynamics
 /// lattice does not trap it.
 struct SofteningLaw
 {
+  /// Damage of the bonds across a cell from which on the fluid gets into it.
+  static constexpr double wet_damage = 0.1;
+
   double first = 0., last = 0.; ///< stretches
 
   bool brittle() const
@@ -30,6 +33,12 @@ struct SofteningLaw
   double slope(const double kappa) const
   {
     return kappa <= first ? 0. : kappa >= last ? 1. : last / (last - first);
+  }
+
+  /// Stretch at which fluid gets into a cell.
+  double when_wet() const
+  {
+    return last * first / (last - wet_damage * (last - first));
   }
 
   /// Over that of a bond that broke at stretch one.
