@@ -26,12 +26,12 @@ stockwork_case_test(NAME convergence/kgd/toughness/peridynamics NEGATIVE
   DECK prm/kgd/toughness/peridynamics.prm
   SET "Resolution=coarse"
   EXPECT "errors/fracture_length/final < 0.01" "errors/inlet_aperture/final < 0.01"
-         "errors/inlet_pressure/final < 0.035"
+         "errors/inlet_pressure/final < 0.015" "errors/inlet_pressure/mean < 0.025"
          "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/kgd/sun/peridynamics NEGATIVE
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/mean < 0.02" "errors/inlet_aperture/mean < 0.008"
-         "errors/inlet_pressure/mean < 0.03" "fluid_balance/relative_error < 1e-8")
+  EXPECT "errors/fracture_length/mean < 0.015" "errors/inlet_aperture/mean < 0.025"
+         "errors/inlet_pressure/mean < 0.005" "fluid_balance/relative_error < 1e-8")
 # The zone that grows with the fracture does what one does that has been there before.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
@@ -46,7 +46,7 @@ stockwork_case_test(NAME convergence/natural_crack/peridynamics
 # Inertia that is too small to matter changes nothing: Newmark's scheme with gamma = 1 against the
 # quasi-static run.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/inertia
-  DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=3 s"
+  DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=1 s"
   SECOND_SET "Time/Inertia=on" "Rock/Density=1810 kg/m^3" "Time/Newmark gamma=1"
              "Time/Newmark beta=0.5625"
   TOLERANCE 1e-4 IGNORE "error")

@@ -56,12 +56,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
                     "that is spread over more cells. State-based bonds are always brittle.");
-  prm.declare_entry("Stretch", "effective", Patterns::Selection("effective|total"),
-                    "What breaks a bond. effective: its stretch, and that of the pressure that the "
-                    "fluid beside will load its cell with as it enters; so the work of the fluid "
-                    "goes into the rock from the start. total: its stretch alone; pressurised "
-                    "fractures are tougher then, by a share that falls with the root of the "
-                    "cells' size.");
+  prm.declare_entry(
+    "Stretch", "effective", Patterns::Selection("effective|total"),
+    "What breaks a bond. effective: its stretch, and so much more that it takes the "
+    "energy of a crack less the work of the fluid that enters cells which are open "
+    "already, of which the rock has nothing. total: its stretch alone; pressurised "
+    "fractures are tougher then, by a share that falls with the root of the cells' "
+    "size.");
   prm.declare_entry("Surface correction", "true", Patterns::Bool(),
                     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
                     "which makes its faces too soft. With the correction, the bonds that are left "

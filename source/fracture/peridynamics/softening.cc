@@ -184,7 +184,7 @@ bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
       away[d] = zone.sites()[site].place[d] + 0.5 * stencil[b].offset[d] - cell.place[d] - 0.5;
     const double across = std::abs(away * cell.normal);
     if (across > 0.75 && across < parameters.horizon + 1. &&
-        (away - (away * cell.normal) * cell.normal).norm() < 1.25)
+        (away - (away * cell.normal) * cell.normal).norm() < parameters.horizon + 1.)
       return false;
   }
   return true;
