@@ -60,18 +60,20 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   // The products belong to the old factor, whatever happens below.
   schur.forget();
   const bool definite = op.system().definite;
-  if (!factor || stamps.mesh != factor_stamps.mesh ||
-      static_cast<unsigned int>(factor->size()) != op.n_bulk())
+  std::unique_ptr<Mumps> now = std::move(factor); // where it fails there is none
+  if (!now || stamps.mesh != factor_stamps.mesh ||
+      static_cast<unsigned int>(now->size()) != op.n_bulk())
   {
-    factor = std::make_unique<Mumps>(communicator,
-                                     definite ? Mumps::Kind::definite : Mumps::Kind::unsymmetric);
+    now = std::make_unique<Mumps>(communicator,
+                                  definite ? Mumps::Kind::definite : Mumps::Kind::unsymmetric);
     std::vector<int> rows, columns;
     append_bulk_indices(op, definite, rows, columns);
-    factor->analyse(static_cast<int>(op.n_bulk()), std::move(rows), std::move(columns));
+    now->analyse(static_cast<int>(op.n_bulk()), std::move(rows), std::move(columns));
   }
   std::vector<double> values;
   append_bulk_values(op, definite, values);
-  factor->factorise(values);
+  now->factorise(values);
+  factor = std::move(now);
   factor_scaling.bulk.reinit(op.scaling().bulk); // it may have another number of blocks
   factor_scaling = op.scaling();
   factor_stamps = stamps;

@@ -78,19 +78,34 @@ public:
     // In elastic rock without a fracture as well: one may come, and the factor will serve.
     if (system.elastic)
       return solve_with(get<BorderedSolver>(bordered, communicator));
-    if (!system.residual_extra.empty() && !rock_is_singular)
+    if (!system.residual_extra.empty() && rock_may_have_factor(stamps))
       try
       {
-        return solve_with(get<BorderedSolver>(bordered, communicator));
+        const LinearReport report = solve_with(get<BorderedSolver>(bordered, communicator));
+        n_singular_rocks = 0;
+        return report;
       }
       catch (const SolveError &)
       {
-        rock_is_singular = true; // without its fracture: closed, and nothing can be compressed
+        // Singular without its fracture, if all together is not.
+        const LinearReport report = solve_with(get<DirectSolver>(direct, communicator));
+        ++n_singular_rocks;
+        singular_rock = stamps.bulk_values;
+        return report;
       }
     return solve_with(get<DirectSolver>(direct, communicator));
   }
 
 private:
+  /// A rock that was singular without its fracture (closed, and nothing can be compressed) still is
+  /// as long as it does not change; after a few of them others will be, too.
+  bool rock_may_have_factor(const SystemStamps &stamps) const
+  {
+    constexpr unsigned int most_singular_rocks = 3;
+    return n_singular_rocks == 0 ||
+           (n_singular_rocks < most_singular_rocks && stamps.bulk_values != singular_rock);
+  }
+
   template <class Solver, class... Arguments>
   static LinearSolver &get(std::unique_ptr<LinearSolver> &solver, const Arguments &...arguments)
   {
@@ -103,7 +118,8 @@ private:
   unsigned int dim;
   MPI_Comm communicator;
   std::unique_ptr<LinearSolver> direct, bordered, iterative;
-  bool rock_is_singular = false;
+  unsigned int n_singular_rocks = 0; ///< one after another
+  unsigned int singular_rock = 0;    ///< SystemStamps::bulk_values of the last of them
 };
 } // namespace
 

@@ -456,6 +456,48 @@ TEST_CASE("auto takes what is there")
   CHECK(solve(*solver, make_dense(31, 13, 6), stamps).error < 1e-10);
 }
 
+TEST_CASE("auto tries the rock's factor again after one rock that has none")
+{
+  auto solver = make(Type::automatic);
+  SystemStamps stamps;
+  auto d = make_dense(31, 13, 6);
+  const auto good = d;
+  // Nothing but the fracture, unknown 46, holds the last pressure.
+  for (unsigned int i = 0; i < 50; ++i)
+    d.J(i, 43) = d.J(43, i) = 0.;
+  d.J(43, 46) = d.J(46, 43) = 1.;
+  const auto bad = d;
+  const auto solve_twice = [&](const DenseSystem &system)
+  {
+    ++stamps.mesh; // or a few rows that change would be borne
+    ++stamps.bulk_values;
+    auto changed = system;
+    CHECK(solve(*solver, changed, stamps).error < 1e-10);
+    changed.J(44, 44) += 2.;
+    const auto run = solve(*solver, changed, stamps);
+    CHECK(run.error < 1e-10);
+    return run.report.factorised; // all of it, not the rock alone
+  };
+  CHECK_FALSE(solve_twice(good));
+  CHECK(solve_twice(bad));
+  CHECK_FALSE(solve_twice(good));
+
+  // Where all together is singular, nothing can be said about the rock.
+  auto singular = bad;
+  singular.J(43, 46) = singular.J(46, 43) = 0.;
+  for (unsigned int k = 0; k < 4; ++k)
+  {
+    ++stamps.mesh;
+    ++stamps.bulk_values;
+    CHECK_THROWS_AS(solve(*solver, singular, stamps), SolveError);
+  }
+  CHECK_FALSE(solve_twice(good));
+
+  for (unsigned int k = 0; k < 3; ++k)
+    CHECK(solve_twice(bad));
+  CHECK(solve_twice(good)); // it is not tried any more
+}
+
 TEST_CASE("the iterative solver converges, with a fracture and where units differ")
 {
   for (const unsigned int n_p : {0u, 13u})
