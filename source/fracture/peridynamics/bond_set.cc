@@ -16,7 +16,7 @@ void BondSet<dim>::reinit(const Zone<dim> &new_zone, const std::vector<StencilBo
   unsigned int n = 0;
   for (const unsigned int i : zone->peridynamic_sites())
     number[i] = n++;
-  broken.assign(n * stencil.size(), false);
+  broken = BrokenBonds(n, stencil.size());
 }
 
 
@@ -45,21 +45,19 @@ template <int dim>
 void BondSet<dim>::set_broken(const unsigned int site, const unsigned int bond)
 {
   for_each_view(site, bond,
-                [&](const unsigned int s, const unsigned int b)
-                { broken[number[s] * stencil.size() + b] = true; });
+                [&](const unsigned int s, const unsigned int b) { broken.set(number[s], b); });
 }
 
 
 template <int dim>
 double BondSet<dim>::damage(const unsigned int site) const
 {
+  if (!broken.any(number[site]))
+    return 0.;
   double gone = 0., all = 0.;
-  for (unsigned int b = 0; b < stencil.size(); ++b)
-  {
-    all += stencil[b].volume_fraction;
-    if (is_broken(site, b))
-      gone += stencil[b].volume_fraction;
-  }
+  for (const StencilBond<dim> &bond : stencil)
+    all += bond.volume_fraction;
+  broken.for_each(number[site], [&](const unsigned int b) { gone += stencil[b].volume_fraction; });
   return gone / all;
 }
 
@@ -70,10 +68,13 @@ std::vector<BondPlaces<dim>> BondSet<dim>::places() const
   std::vector<BondPlaces<dim>> result;
   if (zone == nullptr)
     return result;
-  for (const unsigned int i : zone->peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
-      if (is_broken(i, b) && (b < stencil.size() / 2 || zone->far_end(i, b).mirrored != 0))
-        result.push_back(places(i, b));
+  for (const std::size_t k : broken.sites())
+    broken.for_each(k,
+                    [&, i = zone->peridynamic_sites()[k]](const unsigned int b)
+                    {
+                      if (b < stencil.size() / 2 || zone->far_end(i, b).mirrored != 0)
+                        result.push_back(places(i, b));
+                    });
   std::sort(result.begin(), result.end());
   return result;
 }

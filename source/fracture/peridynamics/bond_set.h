@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fracture/peridynamics/bond_law.h"
+#include "fracture/peridynamics/broken_bonds.h"
 #include "fracture/peridynamics/zone.h"
 
 #include <utility>
@@ -37,7 +38,7 @@ public:
   /// Of a peridynamic site.
   bool is_broken(const unsigned int site, const unsigned int bond) const
   {
-    return broken[number[site] * stencil.size() + bond];
+    return broken(number[site], bond);
   }
 
   bool can_break(const unsigned int site, const unsigned int bond) const
@@ -71,7 +72,7 @@ private:
   std::vector<StencilBond<dim>> stencil;
   std::map<Place<dim>, unsigned int> index_of_offset;
   std::vector<unsigned int> number; ///< of each site among the peridynamic ones
-  std::vector<bool> broken;
+  BrokenBonds broken;               ///< by that number
 };
 
 

@@ -4,16 +4,24 @@
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
 #include "fracture/peridynamics/stencil.h"
+#include "stockwork/base/error.h"
 #include "stockwork/fracture/collectives.h"
 #include "stockwork/fracture/scene.h"
 #include "stockwork/mesh/discretization.h"
 
 #include <array>
+#include <limits>
 #include <map>
 #include <vector>
 
 namespace stockwork::peridynamics
 {
+/// That the mesh is such that there is no lattice.
+inline EntryError unsuitable_mesh(const std::string &why)
+{
+  return EntryError("Fracture/Model", "peridynamics", "a model that suits the mesh. " + why);
+}
+
 /// Place of a vertex on the lattice, in spacings from its origin.
 template <int dim>
 using Place = std::array<int, dim>;
@@ -200,7 +208,8 @@ private:
   std::vector<unsigned int> pattern_of_cell; ///< by active cell index, bit v: vertex v
   std::vector<std::vector<bool>> patterns;
 
-  /// Planes of symmetry, if any: the place along each direction, of the lower and of the upper one.
+  /// Planes of symmetry: the place along each direction, of the lower and of the upper one.
+  static constexpr int no_mirror = std::numeric_limits<int>::min();
   std::array<std::array<int, 2>, dim> mirrors;
   dealii::BoundingBox<dim> domain, largest;
   unsigned int rank = 0;

@@ -1,0 +1,267 @@
+// The lattice as the mesh has it.
+#include "fracture/peridynamics/zone.h"
+
+#include <deal.II/dofs/dof_accessor.h>
+
+#include <boost/serialization/array.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+
+namespace
+{
+/// Marks a rank that knows a site's values, but does not own them.
+constexpr unsigned int not_owner = 1u << 31;
+
+/// Is the cell a cube? If so, its edge; else zero.
+template <int dim>
+double edge_of_cube(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell)
+{
+  const auto diagonal = cell->vertex((1 << dim) - 1) - cell->vertex(0);
+  const double edge = diagonal[0];
+  for (const unsigned int v : cell->vertex_indices())
+    for (unsigned int d = 0; d < dim; ++d)
+      if (std::abs(cell->vertex(v)[d] - cell->vertex(0)[d] - (v >> d & 1) * edge) > 1e-6 * edge)
+        return 0.;
+  return edge;
+}
+} // namespace
+
+
+template <int dim>
+void Zone<dim>::find_spacing(const ZoneShape<dim> &shape,
+                             const Discretization<dim> &discretization,
+                             const Collectives &collectives)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const double edge = cell->minimum_vertex_distance();
+      if (shape.contains(cell->center(), 0.) ||
+          shape.contains(cell->center(), edge, 0.5 - shape.margin))
+        smallest = std::min(smallest, edge);
+    }
+  h = collectives.min(smallest);
+  if (!std::isfinite(h))
+    throw unsuitable_mesh("No cell is in the zone.");
+}
+
+
+template <int dim>
+void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
+                             const unsigned int reach,
+                             const Discretization<dim> &discretization,
+                             const Collectives &collectives)
+{
+  const auto &dof_handler = discretization.dof_handler;
+  const auto &constraints = discretization.constraints;
+
+  // The domain, and a vertex of the lattice to count from: the lowest of all in the zone.
+  Point<dim> lower, upper, first, last;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = std::numeric_limits<double>::infinity();
+    upper[d] = -lower[d];
+    first[d] = lower[d];
+    last[d] = upper[d];
+  }
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const unsigned int v : cell->vertex_indices())
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::min(lower[d], cell->vertex(v)[d]);
+          upper[d] = std::max(upper[d], cell->vertex(v)[d]);
+          if (shape.contains(cell->vertex(v), h))
+          {
+            first[d] = std::min(first[d], cell->vertex(v)[d]);
+            last[d] = std::max(last[d], cell->vertex(v)[d]);
+          }
+        }
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = collectives.min(lower[d]);
+    upper[d] = collectives.max(upper[d]);
+    first[d] = collectives.min(first[d]);
+    last[d] = collectives.max(last[d]);
+  }
+  domain = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
+  if (!has_corner)
+    set_origin(first);
+
+  const auto place_of = [&](const Point<dim> &point)
+  {
+    Place<dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = static_cast<int>(std::lround((point[d] - corner[d]) / h));
+    return place;
+  };
+
+  std::map<Place<dim>, Site<dim>> mine;
+  std::vector<std::array<int, 3>> my_mirrors; // direction, side, place
+  std::vector<double> odd_cell; // centre of a cell in the zone that is of another size
+  owned_cells.clear();
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && shape.contains(cell->center(), h, reach + 2.))
+    {
+      const double edge = edge_of_cube<dim>(cell);
+      const Place<dim> place = place_of(cell->vertex(0));
+      if (std::abs(edge - h) > 1e-6 * h || position(place).distance(cell->vertex(0)) > 1e-4 * h)
+      {
+        for (const unsigned int v : cell->vertex_indices())
+          if (odd_cell.empty() && shape.contains(cell->vertex(v), h))
+          {
+            odd_cell.push_back(edge);
+            for (unsigned int d = 0; d < dim; ++d)
+              odd_cell.push_back(cell->center()[d]);
+          }
+        continue;
+      }
+      owned_cells[place] = cell->active_cell_index();
+      for (const unsigned int v : cell->vertex_indices())
+      {
+        Site<dim> site;
+        site.place = place;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          site.place[d] += v >> d & 1;
+          site.dofs[d] = cell->vertex_dof_index(v, d);
+        }
+        if (discretization.has_pore_pressure)
+          site.pressure_dof = cell->vertex_dof_index(v, dim);
+        // Rows are assembled where they are stored.
+        site.owner = dof_handler.locally_owned_dofs().is_element(site.dofs[0])
+                       ? collectives.rank()
+                       : collectives.rank() | not_owner;
+        mine.emplace(site.place, site);
+      }
+      const auto constrained = [&](const unsigned int v, const unsigned int d)
+      { return constraints.is_constrained(cell->vertex_dof_index(v, d)); };
+      const auto rolls = [&](const unsigned int f)
+      {
+        bool all = cell->face(f)->at_boundary();
+        for (const unsigned int v : cell->vertex_indices())
+          if ((v >> f / 2 & 1) == f % 2)
+            all &= constrained(v, f / 2);
+        return all;
+      };
+      for (const unsigned int f : cell->face_indices())
+        if (rolls(f))
+        {
+          // A node on two such planes does not slide, but would if it were on one.
+          const unsigned int normal = f / 2;
+          bool slides = true;
+          for (const unsigned int v : cell->vertex_indices())
+            if ((v >> normal & 1) == f % 2)
+              for (unsigned int d = 0; d < dim; ++d)
+                slides &= d == normal || !constrained(v, d) || rolls(2 * d + (v >> d & 1));
+          if (slides)
+            my_mirrors.push_back({{static_cast<int>(normal), static_cast<int>(f % 2),
+                                   place[normal] + static_cast<int>(f % 2)}});
+        }
+    }
+
+  if (const std::vector<double> odd = collectives.gather(odd_cell); !odd.empty())
+  {
+    std::ostringstream message;
+    message << "Cells in the peridynamic zone must be squares (cubes) of one size, " << h
+            << " m; the one at (";
+    for (unsigned int d = 0; d < dim; ++d)
+      message << odd[1 + d] << (d + 1 < dim ? ", " : "");
+    message << ") m is not. Change the spacing in subsection Mesh, or set 'Cell size'.";
+    throw unsuitable_mesh(message.str());
+  }
+
+  for (auto &m : mirrors)
+    m = {{no_mirror, no_mirror}};
+  for (const auto &m : collectives.gather(my_mirrors))
+    mirrors[m[0]][m[1]] = m[2];
+  find_room(first, last, reach, discretization, collectives);
+
+  std::vector<Site<dim>> contributions;
+  for (const auto &[place, site] : mine)
+    contributions.push_back(site);
+  contributions = collectives.gather(contributions);
+  // Of a site that several ranks know, the owner's word counts.
+  std::stable_sort(contributions.begin(), contributions.end(),
+                   [](const auto &a, const auto &b)
+                   { return std::tie(a.place, a.owner) < std::tie(b.place, b.owner); });
+  all_sites.clear();
+  for (Site<dim> &site : contributions)
+    if (all_sites.empty() || all_sites.back().place != site.place)
+    {
+      site.owner &= ~not_owner;
+      all_sites.push_back(site);
+    }
+}
+
+
+template <int dim>
+void Zone<dim>::find_room(const Point<dim> &first,
+                          const Point<dim> &last,
+                          const unsigned int reach,
+                          const Discretization<dim> &discretization,
+                          const Collectives &collectives)
+{
+  std::array<std::array<double, 2>, dim> bound;
+  for (unsigned int d = 0; d < dim; ++d)
+    bound[d] = {{domain.lower_bound(d) + (mirrors[d][0] == no_mirror ? reach * h : 0.),
+                 domain.upper_bound(d) - (mirrors[d][1] == no_mirror ? reach * h : 0.)}};
+  for (const auto &cell : discretization.triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const Point<dim> low = cell->vertex(0), high = cell->vertex((1 << dim) - 1);
+      const double halvings = std::log2((high[0] - low[0]) / h);
+      bool suits = std::abs(halvings - std::round(halvings)) < 1e-4;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double place = (low[d] - corner[d]) / h;
+        suits = suits && std::abs(place - std::round(place)) < 1e-4 &&
+                std::abs(high[d] - low[d] - (high[0] - low[0])) < 1e-4 * h;
+      }
+      if (suits)
+        continue;
+      // The bound is in the direction in which the cell is farthest from the zone.
+      double farthest = 0.;
+      unsigned int direction = 0, side = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const unsigned int s : {0u, 1u})
+          if (const double away = s == 0 ? first[d] - high[d] : low[d] - last[d]; away > farthest)
+          {
+            farthest = away;
+            direction = d;
+            side = s;
+          }
+      if (farthest > 0. && side == 0)
+        bound[direction][0] = std::max(bound[direction][0], high[direction] + reach * h);
+      else if (farthest > 0.)
+        bound[direction][1] = std::min(bound[direction][1], low[direction] - reach * h);
+    }
+  Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = std::min(first[d], collectives.max(bound[d][0]));
+    upper[d] = std::max(last[d], collectives.min(bound[d][1]));
+  }
+  largest = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
+}
+
+
+#define INSTANTIATE(dim)                                                                     \
+  template void Zone<dim>::find_spacing(const ZoneShape<dim> &, const Discretization<dim> &, \
+                                        const Collectives &);                                \
+  template void Zone<dim>::gather_sites(const ZoneShape<dim> &, unsigned int,                \
+                                        const Discretization<dim> &, const Collectives &);   \
+  template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int,   \
+                                     const Discretization<dim> &, const Collectives &);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics
