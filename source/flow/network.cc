@@ -306,20 +306,25 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
 {
   const unsigned int n = network.size();
   const Unknowns &reference_state = state.fracture_reference(context);
-  std::vector<double> all(4 * n);
+  // BDF2 alone refers to what has never been a state.
+  const bool from_committed =
+    context.balances_fractures_by_step() || context.rate == 1. / context.dt;
+  std::vector<double> all((from_committed ? 3 : 4) * n);
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
     const unsigned int i = owned_index[k];
     all[i] = value(owned[k].opening, state.current);
     all[n + i] = value(owned[k].opening, reference_state);
     all[2 * n + i] = value(owned[k].pore_pressure, state.current);
-    all[3 * n + i] = value(owned[k].opening, state.committed);
+    if (!from_committed)
+      all[3 * n + i] = value(owned[k].opening, state.committed);
   }
   collectives.sum(all);
 
   Values values;
   values.aperture.assign(all.begin(), all.begin() + n);
   values.aperture_reference.assign(all.begin() + n, all.begin() + 2 * n);
+  const double *committed = all.data() + (from_committed ? 1 : 3) * n;
   // Where a fracture has just grown to, there was no room for fluid, even if the unknowns that the
   // opening is read from were there and not zero, as those of an older piece around the corner. And
   // where a segment has turned, the room was what its old opening says. What had been room in pores
@@ -333,7 +338,7 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
       reference *= network[i].share_of_pores;
     else if (old != history.end())
       reference +=
-        (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - all[3 * n + i]);
+        (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - committed[i]);
     if (old != history.end())
       reference -= old->second.vapour / network[i].area;
   }
