@@ -201,6 +201,30 @@ double broken_share(const Zone<dim> &zone,
 
 
 template <int dim>
+std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &cells,
+                             const std::vector<double> &apertures,
+                             const double reach)
+{
+  constexpr double small = 0.1, same_direction = 0.9;
+  std::vector<bool> beside(cells.size(), false);
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    for (unsigned int j = 0; j < cells.size() && !beside[i]; ++j)
+    {
+      if (!(apertures[i] < small * apertures[j]) ||
+          std::abs(cells[i].normal * cells[j].normal) < same_direction)
+        continue;
+      Tensor<1, dim> away; // [cells]
+      for (unsigned int d = 0; d < dim; ++d)
+        away[d] = cells[i].place[d] - cells[j].place[d];
+      const double across = std::abs(away * cells[j].normal);
+      beside[i] =
+        across > 0.75 && across < reach && away.norm_square() - across * across < 0.75 * 0.75;
+    }
+  return beside;
+}
+
+
+template <int dim>
 double fracture_area(const Tensor<1, dim> &normal, const double spacing)
 {
   return std::pow(spacing, dim - 1) / sum_of_components(normal);
@@ -327,6 +351,8 @@ bool is_at_front(const Zone<dim> &zone, const FractureCell<dim> &cell, const Seg
   template double broken_share(const Zone<dim> &, const std::vector<StencilBond<dim>> &,    \
                                const FractureCell<dim> &,                                   \
                                const std::function<double(unsigned int, unsigned int)> &);  \
+  template std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &,             \
+                                        const std::vector<double> &, const double);         \
   template double fracture_area(const Tensor<1, dim> &, const double);                      \
   template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,              \
                                  const Tensor<1, dim> &);                                   \

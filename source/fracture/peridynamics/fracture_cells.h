@@ -37,6 +37,14 @@ double broken_share(const Zone<dim> &zone,
                     const FractureCell<dim> &cell,
                     const std::function<double(unsigned int, unsigned int)> &damage);
 
+/// Which cells are beside a fracture rather than in it: one across from them, no farther than @p
+/// reach cells, with the same normal, is open ten times as wide. Of a fracture that is oblique to
+/// the mesh and hardly open, cells are so as well.
+template <int dim>
+std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &cells,
+                             const std::vector<double> &apertures,
+                             const double reach);
+
 /// Area of the fracture in a cell, such that a long one has the right area in all [m^(dim-1)]: a
 /// plane passes through |n_x| + |n_y| (+ |n_z|) cells per area of a face.
 template <int dim>

@@ -9,18 +9,39 @@ namespace stockwork::peridynamics
 using dealii::Point;
 using dealii::Tensor;
 
+namespace
+{
+/// [m]
+template <int dim>
+double opening(const Segment<dim> &segment, const State &state)
+{
+  const LinearFunctional &B = segment.opening;
+  double sum = B.constant;
+  for (unsigned int k = 0; k < B.bulk.size(); ++k)
+    sum += B.bulk_coefficients[k] * state.current.bulk(B.bulk[k]);
+  return sum;
+}
+} // namespace
+
+
 template <int dim>
 FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives &collectives) const
 {
   FractureSummary result;
+  std::vector<double> apertures(cells.size(), 0.);
+  for (unsigned int k = 0; k < owned_cells.size(); ++k)
+    apertures[owned_cells[k]] = opening(owned_segments[k], state);
+  collectives.sum(apertures);
+  const std::vector<bool> beside = are_beside(cells, apertures, parameters.horizon + 1.);
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
+    const double broken = broken_share<dim>(zone, stencil, cells[i],
+                                            [this](const unsigned int site, const unsigned int bond)
+                                            { return bond_damage(site, bond); });
+    if (beside[i] && broken < 0.5)
+      continue; // it has softened without opening
     result.length += all_segments[i].area;
-    result.broken_length +=
-      broken_share<dim>(zone, stencil, cells[i],
-                        [this](const unsigned int site, const unsigned int bond)
-                        { return bond_damage(site, bond); }) *
-      all_segments[i].area;
+    result.broken_length += broken * all_segments[i].area;
     result.n_tips += all_segments[i].at_tip;
   }
   result.dissipated_energy = dissipated;
@@ -78,11 +99,8 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
   if constexpr (dim == 2)
     for (const Segment<dim> &segment : owned_segments)
     {
-      double aperture = 0.;
-      for (unsigned int k = 0; k < segment.opening.bulk.size(); ++k)
-        aperture +=
-          segment.opening.bulk_coefficients[k] * state.current.bulk(segment.opening.bulk[k]);
-      std::vector<std::pair<std::string, double>> values{{"aperture", aperture}, {"damage", 1.}};
+      std::vector<std::pair<std::string, double>> values{{"aperture", opening(segment, state)},
+                                                         {"damage", 1.}};
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(segment.key));
       Tensor<1, dim> along;
