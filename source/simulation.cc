@@ -149,6 +149,7 @@ Simulation<dim>::Simulation(RunContext &run,
   , deck_fingerprint(
       fingerprint(prm, {"Time/End time", "Output directory", "Output", "Checkpoint"}))
 {
+  system.is_interrupted = [&run]() { return stop_requested(run.communicator); };
   report.case_name = the_case.name;
   report.model_name = the_case.model_name;
   fields.parse_parameters(prm);

@@ -487,6 +487,12 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       return report;
     }
 
+    if (is_interrupted && is_interrupted())
+    {
+      report.reason = "interrupted";
+      return report;
+    }
+
     try
     {
       const auto scope = run.timers.scope("solve");

@@ -14,6 +14,7 @@
 #include "solvers/linear_solver.h"
 #include "solvers/linear_system.h"
 
+#include <functional>
 #include <memory>
 
 namespace stockwork
@@ -55,6 +56,10 @@ public:
                 Network<dim> &network,
                 const Discretisation &discretisation,
                 dealii::ParameterHandler &prm);
+
+  /// Whether the run shall stop: a solve then ends before its next iteration, without success. May
+  /// be empty. Collective.
+  std::function<bool()> is_interrupted;
 
   /// The mesh is new: number the bulk unknowns, tell the model, find the extra unknowns.
   void setup_mesh(double time);

@@ -193,6 +193,8 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     network.rollback();
     current.extra = committed.extra;
     system.adopt_extra(committed_numbering, {&current.extra});
+    if (system.is_interrupted && system.is_interrupted())
+      throw SolveError("Step " + std::to_string(step) + " was interrupted by a signal.");
     if (dt <= control.minimum_step * (1. + 1e-10))
       throw SolveError("Step " + std::to_string(step) + " at t = " + std::to_string(time) +
                        " s fails even with the shortest step allowed, " + std::to_string(dt) +

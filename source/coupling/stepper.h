@@ -49,8 +49,8 @@ public:
   /// The unknowns at the last accepted time.
   Unknowns committed;
 
-  /// From `time`, a step of at most `dt`. Throws SolveError if not even the shortest step succeeds;
-  /// the unknowns are then those of the last accepted step.
+  /// From `time`, a step of at most `dt`. Throws SolveError if not even the shortest step succeeds,
+  /// or the system is interrupted; the unknowns are then those of the last accepted step.
   StepReport advance(double time, double dt, unsigned int step);
 
   /// The state at the end of the last step, for reports: references are those of that step.
