@@ -65,7 +65,7 @@ stockwork_case_test(NAME convergence/sneddon/fine DECK prm/sneddon/prescribed.pr
   EXPECT "errors/fracture_volume/final < 0.001" "errors/stress_intensity_I/final < 0.001"
          "errors/displacement/final < 0.001" "unknowns < 50000")
 stockwork_case_test(NAME convergence/sneddon/peridynamics DECK prm/sneddon/peridynamics.prm NEGATIVE
-  SET "Resolution=medium" EXPECT "errors/fracture_volume/final < 0.02")
+  SET "Resolution=medium" EXPECT "errors/fracture_volume/final < 0.01")
 stockwork_case_test(NAME convergence/sneddon/penny/peridynamics NEGATIVE
   DECK prm/sneddon/penny/peridynamics.prm SET "Resolution=medium"
   EXPECT "errors/fracture_volume/final < 0.06")
@@ -92,14 +92,14 @@ stockwork_case_test(NAME convergence/sneddon/as_published/peridynamics
   EXPECT "errors/fracture_volume/final = 0.895 within 0.025")
 stockwork_case_test(NAME convergence/sneddon/box/peridynamics NEGATIVE
   DECK prm/sneddon/box/peridynamics.prm SET "Resolution=medium"
-  EXPECT "errors/fracture_volume/final < 0.02")
+  EXPECT "errors/fracture_volume/final < 0.012")
 stockwork_case_test(NAME convergence/parallel/two/2/peridynamics NEGATIVE
   DECK prm/parallel/two/2/peridynamics.prm SET "Resolution=medium"
-  EXPECT "errors/fracture_volume/final < 0.02")
+  EXPECT "errors/fracture_volume/final < 0.015")
 foreach(angle 0 15 30 45)
   stockwork_case_test(NAME convergence/inclined/${angle}/peridynamics NEGATIVE
     DECK prm/inclined/${angle}/peridynamics.prm SET "Resolution=medium"
-    EXPECT "errors/fracture_volume/final < 0.02")
+    EXPECT "errors/fracture_volume/final < 0.014")
 endforeach()
 stockwork_case_test(NAME convergence/sneddon/box DECK prm/sneddon/box/prescribed.prm NEGATIVE
   SET "Resolution=coarse"

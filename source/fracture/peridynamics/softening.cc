@@ -10,8 +10,8 @@ using dealii::Tensor;
 
 namespace
 {
-/// Damage of its bonds from which on the fluid gets into a cell; what softens beside a fracture
-/// that is there already has to be damaged more, or fractures would be several cells thick.
+/// As SofteningLaw::wet_damage, of what softens beside a fracture that is there already; or
+/// fractures would be several cells thick.
 constexpr double wet_damage_beside = 0.5;
 /// Damages that differ by less are equal, so that what is symmetric stays so.
 constexpr double resolution = 1e-6;
