@@ -243,7 +243,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   CouplingParameters coupling;
   coupling.parse_parameters(prm);
   coupling.check(rock.main(), discretisation.has_pore_pressure,
-                 model_name != "none" && !model->requirements().bulk_alone);
+                 model_name != "none" && !model->requirements().bulk_alone, network.has_wells());
 
   ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
   input.has_pore_pressure = discretisation.has_pore_pressure;

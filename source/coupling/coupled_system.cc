@@ -187,7 +187,7 @@ void CoupledSystem<dim>::adopt_extra(const ExtraNumbering &from,
                                      const std::vector<std::vector<double> *> &values)
 {
   std::vector<ExtraUnknown> unknowns = model.extra_unknowns();
-  n_model_extra = unknowns.size();
+  n_model_extra = system.n_mechanical_extra = unknowns.size();
   network.set_segments(model.segments(), communication);
   network.set_offset(n_model_extra);
   const std::vector<ExtraUnknown> pressures = network.unknowns();

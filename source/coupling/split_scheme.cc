@@ -3,7 +3,7 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
-#include "solvers/system_operator.h"
+#include <deal.II/base/mpi.h>
 
 #include <cmath>
 #include <sstream>
@@ -11,6 +11,26 @@
 namespace stockwork
 {
 using namespace dealii;
+
+namespace
+{
+/// The passes correct one another, so a block need not be solved better than a pass converges.
+constexpr double block_tolerance = 1e-3;
+
+BulkStructure without_pores(BulkStructure structure)
+{
+  structure.has_pore_pressure = false;
+  return structure;
+}
+
+
+LinearSolverParameters direct(LinearSolverParameters parameters)
+{
+  parameters.type = LinearSolverParameters::Type::direct;
+  return parameters;
+}
+} // namespace
+
 
 void CouplingParameters::declare_parameters(ParameterHandler &prm)
 {
@@ -49,16 +69,21 @@ void CouplingParameters::parse_parameters(ParameterHandler &prm)
 
 void CouplingParameters::check(const RockProperties &rock,
                                const bool has_pore_pressure,
-                               const bool has_fracture) const
+                               const bool has_fracture,
+                               const bool has_wells) const
 {
   if (scheme == Scheme::monolithic)
     return;
-  if (has_fracture)
+  if (has_fracture && scheme != Scheme::fixed_stress && !force)
     throw EntryError("Coupling/Scheme", name,
-                     "monolithic with a fracture: its opening couples rock and fluid far more "
-                     "strongly than the pores do");
-  if (!has_pore_pressure)
-    throw EntryError("Coupling/Scheme", name, "monolithic, because the rock has no pore pressure");
+                     "monolithic or fixed stress with a fracture: while its opening is held, what "
+                     "is injected has no place to go");
+  if (!has_pore_pressure && !(has_fracture && has_wells))
+    throw EntryError("Coupling/Scheme", name,
+                     "monolithic, because there is no fluid: the rock has no pore pressure and "
+                     "nothing is injected");
+  if (has_fracture)
+    return;
   if (scheme == Scheme::undrained && rock.inverse_biot_modulus <= 0.)
     throw EntryError("Coupling/Scheme", name,
                      "monolithic or fixed stress, because nothing in this rock can be compressed "
@@ -90,67 +115,77 @@ SplitScheme::SplitScheme(const CouplingParameters &parameters,
                          const MPI_Comm communicator,
                          UndrainedTerm undrained_term)
   : parameters(parameters)
-  , communicator(communicator)
+  , has_pore_pressure(structure.has_pore_pressure)
   , undrained_term(std::move(undrained_term))
-{
-  BulkStructure alone = structure;
-  alone.has_pore_pressure = false;
-  mechanics.solver = make_linear_solver(solver_parameters, alone, communicator);
+  , communicator(communicator)
+  , mechanics(solver_parameters, without_pores(structure), communicator)
   // Multigrid for the rock knows displacements; the flow's block is small and gets a factor.
-  LinearSolverParameters direct = solver_parameters;
-  direct.type = LinearSolverParameters::Type::direct;
-  flow.solver = make_linear_solver(direct, alone, communicator);
+  , flow(direct(solver_parameters), without_pores(structure), communicator)
+{
 }
 
 
-double SplitScheme::Block::correct(const TrilinosWrappers::MPI::Vector &residual,
-                                   const double tolerance,
-                                   TrilinosWrappers::MPI::Vector &x)
+double SplitScheme::update_blocks(const SystemOperator &whole, const SystemStamps &stamps)
 {
-  system.residual_bulk.block(0) = residual;
-  TrilinosWrappers::MPI::BlockVector dx(1);
-  dx.block(0).reinit(x, true);
-  dx.collect_sizes();
-  std::vector<double> none;
-  const LinearReport report = solver->solve(system, stamps, tolerance, dx, none);
-  if (!report.converged)
-    throw SolveError("a block of the split scheme was not solved");
-  x += dx.block(0);
-  return report.setup_seconds;
+  using Scheme = CouplingParameters::Scheme;
+  const unsigned int n_mechanical = whole.system().n_mechanical_extra;
+  SystemStamps mechanics_stamps = stamps;
+  mechanics_stamps.bulk_values = stamps.displacement_values;
+  if (mechanics.update(whole, mechanics_stamps, {true, 0, 0, n_mechanical}) &&
+      parameters.scheme == Scheme::undrained)
+    undrained_term(mechanics.bulk());
+  if (flow.update(whole, stamps, {has_pore_pressure, 1, n_mechanical, whole.n_extra()}) &&
+      parameters.scheme == Scheme::fixed_stress)
+    flow.bulk().add(-parameters.stabilisation, whole.system().fixed_stress_mass);
+  return parameters.scheme == Scheme::fixed_stress && whole.n_extra() > n_mechanical
+           ? stabilise_fracture(whole)
+           : 0.;
 }
 
 
-void SplitScheme::update_blocks(const LinearSystem &system, const SystemStamps &stamps)
+double SplitScheme::stabilise_fracture(const SystemOperator &whole)
 {
-  const bool new_mesh = !has_seen || stamps.mesh != seen.mesh;
-  const bool new_values = new_mesh || stamps.bulk_values != seen.bulk_values;
-  for (unsigned int k = 0; k < 2; ++k)
-  {
-    Block &block = k == 0 ? mechanics : flow;
-    block.stamps.mesh = stamps.mesh;
-    block.stamps.bulk_values = k == 0 ? stamps.displacement_values : stamps.bulk_values;
-    block.stamps.displacement_values = block.stamps.bulk_values;
-    if (new_mesh)
+  // The load of unit pressure in all segments, and what it opens: the load once more, transposed.
+  const LinearSystem &system = whole.system();
+  const unsigned int n_mechanical = system.n_mechanical_extra;
+  const auto is_segment = [&](const auto i) { return i >= n_mechanical; };
+  SystemVector load = whole.make_vector(), response = whole.make_vector();
+  for (const auto &e : whole.bulk_extra())
+    if (is_segment(e.column))
     {
-      block.system.bulk.reinit(1, 1);
-      block.system.bulk.block(0, 0).reinit(system.bulk.block(k, k));
-      block.system.bulk.collect_sizes();
-      block.system.residual_bulk.reinit(1);
-      block.system.residual_bulk.block(0).reinit(system.residual_bulk.block(k));
-      block.system.residual_bulk.collect_sizes();
-      block.system.symmetric = system.symmetric;
-      block.system.elastic = k == 0;
-      block.system.definite = k == 0 && system.symmetric;
+      const auto [block, local] = whole.locate(e.row);
+      if (block == 0)
+        SystemOperator::entry(load.bulk, block, local) += e.value;
     }
-    if (new_values)
-      block.system.bulk.block(0, 0).copy_from(system.bulk.block(k, k));
-  }
-  if (new_values && parameters.scheme == CouplingParameters::Scheme::undrained)
-    undrained_term(mechanics.system.bulk.block(0, 0));
-  if (new_values && parameters.scheme == CouplingParameters::Scheme::fixed_stress)
-    flow.system.bulk.block(0, 0).add(-parameters.stabilisation, system.fixed_stress_mass);
-  seen = stamps;
-  has_seen = true;
+  for (const auto &e : whole.extra_extra())
+    if (is_segment(e.column) && !is_segment(e.row))
+      load.extra[e.row] += e.value;
+  const double seconds = mechanics.correct(load, block_tolerance, response);
+
+  std::vector<double> opening(whole.n_extra(), 0.), has_storage(whole.n_extra(), 0.);
+  for (const auto &e : whole.bulk_extra())
+    if (is_segment(e.column))
+    {
+      const auto [block, local] = whole.locate(e.row);
+      if (block == 0)
+        opening[e.column] += e.value * SystemOperator::entry(response.bulk, block, local);
+    }
+  // A segment that boils has a row without its aperture.
+  for (const auto &e : whole.extra_bulk())
+    if (is_segment(e.row) && whole.locate(e.column).first == 0)
+      has_storage[e.row] = 1.;
+  Utilities::MPI::sum(opening, communicator, opening);
+  Utilities::MPI::sum(has_storage, communicator, has_storage);
+  for (const auto &e : whole.extra_extra())
+    if (is_segment(e.column) && !is_segment(e.row))
+      opening[e.column] += e.value * response.extra[e.row];
+    else if (is_segment(e.row) && !is_segment(e.column))
+      has_storage[e.row] = 1.;
+  if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    for (unsigned int i = n_mechanical; i < opening.size(); ++i)
+      if (has_storage[i] > 0.)
+        flow.add_to_diagonal(i, -parameters.stabilisation * std::abs(opening[i]));
+  return seconds;
 }
 
 
@@ -161,31 +196,25 @@ LinearReport SplitScheme::solve(const LinearSystem &system,
                                 std::vector<double> &dx_extra)
 {
   using Scheme = CouplingParameters::Scheme;
-  Assert(system.residual_extra.empty(), ExcNotImplemented());
-  update_blocks(system, stamps);
-
   // Every pass corrects with the residual of the whole system, so that whatever matrix a block is
   // solved with, the end is the solution of the coupled system.
   const SystemOperator system_operator(system, communicator);
   SystemVector x = system_operator.make_vector(), r = system_operator.make_vector();
-  dx_extra.clear();
   system_operator.residual(r, x);
   const double first = system_operator.scaled_norm(r);
   const bool flow_first =
     parameters.scheme == Scheme::fixed_stress || parameters.scheme == Scheme::fixed_strain;
 
-  // The passes correct one another, so a block need not be solved better than a pass converges.
-  constexpr double block_tolerance = 1e-3;
   LinearReport report;
+  report.setup_seconds = update_blocks(system_operator, stamps);
   double norm = first, before = first;
   for (report.iterations = 0;
        norm > tolerance * first && report.iterations < parameters.maximum_passes;
        ++report.iterations)
   {
-    for (const unsigned int k : {flow_first ? 1u : 0u, flow_first ? 0u : 1u})
+    for (SplitBlock *block : {flow_first ? &flow : &mechanics, flow_first ? &mechanics : &flow})
     {
-      report.setup_seconds +=
-        (k == 0 ? mechanics : flow).correct(r.bulk.block(k), block_tolerance, x.bulk.block(k));
+      report.setup_seconds += block->correct(r, block_tolerance, x);
       system_operator.residual(r, x);
     }
     before = norm;
@@ -202,6 +231,7 @@ LinearReport SplitScheme::solve(const LinearSystem &system,
       " passes the residual changes by a factor of " + std::to_string(norm / before) +
       " per pass. 'Coupling/Scheme = monolithic' has no such limit");
   dx_bulk = x.bulk;
+  dx_extra = x.extra;
   return report;
 }
 } // namespace stockwork

@@ -5,15 +5,14 @@
 
 #include "stockwork/biot/rock.h"
 
-#include "solvers/linear_solver.h"
+#include "coupling/split_block.h"
 
 #include <functional>
-#include <memory>
 #include <string>
 
 namespace stockwork
 {
-/// Subsection "Coupling": whether rock and pore fluid are solved together or by turns.
+/// Subsection "Coupling": whether rock and fluid are solved together or by turns.
 struct CouplingParameters
 {
   enum class Scheme
@@ -37,9 +36,14 @@ struct CouplingParameters
 
   /// Throws InputError for a scheme that cannot converge in this rock, unless it is forced: drained
   /// and fixed-strain splits need alpha^2 M / K < 1 (Kim, Tchelepi & Juanes 2011), the undrained
-  /// split a fluid or grains that can be compressed. Fractures are not split: their opening couples
-  /// rock and fluid far more strongly than the pores do. Bonds without a fracture are.
-  void check(const RockProperties &rock, bool has_pore_pressure, bool has_fracture) const;
+  /// split a fluid or grains that can be compressed. With a fracture none of the three can do: what
+  /// is injected has no place in an opening that is held.
+  /// @param has_fracture may come to be or to open; bonds without one are rock
+  /// @param has_wells inject into fractures
+  void check(const RockProperties &rock,
+             bool has_pore_pressure,
+             bool has_fracture,
+             bool has_wells) const;
 };
 
 
@@ -52,6 +56,18 @@ struct CouplingParameters
 ///
 /// (Kim, Tchelepi & Juanes 2011, Comput. Methods Appl. Mech. Engrg. 200; b is the stabilisation
 /// factor.) The blocks are solved by linear solvers of their own, which keep their factors.
+///
+/// With a fracture, u are all unknowns that move, p the pressures in pores and fractures. A segment
+/// is given as L what it would open by if the pressure grew by one in all of them,
+///
+///   L_i = b sum_j S_ij,   S = B^T K^-1 B between segments,
+///
+/// one solve for the rock. Where pressure anywhere opens the fracture everywhere (S_ij >= 0), L - S
+/// is the Laplacian of a graph and not negative, so that with a symmetric C the passes converge for
+/// b >= 1, and what is uniform along the fracture, its mean pressure, is found in the first one.
+/// After Girault, Kumar & Wheeler 2016 (Comput. Geosci. 20), whose constant for the fracture must
+/// be guessed. Where the flow depends on the aperture C is not symmetric, and bonds or seams that
+/// soften make K indefinite; then nothing is proven and the passes are watched.
 class SplitScheme : public LinearSolver
 {
 public:
@@ -72,26 +88,16 @@ public:
                      std::vector<double> &dx_extra) override;
 
 private:
-  /// One block as a linear system of its own.
-  struct Block
-  {
-    LinearSystem system;
-    SystemStamps stamps;
-    std::unique_ptr<LinearSolver> solver;
+  /// Take the matrices of both halves and add what the scheme adds. Returns the seconds of factors.
+  double update_blocks(const SystemOperator &whole, const SystemStamps &stamps);
 
-    /// x += A^-1 (-residual); returns the seconds that the factor took.
-    double correct(const dealii::TrilinosWrappers::MPI::Vector &residual,
-                   double tolerance,
-                   dealii::TrilinosWrappers::MPI::Vector &x);
-  };
-
-  void update_blocks(const LinearSystem &system, const SystemStamps &stamps);
+  /// Add L of the segments.
+  double stabilise_fracture(const SystemOperator &whole);
 
   CouplingParameters parameters;
-  MPI_Comm communicator;
+  bool has_pore_pressure;
   UndrainedTerm undrained_term;
-  Block mechanics, flow;
-  SystemStamps seen;
-  bool has_seen = false;
+  MPI_Comm communicator;
+  SplitBlock mechanics, flow;
 };
 } // namespace stockwork

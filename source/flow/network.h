@@ -129,6 +129,11 @@ public:
     return std::isfinite(least_pressure);
   }
 
+  bool has_wells() const
+  {
+    return !all_wells.empty();
+  }
+
   double rate_of_first_well(double t) const
   {
     return all_wells.first_rate(t);

@@ -55,6 +55,11 @@ public:
     compressibility = fluid_compressibility;
   }
 
+  bool empty() const
+  {
+    return wells.empty();
+  }
+
   /// Find the segments that the perforations open into.
   /// @throws EntryError naming a point that lies on no segment
   void locate(const std::vector<NetworkSegment<dim>> &segments);

@@ -52,6 +52,7 @@ struct LinearSystem
 
   dealii::TrilinosWrappers::MPI::BlockVector residual_bulk; ///< owned entries only
   std::vector<double> residual_extra;
+  unsigned int n_mechanical_extra = 0; ///< the first extra unknowns move; the rest belong to fluid
 
   /// alpha^2 / (lambda + 2 G / dim) times the mass matrix of the pore pressure, positive, with the
   /// pattern of bulk(1,1), constrained rows zero. Wanted by the iterative solver only; may be
