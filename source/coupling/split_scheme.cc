@@ -3,8 +3,11 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
+#include "solvers/krylov.h"
+
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -45,6 +48,10 @@ void CouplingParameters::declare_parameters(ParameterHandler &prm)
     "fixed stress: times alpha^2/K_dr, K_dr = lambda + 2G/dim, is the compressibility "
     "added to the flow. At least 1/2 is safe.");
   prm.declare_entry("Maximum passes", "500", Patterns::Integer(1), "In one solve.");
+  prm.declare_entry("Acceleration", "auto", Patterns::Selection("auto|none|GMRES"),
+                    "none: pass after pass, which shows what the scheme can do. GMRES: passes are "
+                    "combined; many that would diverge converge then. auto: GMRES where a fracture "
+                    "is full of fluid.");
   prm.declare_entry("Force", "false", Patterns::Bool(),
                     "Run a scheme that is known to diverge in this rock all the same.");
   prm.leave_subsection();
@@ -62,6 +69,9 @@ void CouplingParameters::parse_parameters(ParameterHandler &prm)
                                     : Scheme::monolithic;
   stabilisation = get_quantity(prm, "Stabilisation factor", dimension::number);
   maximum_passes = prm.get_integer("Maximum passes");
+  const std::string acceleration = prm.get("Acceleration");
+  accelerates = acceleration == "GMRES";
+  accelerates_fractures = acceleration != "none";
   force = prm.get_bool("Force");
   prm.leave_subsection();
 }
@@ -121,6 +131,7 @@ SplitScheme::SplitScheme(const CouplingParameters &parameters,
   , mechanics(solver_parameters, without_pores(structure), communicator)
   // Multigrid for the rock knows displacements; the flow's block is small and gets a factor.
   , flow(direct(solver_parameters), without_pores(structure), communicator)
+  , restart(solver_parameters.restart)
 {
 }
 
@@ -189,38 +200,48 @@ double SplitScheme::stabilise_fracture(const SystemOperator &whole)
 }
 
 
-LinearReport SplitScheme::solve(const LinearSystem &system,
-                                const SystemStamps &stamps,
-                                const double tolerance,
-                                TrilinosWrappers::MPI::BlockVector &dx_bulk,
-                                std::vector<double> &dx_extra)
+double SplitScheme::pass(const SystemOperator &whole, SystemVector &z, const SystemVector &r)
 {
   using Scheme = CouplingParameters::Scheme;
-  // Every pass corrects with the residual of the whole system, so that whatever matrix a block is
-  // solved with, the end is the solution of the coupled system.
-  const SystemOperator system_operator(system, communicator);
-  SystemVector x = system_operator.make_vector(), r = system_operator.make_vector();
-  system_operator.residual(r, x);
-  const double first = system_operator.scaled_norm(r);
   const bool flow_first =
     parameters.scheme == Scheme::fixed_stress || parameters.scheme == Scheme::fixed_strain;
+  SplitBlock &one = flow_first ? flow : mechanics, &other = flow_first ? mechanics : flow;
+  z.bulk = 0.;
+  std::fill(z.extra.begin(), z.extra.end(), 0.);
+  SystemVector rest = r;
+  rest.bulk *= -1.;
+  for (double &value : rest.extra)
+    value *= -1.;
+  double seconds = one.correct(rest, block_tolerance, z);
+  whole.vmult(rest, z);
+  rest.bulk -= r.bulk;
+  for (unsigned int i = 0; i < r.extra.size(); ++i)
+    rest.extra[i] -= r.extra[i];
+  seconds += other.correct(rest, block_tolerance, z);
+  return seconds;
+}
 
-  LinearReport report;
-  report.setup_seconds = update_blocks(system_operator, stamps);
+
+void SplitScheme::iterate(const SystemOperator &whole,
+                          const double tolerance,
+                          SystemVector &x,
+                          LinearReport &report)
+{
+  SystemVector r = whole.make_vector(), z = whole.make_vector();
+  whole.residual(r, x);
+  const double first = whole.scaled_norm(r);
   double norm = first, before = first;
-  for (report.iterations = 0;
-       norm > tolerance * first && report.iterations < parameters.maximum_passes;
-       ++report.iterations)
+  while (norm > tolerance * first && norm < 1e10 * first &&
+         report.iterations < parameters.maximum_passes)
   {
-    for (SplitBlock *block : {flow_first ? &flow : &mechanics, flow_first ? &mechanics : &flow})
-    {
-      report.setup_seconds += block->correct(r, block_tolerance, x);
-      system_operator.residual(r, x);
-    }
+    report.setup_seconds += pass(whole, z, r);
+    x.bulk -= z.bulk;
+    for (unsigned int i = 0; i < z.extra.size(); ++i)
+      x.extra[i] -= z.extra[i];
+    whole.residual(r, x);
     before = norm;
-    norm = system_operator.scaled_norm(r);
-    if (!(norm < 1e10 * first))
-      break;
+    norm = whole.scaled_norm(r);
+    ++report.iterations;
   }
   report.relative_residual = first > 0. ? norm / first : 0.;
   report.converged = norm <= tolerance * first;
@@ -230,6 +251,29 @@ LinearReport SplitScheme::solve(const LinearSystem &system,
       ": after " + std::to_string(report.iterations) +
       " passes the residual changes by a factor of " + std::to_string(norm / before) +
       " per pass. 'Coupling/Scheme = monolithic' has no such limit");
+}
+
+
+LinearReport SplitScheme::solve(const LinearSystem &system,
+                                const SystemStamps &stamps,
+                                const double tolerance,
+                                TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                                std::vector<double> &dx_extra)
+{
+  // Residuals are those of the whole system, so that whatever matrix a block is solved with, the
+  // end is the solution of the coupled system.
+  const SystemOperator whole(system, communicator);
+  SystemVector x = whole.make_vector();
+  LinearReport report;
+  report.setup_seconds = update_blocks(whole, stamps);
+  const bool has_fracture_fluid = whole.n_extra() > system.n_mechanical_extra;
+  if (parameters.accelerates || (parameters.accelerates_fractures && has_fracture_fluid))
+    solve_by_krylov(
+      whole, communicator,
+      [&](SystemVector &z, const SystemVector &r) { report.setup_seconds += pass(whole, z, r); },
+      {tolerance, parameters.maximum_passes, restart}, x, report);
+  else
+    iterate(whole, tolerance, x, report);
   dx_bulk = x.bulk;
   dx_extra = x.extra;
   return report;

@@ -1,0 +1,203 @@
+#include "solvers/krylov.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <algorithm>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// Rounding makes the residual of the recurrence drift from the true one; then start afresh.
+constexpr unsigned int max_cycles = 4;
+
+using BlockVector = TrilinosWrappers::MPI::BlockVector;
+
+/// All unknowns as one block vector, for the library's Krylov methods. The extra ones, if any, are
+/// its last block, on rank 0.
+class Joined
+{
+public:
+  Joined(const SystemOperator &op, const MPI_Comm communicator)
+    : n_extra(op.n_extra())
+    , communicator(communicator)
+    , is_root(Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+    const auto &bulk = op.scaling().bulk;
+    const unsigned int n_bulk = bulk.n_blocks();
+    zero.reinit(n_bulk + (n_extra > 0 ? 1 : 0));
+    for (unsigned int b = 0; b < n_bulk; ++b)
+      zero.block(b).reinit(bulk.block(b).locally_owned_elements(), communicator);
+    if (n_extra > 0)
+    {
+      IndexSet owned(n_extra);
+      if (is_root)
+        owned.add_range(0, n_extra);
+      zero.block(n_bulk).reinit(owned, communicator);
+    }
+    zero.collect_sizes();
+  }
+
+  BlockVector join(const SystemVector &from) const
+  {
+    BlockVector to(zero);
+    join(to, from);
+    return to;
+  }
+
+  void join(BlockVector &to, const SystemVector &from) const
+  {
+    for (unsigned int b = 0; b < from.bulk.n_blocks(); ++b)
+      to.block(b) = from.bulk.block(b);
+    if (n_extra > 0 && is_root)
+      std::copy(from.extra.begin(), from.extra.end(),
+                to.block(to.n_blocks() - 1).trilinos_vector()[0]);
+  }
+
+  void split(SystemVector &to, const BlockVector &from) const
+  {
+    for (unsigned int b = 0; b < to.bulk.n_blocks(); ++b)
+      to.bulk.block(b) = from.block(b);
+    if (n_extra == 0)
+      return;
+    if (is_root)
+    {
+      const double *extra = from.block(from.n_blocks() - 1).trilinos_vector()[0];
+      to.extra.assign(extra, extra + n_extra);
+    }
+    MPI_Bcast(to.extra.data(), static_cast<int>(n_extra), MPI_DOUBLE, 0, communicator);
+  }
+
+private:
+  unsigned int n_extra;
+  MPI_Comm communicator;
+  bool is_root;
+  BlockVector zero;
+};
+
+/// The matrix between diagonal scalings, so that the Krylov method sees the norm of LinearReport.
+class ScaledSystem
+{
+public:
+  ScaledSystem(const SystemOperator &op, const Joined &joined)
+    : op(op)
+    , joined(joined)
+    , scaling(joined.join(op.scaling()))
+    , unscaled(scaling)
+    , in(op.make_vector())
+    , out(op.make_vector())
+  {
+  }
+
+  void vmult(BlockVector &dst, const BlockVector &src) const
+  {
+    unscaled = src;
+    unscaled.scale(scaling);
+    joined.split(in, unscaled);
+    op.vmult(out, in);
+    joined.join(dst, out);
+    dst.scale(scaling);
+  }
+
+private:
+  const SystemOperator &op;
+  const Joined &joined;
+  const BlockVector scaling;
+  mutable BlockVector unscaled;
+  mutable SystemVector in, out;
+};
+
+/// The preconditioner between inverse scalings.
+class ScaledPreconditioner
+{
+public:
+  ScaledPreconditioner(const SystemOperator &op,
+                       const Joined &joined,
+                       const Preconditioner &preconditioner)
+    : joined(joined)
+    , preconditioner(preconditioner)
+    , inverse_scaling(joined.join(op.scaling()))
+    , unscaled(inverse_scaling)
+    , r(op.make_vector())
+    , z(op.make_vector())
+  {
+    for (unsigned int b = 0; b < inverse_scaling.n_blocks(); ++b)
+    {
+      auto &v = inverse_scaling.block(b).trilinos_vector();
+      v.Reciprocal(v);
+    }
+  }
+
+  void vmult(BlockVector &dst, const BlockVector &src) const
+  {
+    unscaled = src;
+    unscaled.scale(inverse_scaling);
+    joined.split(r, unscaled);
+    preconditioner(z, r);
+    joined.join(dst, z);
+    dst.scale(inverse_scaling);
+  }
+
+private:
+  const Joined &joined;
+  const Preconditioner &preconditioner;
+  BlockVector inverse_scaling;
+  mutable BlockVector unscaled;
+  mutable SystemVector r, z;
+};
+} // namespace
+
+
+void solve_by_krylov(const SystemOperator &op,
+                     const MPI_Comm communicator,
+                     const Preconditioner &preconditioner,
+                     const KrylovLimits &limits,
+                     SystemVector &dx,
+                     LinearReport &report)
+{
+  const Joined joined(op, communicator);
+  const ScaledSystem matrix(op, joined);
+  const ScaledPreconditioner scaled_preconditioner(op, joined, preconditioner);
+  SystemVector load = op.make_vector();
+  load.bulk = op.system().residual_bulk;
+  load.extra = op.system().residual_extra;
+  const BlockVector scaling = joined.join(op.scaling());
+  BlockVector b = joined.join(load), x(scaling), r(scaling);
+  b.scale(scaling);
+  b *= -1.;
+  x = 0.;
+  const double size = b.l2_norm();
+  report.converged = size == 0.;
+  unsigned int iterations = 0;
+  for (unsigned int cycle = 0;
+       cycle < max_cycles && !report.converged && iterations < limits.max_iterations; ++cycle)
+  {
+    SolverControl control(limits.max_iterations - iterations, limits.tolerance * size);
+    try
+    {
+      if (limits.symmetric_definite)
+        SolverCG<BlockVector>(control).solve(matrix, x, b, scaled_preconditioner);
+      else
+        SolverFGMRES<BlockVector>(control,
+                                  SolverFGMRES<BlockVector>::AdditionalData(limits.restart))
+          .solve(matrix, x, b, scaled_preconditioner);
+    }
+    catch (const SolverControl::NoConvergence &)
+    {
+    }
+    iterations += control.last_step();
+    // Not what the recurrence believes, but what is.
+    matrix.vmult(r, x);
+    r -= b;
+    report.relative_residual = r.l2_norm() / size;
+    report.converged = report.relative_residual <= 1.01 * limits.tolerance;
+  }
+  report.iterations += iterations;
+  x.scale(scaling);
+  joined.split(dx, x);
+}
+} // namespace stockwork
