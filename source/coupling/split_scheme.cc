@@ -40,13 +40,15 @@ void CouplingParameters::declare_parameters(ParameterHandler &prm)
   prm.enter_subsection("Coupling");
   prm.declare_entry("Scheme", "monolithic",
                     Patterns::Selection("monolithic|fixed stress|undrained|drained|fixed strain"),
-                    "Rock and pore fluid together, or by turns until both agree. Fixed stress and "
-                    "undrained converge always; drained and fixed strain only while "
-                    "alpha^2 M / K < 1. All give the same answer.");
+                    "Rock and fluid together, or by turns until both agree. In rock without a "
+                    "fracture fixed stress and undrained converge always, drained and fixed strain "
+                    "only while alpha^2 M / K < 1. With a fracture: fixed stress. All give the "
+                    "same answer.");
   prm.declare_entry(
     "Stabilisation factor", "1", Quantity(dimension::number, Range::positive()),
     "fixed stress: times alpha^2/K_dr, K_dr = lambda + 2G/dim, is the compressibility "
-    "added to the flow. At least 1/2 is safe.");
+    "added to the flow in pores, at least 1/2 is safe there; and times what a segment of a "
+    "fracture opens by as the pressure grows in all of them, is that of the fracture.");
   prm.declare_entry("Maximum passes", "500", Patterns::Integer(1), "In one solve.");
   prm.declare_entry("Acceleration", "auto", Patterns::Selection("auto|none|GMRES"),
                     "none: pass after pass, which shows what the scheme can do. GMRES: passes are "
@@ -69,9 +71,9 @@ void CouplingParameters::parse_parameters(ParameterHandler &prm)
                                     : Scheme::monolithic;
   stabilisation = get_quantity(prm, "Stabilisation factor", dimension::number);
   maximum_passes = prm.get_integer("Maximum passes");
-  const std::string acceleration = prm.get("Acceleration");
-  accelerates = acceleration == "GMRES";
-  accelerates_fractures = acceleration != "none";
+  acceleration = prm.get("Acceleration") == "auto"   ? Acceleration::automatic
+                 : prm.get("Acceleration") == "none" ? Acceleration::none
+                                                     : Acceleration::gmres;
   force = prm.get_bool("Force");
   prm.leave_subsection();
 }
@@ -266,12 +268,20 @@ LinearReport SplitScheme::solve(const LinearSystem &system,
   SystemVector x = whole.make_vector();
   LinearReport report;
   report.setup_seconds = update_blocks(whole, stamps);
+  using Acceleration = CouplingParameters::Acceleration;
   const bool has_fracture_fluid = whole.n_extra() > system.n_mechanical_extra;
-  if (parameters.accelerates || (parameters.accelerates_fractures && has_fracture_fluid))
-    solve_by_krylov(
-      whole, communicator,
-      [&](SystemVector &z, const SystemVector &r) { report.setup_seconds += pass(whole, z, r); },
-      {tolerance, parameters.maximum_passes, restart}, x, report);
+  if (parameters.acceleration == Acceleration::gmres ||
+      (parameters.acceleration == Acceleration::automatic && has_fracture_fluid))
+  {
+    const auto precondition = [&](SystemVector &z, const SystemVector &r)
+    { report.setup_seconds += pass(whole, z, r); };
+    solve_by_krylov(whole, communicator, precondition,
+                    {tolerance, parameters.maximum_passes, restart}, x, report);
+    if (!report.converged)
+      throw SolveError("the " + parameters.name + " split has not converged: " +
+                       std::to_string(report.iterations) +
+                       " passes. 'Coupling/Scheme = monolithic' has no such limit");
+  }
   else
     iterate(whole, tolerance, x, report);
   dx_bulk = x.bulk;

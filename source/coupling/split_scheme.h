@@ -24,11 +24,18 @@ struct CouplingParameters
     fixed_strain  ///< flow first, at constant strain
   };
 
+  enum class Acceleration
+  {
+    automatic, ///< GMRES where a fracture is full of fluid
+    none,
+    gmres
+  };
+
   Scheme scheme = Scheme::monolithic;
   std::string name = "monolithic";
   double stabilisation = 1.;
   unsigned int maximum_passes = 500;
-  bool accelerates = false, accelerates_fractures = true;
+  Acceleration acceleration = Acceleration::automatic;
   bool force = false;
 
   static void declare_parameters(dealii::ParameterHandler &prm);
