@@ -13,15 +13,6 @@ stockwork_case_test(NAME convergence/column/rod/peridynamics/inside NEGATIVE LAB
 stockwork_case_test(NAME convergence/column/inertia/peridynamics NEGATIVE
   DECK prm/column/inertia/peridynamics.prm SET "Resolution=medium"
   EXPECT "errors/displacement/final < 0.01" "errors/pore_pressure/final < 0.01")
-# Splits give the monolithic answer with bonds, too, whose matrix is not symmetric.
-foreach(scheme "fixed stress" "undrained")
-  string(REPLACE " " "_" name ${scheme})
-  stockwork_same_test(NAME convergence/split/peridynamics/${name}
-    DECK prm/column/plane_strain/peridynamics.prm TOLERANCE 1e-6 LABELS quick
-    SET "Resolution=coarse" "Time/End time=60 s" "Time/Initial step=10 s" "Time/Error tolerance=inf"
-        "Rock/Biot modulus=133.333 MPa" "Nonlinear solver/Tolerance=1e-11" "Output/Fields=false"
-    SECOND_SET "Coupling/Scheme=${scheme}")
-endforeach()
 # A lattice that is 0.8 % too stiff along the strip misses the goal, by little: under uniform strain rows
 # of bonds balance whatever their modulus, and only the gradient of the pore pressure tells.
 stockwork_case_test(NAME convergence/column/rod/peridynamics/stiff LABELS quick

@@ -69,14 +69,3 @@ stockwork_order_test(NAME convergence/order/cryer DECK prm/cryer/none.prm
 # -- Mandel to a pressure error of 6.4e-4 in eight steps (doc/cases/mandel.md)
 stockwork_case_test(NAME convergence/mandel/accuracy DECK prm/benchmark/mandel_accuracy.prm LABELS quick
   NEGATIVE EXPECT "errors/pore_pressure/final < 6.4e-4" "steps == 8")
-
-# -- Splits give the monolithic answer: columns of errors (1e-4 to 1e-2) agree to 1e-6, hence the
-# fields to better than 1e-8. alpha^2 M / K = 1/2, where every split converges.
-foreach(scheme "fixed stress" "undrained" "drained" "fixed strain")
-  string(REPLACE " " "_" name ${scheme})
-  stockwork_same_test(NAME convergence/split/${name} DECK prm/column/plane_strain/none.prm
-    TOLERANCE 1e-6 LABELS quick
-    SET "Resolution=coarse" "Time/End time=60 s" "Time/Initial step=10 s" "Time/Error tolerance=inf"
-        "Rock/Biot modulus=133.333 MPa" "Nonlinear solver/Tolerance=1e-11" "Output/Fields=false"
-    SECOND_SET "Coupling/Scheme=${scheme}")
-endforeach()
