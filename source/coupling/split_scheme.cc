@@ -278,8 +278,8 @@ LinearReport SplitScheme::solve(const LinearSystem &system,
     solve_by_krylov(whole, communicator, precondition,
                     {tolerance, parameters.maximum_passes, restart}, x, report);
     if (!report.converged)
-      throw SolveError("the " + parameters.name + " split has not converged: " +
-                       std::to_string(report.iterations) +
+      throw SolveError("the " + parameters.name +
+                       " split has not converged: " + std::to_string(report.iterations) +
                        " passes. 'Coupling/Scheme = monolithic' has no such limit");
   }
   else
