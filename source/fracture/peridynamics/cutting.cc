@@ -9,11 +9,6 @@ namespace stockwork::peridynamics
 using dealii::Point;
 using dealii::Tensor;
 
-namespace
-{
-constexpr double resolution = 1e-6; // of places, in spacings
-}
-
 
 template <int dim>
 void Peridynamics<dim>::cut_initial_cracks()
@@ -28,17 +23,17 @@ void Peridynamics<dim>::cut_initial_cracks()
                       {
                         // As at a tip: a bond right at the edge holds.
                         return crossing.distance(crack.disc->centre) <
-                               crack.disc->radius - resolution * zone.spacing();
+                               crack.disc->radius - same_place * zone.spacing();
                       });
     if constexpr (dim == 2)
     {
       const auto at_wall = [&](const Point<dim> &x)
-      { return !zone.is_inside(x, resolution * zone.spacing()); };
+      { return !zone.is_inside(x, same_place * zone.spacing()); };
       for (unsigned int c = 0; c + 1 < crack.points.size(); ++c)
       {
         const Point<dim> &start = crack.points[c];
         const Tensor<1, dim> along = crack.points[c + 1] - start;
-        const double length = along.norm(), reach = resolution * zone.spacing();
+        const double length = along.norm(), reach = same_place * zone.spacing();
         // A bond right at a tip holds, or the crack would be longer by half a cell.
         const double first = c == 0 && !at_wall(start) ? reach : -reach;
         const double last =
@@ -64,7 +59,7 @@ void Peridynamics<dim>::cut_along_plane(
   const Tensor<1, dim> &normal,
   const std::function<bool(const Point<dim> &crossing)> &is_on_crack)
 {
-  const double reach = resolution * zone.spacing();
+  const double reach = same_place * zone.spacing();
   for (const unsigned int i : zone.peridynamic_sites())
     for (unsigned int b = 0; b < stencil.size(); ++b)
     {

@@ -13,8 +13,6 @@ using dealii::Tensor;
 
 namespace
 {
-/// Stretches that differ by less are equal: symmetric bonds break together, on any number of ranks.
-constexpr double resolution = 1e-6;
 /// Of the stretch at which they soften, at which bonds get the unknown that it takes.
 constexpr double soon_to_soften = 0.9;
 /// Solves within a step after which it is too long.
@@ -111,11 +109,11 @@ double Peridynamics<dim>::relief_at(const unsigned int site,
     Tensor<1, dim> away = middle;
     for (unsigned int d = 0; d < dim; ++d)
       away[d] -= cells[i].place[d] + 0.5;
-    if (std::abs(away * cells[i].normal) > std::abs(half * cells[i].normal) - resolution)
+    if (std::abs(away * cells[i].normal) > std::abs(half * cells[i].normal) - same_place)
       continue; // the plane of the fracture does not cross it
     // Of several equally near, the one that relieves most, whatever their order.
     const double distance = away.norm();
-    if (distance < nearest - resolution || (distance < nearest + resolution && relief[i] > result))
+    if (distance < nearest - same_place || (distance < nearest + same_place && relief[i] > result))
     {
       nearest = std::min(nearest, distance);
       result = relief[i];
@@ -147,9 +145,8 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       stretch += in_situ_stretch(i, b);
       const auto ratio_with = [&](const double more)
       {
-        return std::round(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
-                          softening.first / resolution) *
-               resolution;
+        return rounded(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
+                       softening.first);
       };
       if (ratio_with(most_relief) < least || softening_bond(i, b) != nullptr)
         continue;
@@ -209,7 +206,7 @@ void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
   {
     if (k >= parameters.bonds_per_pass &&
         candidates[k].stretch <
-          candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * resolution)
+          candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * same_stretch)
       break;
     const auto [stretch, site, bond] = candidates[k];
     if (bonds.is_broken(site, bond))

@@ -13,8 +13,6 @@ namespace
 /// As SofteningLaw::wet_damage, of what softens beside a fracture that is there already; or
 /// fractures would be several cells thick.
 constexpr double wet_damage_beside = 0.5;
-/// Damages that differ by less are equal, so that what is symmetric stays so.
-constexpr double resolution = 1e-6;
 } // namespace
 
 
@@ -173,7 +171,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
 template <int dim>
 bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
 {
-  const double damage = std::round(softening.damage(bond.trial) / resolution) * resolution;
+  const double damage = rounded(softening.damage(bond.trial));
   if (damage <= SofteningLaw::wet_damage || damage > wet_damage_beside)
     return damage > SofteningLaw::wet_damage;
   const auto &[site, b] = bond.view;

@@ -1,9 +1,20 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace stockwork::peridynamics
 {
+/// Stretches, over the one at which bonds soften, and damages that differ by less are equal: what
+/// is symmetric breaks together, on any number of ranks.
+constexpr double same_stretch = 1e-6;
+
+/// A stretch or a damage, so that equal ones are the same number.
+inline double rounded(const double stretch)
+{
+  return std::round(stretch / same_stretch) * same_stretch;
+}
+
 /// Bonds that soften before they break. Up to `first` a bond is elastic; from there its force falls
 /// linearly to zero at `last`, and it unloads towards the origin. It dissipates what a brittle one
 /// of critical stretch sqrt(first last) does. Strength and energy are then two numbers: a crack's

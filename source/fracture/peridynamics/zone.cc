@@ -42,8 +42,7 @@ bool ZoneShape<dim>::contains(const Point<dim> &point,
                               const double spacing,
                               const double enlarged_by) const
 {
-  const double tolerance = 1e-6;
-  return distance(point, spacing) <= (enlarged_by + tolerance) * spacing;
+  return distance(point, spacing) <= (enlarged_by + same_place) * spacing;
 }
 
 
@@ -153,8 +152,8 @@ void Zone<dim>::find_far_ends_of(const unsigned int i, const std::vector<Stencil
       const Point<dim> far = position(place);
       bool outside = false;
       for (unsigned int d = 0; d < dim; ++d)
-        outside |=
-          far[d] < domain.lower_bound(d) - 1e-6 * h || far[d] > domain.upper_bound(d) + 1e-6 * h;
+        outside |= far[d] < domain.lower_bound(d) - same_place * h ||
+                   far[d] > domain.upper_bound(d) + same_place * h;
       std::ostringstream message;
       message << "The horizon of the peridynamic node at (" << position(site.place) << ") m ";
       if (outside)

@@ -22,6 +22,9 @@ inline EntryError unsuitable_mesh(const std::string &why)
   return EntryError("Fracture/Model", "peridynamics", "a model that suits the mesh. " + why);
 }
 
+/// Places that are nearer to one another are the same [spacings].
+constexpr double same_place = 1e-6;
+
 /// Place of a vertex on the lattice, in spacings from its origin.
 template <int dim>
 using Place = std::array<int, dim>;
