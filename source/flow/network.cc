@@ -12,16 +12,6 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int no_row = dealii::numbers::invalid_unsigned_int;
-
-double value(const LinearFunctional &functional, const Unknowns &unknowns)
-{
-  double sum = functional.constant;
-  for (unsigned int i = 0; i < functional.bulk.size(); ++i)
-    sum += functional.bulk_coefficients[i] * unknowns.bulk(functional.bulk[i]);
-  for (unsigned int i = 0; i < functional.extra.size(); ++i)
-    sum += functional.extra_coefficients[i] * unknowns.extra[functional.extra[i]];
-  return sum;
-}
 } // namespace
 
 

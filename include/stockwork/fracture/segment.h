@@ -6,6 +6,8 @@
 
 #include <boost/serialization/vector.hpp>
 
+#include "stockwork/fracture/state.h"
+
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -21,6 +23,17 @@ struct LinearFunctional
   std::vector<double> extra_coefficients;
   double constant = 0.;
 };
+
+/// On the rank that knows the functional, which has its unknowns as well.
+inline double value(const LinearFunctional &functional, const Unknowns &unknowns)
+{
+  double sum = functional.constant;
+  for (unsigned int i = 0; i < functional.bulk.size(); ++i)
+    sum += functional.bulk_coefficients[i] * unknowns.bulk(functional.bulk[i]);
+  for (unsigned int i = 0; i < functional.extra.size(); ++i)
+    sum += functional.extra_coefficients[i] * unknowns.extra[functional.extra[i]];
+  return sum;
+}
 
 /// A piece of a fracture, as the fluid sees it: a place, an area, a normal, neighbours, and the
 /// linear functional of the unknowns that opens it. The same functional gives the volume A w and,

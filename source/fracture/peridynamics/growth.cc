@@ -71,13 +71,8 @@ std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
   if (by_fluid > 0. && scene.has_pore_pressure)
   {
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
-    {
-      const LinearFunctional &pore = owned_segments[i].pore_pressure;
-      double pressure = pore.constant;
-      for (unsigned int k = 0; k < pore.bulk.size(); ++k)
-        pressure += pore.bulk_coefficients[k] * state.current.bulk(pore.bulk[k]);
-      result[owned_cells[i]] = -rock.biot_coefficient * by_fluid * pressure;
-    }
+      result[owned_cells[i]] =
+        -rock.biot_coefficient * by_fluid * value(owned_segments[i].pore_pressure, state.current);
     collectives.sum(result);
   }
   for (unsigned int i = 0; i < cells.size(); ++i)

@@ -9,20 +9,6 @@ namespace stockwork::peridynamics
 using dealii::Point;
 using dealii::Tensor;
 
-namespace
-{
-/// [m]
-template <int dim>
-double opening(const Segment<dim> &segment, const State &state)
-{
-  const LinearFunctional &B = segment.opening;
-  double sum = B.constant;
-  for (unsigned int k = 0; k < B.bulk.size(); ++k)
-    sum += B.bulk_coefficients[k] * state.current.bulk(B.bulk[k]);
-  return sum;
-}
-} // namespace
-
 
 template <int dim>
 FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives &collectives) const
@@ -30,7 +16,7 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   FractureSummary result;
   std::vector<double> apertures(cells.size(), 0.);
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
-    apertures[owned_cells[k]] = opening(owned_segments[k], state);
+    apertures[owned_cells[k]] = value(owned_segments[k].opening, state.current);
   collectives.sum(apertures);
   const std::vector<bool> beside = are_beside(cells, apertures, parameters.horizon + 1.);
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -99,8 +85,8 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
   if constexpr (dim == 2)
     for (const Segment<dim> &segment : owned_segments)
     {
-      std::vector<std::pair<std::string, double>> values{{"aperture", opening(segment, state)},
-                                                         {"damage", 1.}};
+      std::vector<std::pair<std::string, double>> values{
+        {"aperture", value(segment.opening, state.current)}, {"damage", 1.}};
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(segment.key));
       Tensor<1, dim> along;

@@ -75,9 +75,7 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
   for (const Segment<dim> &segment : owned_segments)
   {
     const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
-    double w = B.constant;
-    for (unsigned int k = 0; k < B.bulk.size(); ++k)
-      w += B.bulk_coefficients[k] * state.current.bulk(B.bulk[k]);
+    const double w = value(B, state.current);
     const double height = volume / segment.area;
     const ValueAndSlope cubed =
       conductance(w, scene.minimum_aperture, height, parameters.as_published);
