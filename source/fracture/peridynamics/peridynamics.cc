@@ -133,9 +133,10 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
     committed_bonds = committed_cracked = bonds.places();
     cracked.set_broken(committed_bonds);
     set_initial_normals();
-    for (const unsigned int i : zone.peridynamic_sites())
-      if (const double gone = bonds.damage(i); gone > 0.)
-        committed_correction[zone.sites()[i].place] = gone;
+    if (parameters.surface_correction)
+      for (const unsigned int i : zone.peridynamic_sites())
+        if (const double gone = bonds.damage(i); gone > 0.)
+          committed_correction[zone.sites()[i].place] = gone;
     started = true;
   }
   ++version;
@@ -149,10 +150,13 @@ void Peridynamics<dim>::refresh_segments()
   damage.assign(zone.sites().size(), 0.);
   for (const unsigned int i : zone.peridynamic_sites())
     damage[i] = bonds.damage(i);
-  corrected_damage.assign(zone.sites().size(), 0.);
-  for (const auto &[place, corrected] : committed_correction)
-    if (const unsigned int i = zone.find(place); i != dealii::numbers::invalid_unsigned_int)
-      corrected_damage[i] = corrected;
+  if (parameters.surface_correction)
+  {
+    corrected_damage.assign(zone.sites().size(), 0.);
+    for (const auto &[place, corrected] : committed_correction)
+      if (const unsigned int i = zone.find(place); i != dealii::numbers::invalid_unsigned_int)
+        corrected_damage[i] = corrected;
+  }
   const std::vector<FractureCell<dim>> before = cells;
   cells = find_fracture_cells(zone, cracked);
   align_normals(cells, parameters.horizon + 1);

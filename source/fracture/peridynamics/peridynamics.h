@@ -244,7 +244,7 @@ private:
   BondSet<dim> cracked;                       ///< broken ones and those that have begun to soften
   std::vector<SofteningBond> softening_bonds; ///< sorted by view
   std::vector<double> damage;                 ///< of all sites
-  std::vector<double> corrected_damage;       ///< what the surface correction makes up for
+  std::vector<double> corrected_damage;       ///< what the surface correction, if any, makes up for
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;                 ///< of all ranks
   std::vector<bool> at_front;                             ///< which of them the fracture ends at
