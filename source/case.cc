@@ -216,10 +216,6 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   scene.domain_size = geometry.diameter();
   network.check_perforations(scene.cracks);
   scene.crack_pressure = given_crack_pressure(prm);
-  prm.enter_subsection("Fracture flow");
-  scene.minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
-  scene.leak_off = prm.get("Leak-off");
-  prm.leave_subsection();
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
   prm.leave_subsection();

@@ -87,10 +87,5 @@ struct Scene
   /// Fluid pressure in all cracks, where the case gives it [Pa]; zero in a dry case. NaN: the fluid
   /// network solves for it.
   double crack_pressure = std::numeric_limits<double>::quiet_NaN();
-
-  /// Aperture at which a closed fracture conducts ('Fracture flow/Minimum aperture') [m].
-  double minimum_aperture = 10e-6;
-  /// How fluid passes from fractures into the rock ('Fracture flow/Leak-off').
-  std::string leak_off = "none";
 };
 } // namespace stockwork

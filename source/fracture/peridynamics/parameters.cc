@@ -96,6 +96,24 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
 }
 
 
+namespace
+{
+/// What holds for all fluid in fractures, where the elements of the pore pressure carry it.
+/// @return the minimum aperture [m]
+double parse_tensor_fluid(dealii::ParameterHandler &prm)
+{
+  prm.enter_subsection("Fracture flow");
+  if (prm.get("Leak-off") != "resolved")
+    throw EntryError("Fracture flow/Leak-off", prm.get("Leak-off"),
+                     "'resolved' with 'Fracture/peridynamics/Fluid = permeability tensor', where "
+                     "the pore pressure is that of the fractures");
+  const double minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
+  prm.leave_subsection();
+  return minimum_aperture;
+}
+} // namespace
+
+
 template <int dim>
 Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
 {
@@ -139,6 +157,14 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   p.most_advances = prm.get_integer("Most advances per step");
   const std::string written = prm.get("Write bonds");
   p.written = written == "all" ? Bonds::all : written == "broken" ? Bonds::broken : Bonds::none;
+  if (p.tensor_fluid)
+  {
+    prm.leave_subsection();
+    prm.leave_subsection();
+    p.minimum_aperture = parse_tensor_fluid(prm);
+    prm.enter_subsection("Fracture");
+    prm.enter_subsection("peridynamics");
+  }
   return p;
 }
 

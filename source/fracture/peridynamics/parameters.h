@@ -27,6 +27,7 @@ struct Parameters
   bool effective_stretch; ///< bonds break by effective stress
   bool as_published;      ///< the pressure's load on bonds, as printed
   bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
+  double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
   bool growth;
   enum class Bonds
   {
@@ -39,6 +40,7 @@ struct Parameters
 
   static void declare(dealii::ParameterHandler &prm);
 
+  /// Called inside the subsection.
   /// @throws InputError
   static Parameters parse(dealii::ParameterHandler &prm);
 };

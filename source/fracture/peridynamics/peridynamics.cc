@@ -57,10 +57,6 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
     throw EntryError("Fracture/peridynamics/Closure", "as published",
                      "'conserving' in porous rock (Rock/Bulk model), or 'Fluid = permeability "
                      "tensor'");
-  if (parameters.tensor_fluid && scene.leak_off != "resolved")
-    throw EntryError("Fracture flow/Leak-off", scene.leak_off,
-                     "'resolved' with 'Fracture/peridynamics/Fluid = permeability tensor', where "
-                     "the pore pressure is that of the fractures");
   if (scene.cracks.empty() && parameters.boxes.empty())
     throw InputError("Peridynamics needs an initial crack, or the box of its 'Zone'.");
   shape.cracks = scene.cracks;

@@ -78,7 +78,7 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
     const double w = value(B, state.current);
     const double height = volume / segment.area;
     const ValueAndSlope cubed =
-      conductance(w, scene.minimum_aperture, height, parameters.as_published);
+      conductance(w, parameters.minimum_aperture, height, parameters.as_published);
     const double factor = context.effective_dt() / (12. * scene.rock.fluid().viscosity * height);
 
     local.bulk = P.bulk;
