@@ -30,7 +30,8 @@ void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
                     "At which the fluid boils. A segment that it cannot fill keeps this pressure, "
                     "and the fluid lags behind the tip. Where pressures are net ones, for the rock "
                     "is unstressed, it is minus the stress that is left out. -inf: the fluid fills "
-                    "every tip, by suction if need be. Not with Carter's leak-off, nor BDF2.");
+                    "every tip, by suction if need be. Not with Carter's leak-off, BDF2, nor a "
+                    "permeability tensor.");
   prm.declare_entry("Leak-off", "none", Patterns::Selection("none|carter|filter cake|resolved"),
                     "How fluid passes from fractures into the rock. carter: C_L/sqrt(t-t_0) "
                     "per face, out of the model. filter cake: c_l (p_f - p_m) per face, into the "

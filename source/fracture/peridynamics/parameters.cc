@@ -4,6 +4,7 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
+#include <cmath>
 #include <limits>
 
 namespace stockwork::peridynamics
@@ -107,6 +108,10 @@ double parse_tensor_fluid(dealii::ParameterHandler &prm)
     throw EntryError("Fracture flow/Leak-off", prm.get("Leak-off"),
                      "'resolved' with 'Fracture/peridynamics/Fluid = permeability tensor', where "
                      "the pore pressure is that of the fractures");
+  if (std::isfinite(get_quantity(prm, "Least pressure", dimension::pressure)))
+    throw EntryError("Fracture flow/Least pressure", prm.get("Least pressure"),
+                     "-inf with 'Fracture/peridynamics/Fluid = permeability tensor': the elements "
+                     "of the pore pressure have no vapour");
   const double minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
   prm.leave_subsection();
   return minimum_aperture;
