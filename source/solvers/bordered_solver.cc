@@ -74,8 +74,7 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   append_bulk_values(op, definite, values);
   now->factorise(values);
   factor = std::move(now);
-  factor_scaling.bulk.reinit(op.scaling().bulk); // it may have another number of blocks
-  factor_scaling = op.scaling();
+  factor_scaling.copy_from(op.scaling());
   factor_stamps = stamps;
 
   solutions.clear();

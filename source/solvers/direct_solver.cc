@@ -125,8 +125,7 @@ void DirectSolver::factorise(const SystemOperator &op)
   has_factor = false;
   factor->factorise(values);
   has_factor = true;
-  factor_scaling.bulk.reinit(scale.bulk); // it may have another number of blocks
-  factor_scaling = scale;
+  factor_scaling.copy_from(scale);
 }
 
 LinearReport DirectSolver::solve(const LinearSystem &system,

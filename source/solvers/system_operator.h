@@ -14,6 +14,15 @@ struct SystemVector
 {
   dealii::TrilinosWrappers::MPI::BlockVector bulk;
   std::vector<double> extra;
+
+  /// Become a copy of a vector that may have another layout; deal.II's assignment wants as many
+  /// blocks as there are.
+  void copy_from(const SystemVector &other)
+  {
+    bulk.reinit(other.bulk, true);
+    bulk = other.bulk;
+    extra = other.extra;
+  }
 };
 
 /// A LinearSystem made fit for use: its triplets are summed over the ranks, sorted, and put where
