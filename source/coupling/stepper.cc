@@ -120,7 +120,6 @@ bool Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_l
       reason = verdict.reason;
       return false;
     case Verdict::Kind::topology_changed:
-      ++report.growths;
       system.renumber_extra(
         {&current.extra, &before.extra, &rate_reference.extra, &acceleration_reference.extra});
     }

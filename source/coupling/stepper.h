@@ -28,7 +28,6 @@ struct StepReport
   double dt = 0.;            ///< as accepted
   double next_dt = 0.;       ///< proposed
   unsigned int rejected = 0; ///< attempts
-  unsigned int growths = 0;  ///< times the topology has changed
   unsigned int nonlinear_iterations = 0;
   unsigned int linear_iterations = 0;
 };

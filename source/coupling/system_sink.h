@@ -29,11 +29,6 @@ public:
     return with_matrix;
   }
 
-  bool wants_residual() const override
-  {
-    return true;
-  }
-
   void add(const LocalSystem &local) override;
 
   bool bulk_touched = false;

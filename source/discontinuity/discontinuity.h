@@ -128,11 +128,6 @@ public:
   std::vector<Segment<dim>>
   segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
 
-  double size_of_domain() const
-  {
-    return domain_size;
-  }
-
 private:
   /// A cut cell of this rank.
   struct Entry

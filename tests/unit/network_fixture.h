@@ -32,11 +32,6 @@ public:
       return true;
     }
 
-    bool wants_residual() const override
-    {
-      return true;
-    }
-
     void add(const stockwork::LocalSystem &local) override
     {
       std::vector<unsigned int> index(local.bulk.begin(), local.bulk.end());

@@ -14,6 +14,16 @@ using namespace stockwork::peridynamics;
 
 namespace
 {
+/// Eq. 8b of Sun et al., and 12 E/(pi delta^4) in 3-D (Silling and Askari 2005): the micromodulus
+/// that is exact when the sum over the horizon is an integral. Both are 2 d (d+2) G/q.
+template <int dim>
+double continuum_micromodulus(const RockProperties &rock, const double horizon)
+{
+  const double d3 = horizon * horizon * horizon;
+  const double q = (dim == 2 ? 2. * M_PI * d3 / 3. : M_PI * d3 * horizon);
+  return 2. * dim * (dim + 2.) * rock.shear_modulus() / q;
+}
+
 /// The law with the constants of the continuum.
 template <int dim>
 BondLaw uncalibrated(const RockProperties &rock, const double horizon)

@@ -48,8 +48,6 @@ public:
 
   virtual bool wants_matrix() const = 0;
 
-  virtual bool wants_residual() const = 0;
-
   virtual void add(const LocalSystem &) = 0;
 };
 } // namespace stockwork

@@ -61,14 +61,6 @@ double weighted_volume(const std::vector<StencilBond<dim>> &stencil, const doubl
 }
 
 template <int dim>
-double continuum_micromodulus(const RockProperties &rock, const double horizon)
-{
-  const double d3 = horizon * horizon * horizon;
-  const double q = (dim == 2 ? 2. * M_PI * d3 / 3. : M_PI * d3 * horizon);
-  return 2. * dim * (dim + 2.) * rock.shear_modulus() / q;
-}
-
-template <int dim>
 BondLaw bond_based_law(const RockProperties &rock,
                        const std::vector<StencilBond<dim>> &stencil,
                        const double spacing)
@@ -138,7 +130,6 @@ double trapping_factor(const unsigned int m)
   template LatticeModuli lattice_moduli<dim>(const std::vector<StencilBond<dim>> &,            \
                                              const BondLaw &, const double);                   \
   template double weighted_volume<dim>(const std::vector<StencilBond<dim>> &, const double);   \
-  template double continuum_micromodulus<dim>(const RockProperties &, const double);           \
   template BondLaw bond_based_law<dim>(const RockProperties &,                                 \
                                        const std::vector<StencilBond<dim>> &, const double);   \
   template double crossing_energy<dim>(const std::vector<StencilBond<dim>> &, const BondLaw &, \

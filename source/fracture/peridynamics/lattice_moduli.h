@@ -41,12 +41,6 @@ LatticeModuli lattice_moduli(const std::vector<StencilBond<dim>> &stencil,
 template <int dim>
 double weighted_volume(const std::vector<StencilBond<dim>> &stencil, const double spacing);
 
-/// Eq. 8b, and 12 E/(pi delta^4) in 3-D (Silling and Askari 2005): the micromodulus that is exact
-/// when the sum over the horizon is an integral. Both are 2 d (d+2) G/q, @p rock having the
-/// Poisson's ratio of bond-based peridynamics.
-template <int dim>
-double continuum_micromodulus(const RockProperties &rock, const double horizon);
-
 /// Bond-based law of @p rock, calibrated: c = 2 d (d+2) G/q with the lattice's own sum q. Then C11
 /// + (d-1) C12 is exact and the mean shear modulus is, too; what remains is the anisotropy, 3 % for
 /// m = 3 with exact volumes and none with VolumeRule::isotropic.

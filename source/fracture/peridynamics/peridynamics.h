@@ -7,8 +7,6 @@
 #include "stockwork/fracture/model.h"
 
 #include <functional>
-#include <memory>
-#include <set>
 
 namespace stockwork::peridynamics
 {
