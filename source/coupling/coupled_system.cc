@@ -500,8 +500,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
         solver->solve(system, stamps, linear ? tolerance : 1e-6, dx_bulk, dx_extra);
       report.linear_iterations += linear_report.iterations;
       run.timers.move("solve", "preconditioner", linear_report.setup_seconds);
-      // Newton's method forgives an inexact direction; a linear problem is checked below.
-      if (!linear_report.converged && linear_report.relative_residual > 1e-4)
+      if (!linear_report.is_good_enough())
       {
         report.reason = "the linear solver has not converged";
         return report;

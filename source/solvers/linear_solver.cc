@@ -78,22 +78,27 @@ public:
     // In elastic rock without a fracture as well: one may come, and the factor will serve.
     if (system.elastic)
       return solve_with(get<BorderedSolver>(bordered, communicator));
-    if (!system.residual_extra.empty() && rock_may_have_factor(stamps))
+    const bool tries_factor = !system.residual_extra.empty() && rock_may_have_factor(stamps);
+    if (tries_factor)
       try
       {
         const LinearReport report = solve_with(get<BorderedSolver>(bordered, communicator));
-        n_singular_rocks = 0;
-        return report;
+        if (report.is_good_enough())
+        {
+          n_failures = 0;
+          return report;
+        }
       }
       catch (const SolveError &)
       {
-        // Singular without its fracture, if all together is not.
-        const LinearReport report = solve_with(get<DirectSolver>(direct, communicator));
-        ++n_singular_rocks;
-        singular_rock = stamps.bulk_values;
-        return report;
       }
-    return solve_with(get<DirectSolver>(direct, communicator));
+    const LinearReport report = solve_with(get<DirectSolver>(direct, communicator));
+    if (tries_factor)
+    {
+      ++n_failures; // singular without its fracture, or nearly so, if all together is not
+      failed_rock = stamps.bulk_values;
+    }
+    return report;
   }
 
 private:
@@ -101,9 +106,8 @@ private:
   /// as long as it does not change; after a few of them others will be, too.
   bool rock_may_have_factor(const SystemStamps &stamps) const
   {
-    constexpr unsigned int most_singular_rocks = 3;
-    return n_singular_rocks == 0 ||
-           (n_singular_rocks < most_singular_rocks && stamps.bulk_values != singular_rock);
+    constexpr unsigned int most_failures = 3;
+    return n_failures == 0 || (n_failures < most_failures && stamps.bulk_values != failed_rock);
   }
 
   template <class Solver, class... Arguments>
@@ -118,8 +122,8 @@ private:
   unsigned int dim;
   MPI_Comm communicator;
   std::unique_ptr<LinearSolver> direct, bordered, iterative;
-  unsigned int n_singular_rocks = 0; ///< one after another
-  unsigned int singular_rock = 0;    ///< SystemStamps::bulk_values of the last of them
+  unsigned int n_failures = 0;  ///< of the rock's factor, one after another
+  unsigned int failed_rock = 0; ///< SystemStamps::bulk_values of the last of them
 };
 } // namespace
 

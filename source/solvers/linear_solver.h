@@ -19,6 +19,12 @@ struct LinearReport
   double relative_residual = 0.;
   bool factorised = false;   ///< a factor or preconditioner was built anew
   double setup_seconds = 0.; ///< wall time of that and what else was prepared
+
+  /// Newton's method forgives an inexact direction.
+  bool is_good_enough() const
+  {
+    return converged || relative_residual <= 1e-4;
+  }
 };
 
 /// What decides between solvers.
