@@ -259,7 +259,8 @@ void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
   }
   bulk_version = model.bulk_version();
   system.elastic = !discretisation.has_pore_pressure;
-  system.definite = system.elastic && model.requirements().symmetric_bulk;
+  system.definite_displacement = model.requirements().symmetric_bulk;
+  system.definite = system.elastic && system.definite_displacement;
   matrix_context = context;
   matrix_is_current = true;
   bulk_was_touched = false;

@@ -58,13 +58,15 @@ bool SplitBlock::update(const SystemOperator &whole,
     system.residual_bulk.reinit(1);
     system.residual_bulk.block(0).reinit(from.residual_bulk.block(part.block));
     system.residual_bulk.collect_sizes();
+    if (part.block == 0)
+      system.displacement_hierarchy = from.displacement_hierarchy;
   }
   if (part.has_bulk && new_values)
     system.bulk.block(0, 0).copy_from(from.bulk.block(part.block, part.block));
   take_border(from, part.has_bulk ? whole.offset(part.block) : 0);
   system.symmetric = from.symmetric;
   system.elastic = part.block == 0;
-  system.definite = system.elastic && (from.symmetric || from.definite);
+  system.definite = system.elastic && from.definite_displacement;
   stamps = now;
   has_system = true;
   has_extra_factor = false;

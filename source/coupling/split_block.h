@@ -26,6 +26,11 @@ public:
              const BulkStructure &structure,
              MPI_Comm communicator);
 
+  bool wants_hierarchy(const dealii::types::global_dof_index n_dofs) const
+  {
+    return solver->wants_hierarchy(n_dofs);
+  }
+
   /// Take the matrix of a part of the whole. Returns whether the block of the bulk is new, so that
   /// whoever changes it must change it again.
   bool update(const SystemOperator &whole, const SystemStamps &stamps, const SplitPart &part);

@@ -50,10 +50,11 @@ void CouplingParameters::declare_parameters(ParameterHandler &prm)
     "added to the flow in pores, at least 1/2 is safe there; and times what a segment of a "
     "fracture opens by as the pressure grows in all of them, is that of the fracture.");
   prm.declare_entry("Maximum passes", "500", Patterns::Integer(1), "In one solve.");
-  prm.declare_entry("Acceleration", "auto", Patterns::Selection("auto|none|GMRES"),
-                    "none: pass after pass, which shows what the scheme can do. GMRES: passes are "
-                    "combined; many that would diverge converge then. auto: GMRES where a fracture "
-                    "is full of fluid.");
+  prm.declare_entry(
+    "Acceleration", "auto", Patterns::Selection("auto|none|GMRES"),
+    "How passes are combined. none: one after another, which shows what the scheme can "
+    "do. GMRES: so that the residual is least, which ends where many a scheme alone "
+    "diverges. auto: GMRES where there is fluid in a fracture.");
   prm.declare_entry("Force", "false", Patterns::Bool(),
                     "Run a scheme that is known to diverge in this rock all the same.");
   prm.leave_subsection();
@@ -94,12 +95,12 @@ void CouplingParameters::check(const RockProperties &rock,
     throw EntryError("Coupling/Scheme", name,
                      "monolithic, because there is no fluid: the rock has no pore pressure and "
                      "nothing is injected");
-  if (has_fracture)
-    return;
-  if (scheme == Scheme::undrained && rock.inverse_biot_modulus <= 0.)
+  if (scheme == Scheme::undrained && has_pore_pressure && rock.inverse_biot_modulus <= 0.)
     throw EntryError("Coupling/Scheme", name,
                      "monolithic or fixed stress, because nothing in this rock can be compressed "
                      "(1/M = 0) and its undrained stiffness is infinite");
+  if (has_fracture)
+    return;
   if (scheme == Scheme::drained || scheme == Scheme::fixed_strain)
   {
     const double bulk_modulus = rock.young_modulus / (3. * (1. - 2. * rock.poisson_ratio));
@@ -145,7 +146,7 @@ double SplitScheme::update_blocks(const SystemOperator &whole, const SystemStamp
   SystemStamps mechanics_stamps = stamps;
   mechanics_stamps.bulk_values = stamps.displacement_values;
   if (mechanics.update(whole, mechanics_stamps, {true, 0, 0, n_mechanical}) &&
-      parameters.scheme == Scheme::undrained)
+      parameters.scheme == Scheme::undrained && has_pore_pressure)
     undrained_term(mechanics.bulk());
   if (flow.update(whole, stamps, {has_pore_pressure, 1, n_mechanical, whole.n_extra()}) &&
       parameters.scheme == Scheme::fixed_stress)
@@ -158,26 +159,28 @@ double SplitScheme::update_blocks(const SystemOperator &whole, const SystemStamp
 
 double SplitScheme::stabilise_fracture(const SystemOperator &whole)
 {
-  // The load of unit pressure in all segments, and what it opens: the load once more, transposed.
+  // The load of unit pressure in all segments, and what it opens: the load once more, transposed,
+  // for the rows of the fluid have the slopes of its conductivity in them.
   const LinearSystem &system = whole.system();
   const unsigned int n_mechanical = system.n_mechanical_extra;
-  const auto is_segment = [&](const auto i) { return i >= n_mechanical; };
+  const auto is_fluid = [&](const auto i) { return i >= n_mechanical; };
   SystemVector load = whole.make_vector(), response = whole.make_vector();
   for (const auto &e : whole.bulk_extra())
-    if (is_segment(e.column))
+    if (is_fluid(e.column))
     {
       const auto [block, local] = whole.locate(e.row);
       if (block == 0)
         SystemOperator::entry(load.bulk, block, local) += e.value;
     }
   for (const auto &e : whole.extra_extra())
-    if (is_segment(e.column) && !is_segment(e.row))
+    if (is_fluid(e.column) && !is_fluid(e.row))
       load.extra[e.row] += e.value;
   const double seconds = mechanics.correct(load, block_tolerance, response);
 
+  // Fractures side by side may close one another; a negative L would take storage away.
   std::vector<double> opening(whole.n_extra(), 0.), has_storage(whole.n_extra(), 0.);
   for (const auto &e : whole.bulk_extra())
-    if (is_segment(e.column))
+    if (is_fluid(e.column))
     {
       const auto [block, local] = whole.locate(e.row);
       if (block == 0)
@@ -185,14 +188,14 @@ double SplitScheme::stabilise_fracture(const SystemOperator &whole)
     }
   // A segment that boils has a row without its aperture.
   for (const auto &e : whole.extra_bulk())
-    if (is_segment(e.row) && whole.locate(e.column).first == 0)
+    if (is_fluid(e.row) && whole.locate(e.column).first == 0)
       has_storage[e.row] = 1.;
   Utilities::MPI::sum(opening, communicator, opening);
   Utilities::MPI::sum(has_storage, communicator, has_storage);
   for (const auto &e : whole.extra_extra())
-    if (is_segment(e.column) && !is_segment(e.row))
+    if (is_fluid(e.column) && !is_fluid(e.row))
       opening[e.column] += e.value * response.extra[e.row];
-    else if (is_segment(e.row) && !is_segment(e.column))
+    else if (is_fluid(e.row) && !is_fluid(e.column))
       has_storage[e.row] = 1.;
   if (Utilities::MPI::this_mpi_process(communicator) == 0)
     for (unsigned int i = n_mechanical; i < opening.size(); ++i)
@@ -277,7 +280,7 @@ LinearReport SplitScheme::solve(const LinearSystem &system,
     { report.setup_seconds += pass(whole, z, r); };
     solve_by_krylov(whole, communicator, precondition,
                     {tolerance, parameters.maximum_passes, restart}, x, report);
-    if (!report.converged)
+    if (!report.is_good_enough())
       throw SolveError("the " + parameters.name +
                        " split has not converged: " + std::to_string(report.iterations) +
                        " passes. 'Coupling/Scheme = monolithic' has no such limit");

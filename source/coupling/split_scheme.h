@@ -58,9 +58,12 @@ struct CouplingParameters
 /// Solves [K B; B^T -C] [u; p] = [f; g] (signs of Sink) by turns in u and p, a stationary iteration
 /// that ends at the solution of the coupled system:
 ///
-///   fixed stress:   -(C + L) p' = g - B^T u - L p,   K u' = f - B p',   L = b int alpha^2/K_dr p q
-///   undrained:      (K + U) u' = f - B p + U u,      -C p' = g - B^T u',   U = int alpha^2 M div
-///   div drained:        as undrained with U = 0;  fixed strain: as fixed stress with L = 0
+///   fixed stress:   -(C + L) p' = g - B^T u - L p,   K u' = f - B p'
+///                   with L = b int alpha^2/K_dr p q
+///   undrained:      (K + U) u' = f - B p + U u,   -C p' = g - B^T u'
+///                   with U = int alpha^2 M div u div v
+///   drained:        as undrained with U = 0
+///   fixed strain:   as fixed stress with L = 0
 ///
 /// (Kim, Tchelepi & Juanes 2011, Comput. Methods Appl. Mech. Engrg. 200; b is the stabilisation
 /// factor.) The blocks are solved by linear solvers of their own, which keep their factors.
@@ -68,16 +71,19 @@ struct CouplingParameters
 /// With a fracture, u are all unknowns that move, p the pressures in pores and fractures. A segment
 /// is given as L what it would open by if the pressure grew by one in all of them,
 ///
-///   L_i = b sum_j S_ij,   S = B^T K^-1 B between segments,
+///   L_i = b |sum_j S_ij|,   S = B^T K^-1 B between segments,
 ///
-/// one solve for the rock. Where pressure anywhere opens the fracture everywhere (S_ij >= 0), L - S
-/// is the Laplacian of a graph and not negative, so that with a symmetric C the passes converge for
-/// b >= 1, and what is uniform along the fracture, its mean pressure, is found in the first one.
-/// After Girault, Kumar & Wheeler 2016 (Comput. Geosci. 20), whose constant for the fracture must
-/// be guessed. Where the flow depends on the aperture C is not symmetric, and bonds or seams that
-/// soften make K indefinite; then nothing is proven. And where little fluid gets through, as near a
-/// tip, what is not uniform is found slowly. FGMRES with a pass as preconditioner finds it
-/// (Castelletto, White & Tchelepi 2015, Int. J. Numer. Anal. Methods Geomech. 39).
+/// one solve for the rock. Where pressure anywhere opens the fracture everywhere (S_ij >= 0), with
+/// b = 1, L - S is the Laplacian of a graph and not negative; with pores, too, both L together are
+/// at least half of both compliances together. So with symmetric K and C the passes converge for
+/// b >= 1. Nothing is proven where fractures side by side close one another (S_ij < 0), for the
+/// rows of bonds and the flow's dependence on the aperture, which are not symmetric, and where
+/// bonds or seams soften. After Girault, Kumar & Wheeler 2016 (Comput. Geosci. 20), whose constant
+/// for the fracture must be guessed.
+///
+/// Where little fluid gets through, as near a tip, what is not uniform is found slowly. FGMRES with
+/// a pass as preconditioner finds it (Castelletto, White & Tchelepi 2015, Int. J. Numer. Anal.
+/// Methods Geomech. 39).
 class SplitScheme : public LinearSolver
 {
 public:
@@ -89,6 +95,11 @@ public:
               const BulkStructure &structure,
               MPI_Comm communicator,
               UndrainedTerm undrained_term);
+
+  bool wants_hierarchy(const dealii::types::global_dof_index n_dofs) const override
+  {
+    return mechanics.wants_hierarchy(n_dofs);
+  }
 
   /// Throws SolveError when the passes diverge or do not end.
   LinearReport solve(const LinearSystem &system,

@@ -14,7 +14,7 @@ namespace stockwork
 /// rows, ten decades apart in SI, count alike.
 struct LinearReport
 {
-  unsigned int iterations = 0; ///< of the iterative solver, or of iterative refinement
+  unsigned int iterations = 0; ///< of the iterative solver or iterative refinement; passes
   bool converged = false;
   double relative_residual = 0.;
   bool factorised = false;   ///< a factor or preconditioner was built anew

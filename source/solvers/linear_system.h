@@ -55,8 +55,8 @@ struct LinearSystem
   unsigned int n_mechanical_extra = 0; ///< the first extra unknowns move; the rest belong to fluid
 
   /// alpha^2 / (lambda + 2 G / dim) times the mass matrix of the pore pressure, positive, with the
-  /// pattern of bulk(1,1), constrained rows zero. Wanted by the iterative solver only; may be
-  /// empty.
+  /// pattern of bulk(1,1), constrained rows zero. Wanted by the iterative solver and the
+  /// fixed-stress split only; may be empty.
   dealii::TrilinosWrappers::SparseMatrix fixed_stress_mass;
 
   /// See make_displacement_hierarchy(). Wanted by the iterative solver only; may be empty.
@@ -65,6 +65,7 @@ struct LinearSystem
   bool symmetric = true; ///< as assembled
   bool elastic = false;  ///< the bulk is displacement alone, so it has a factor without the rest
   bool definite = false; ///< the bulk alone is symmetric positive definite
+  bool definite_displacement = false; ///< its displacement block is
 };
 
 /// What has changed since a solver last looked. A number grows when the thing it names changes.

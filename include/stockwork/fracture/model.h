@@ -33,7 +33,7 @@ struct Requirements
   bool newton = true;         ///< assemble() gives the exact derivative (else a secant)
   bool quasi_static_only = false;
   bool linear_elements = false; ///< displacements live at vertices only
-  bool bulk_alone = false;      ///< has neither unknowns nor segments, ever: may be split
+  bool bulk_alone = false;      ///< has neither unknowns nor segments, ever: rock, to a split
 };
 
 /// What a model says about a converged solution.
