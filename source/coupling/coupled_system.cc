@@ -1,5 +1,6 @@
 #include "coupling/coupled_system.h"
 
+#include "stockwork/base/all_gather.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -27,6 +28,30 @@ FESystem<dim> make_element(const Discretisation &discretisation)
   if (discretisation.has_pore_pressure)
     return FESystem<dim>(displacement, dim, pressure, 1);
   return FESystem<dim>(displacement, dim);
+}
+
+
+/// Let a rank know which of the visible dofs are held, those too that are far from its cells. None
+/// of these hangs, for bonds end in uniform cells. Collective.
+void make_visible(AffineConstraints<double> &constraints,
+                  const IndexSet &owned,
+                  const IndexSet &visible,
+                  const MPI_Comm communicator)
+{
+  AffineConstraints<double> all(visible);
+  std::vector<types::global_dof_index> held;
+  for (const auto &line : constraints.get_lines())
+  {
+    all.add_line(line.index);
+    all.add_entries(line.index, line.entries);
+    if (owned.is_element(line.index) && line.entries.empty())
+      held.push_back(line.index);
+  }
+  for (const types::global_dof_index dof : all_gather(communicator, held))
+    if (visible.is_element(dof))
+      all.add_line(dof);
+  all.close();
+  constraints = std::move(all);
 }
 
 
@@ -129,13 +154,21 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   IndexSet visible = all_relevant;
   visible.add_indices(coupled.begin(), coupled.end());
   relevant = visible.split_by_block(dofs_per_block);
+  if (communication.max(coupled.empty() ? 0. : 1.) > 0.)
+    make_visible(increment_constraints, dof_handler.locally_owned_dofs(), visible,
+                 run.communicator);
 
   {
     BlockDynamicSparsityPattern pattern(relevant);
     DoFTools::make_sparsity_pattern(dof_handler, pattern, increment_constraints, false);
     model.add_couplings(
-      [&](const std::vector<types::global_dof_index> &dofs)
-      { increment_constraints.add_entries_local_to_global(dofs, pattern, false); });
+      [&](std::vector<types::global_dof_index> dofs)
+      {
+        // A bond may lead back to its own node, across a plane of symmetry.
+        std::sort(dofs.begin(), dofs.end());
+        dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+        increment_constraints.add_entries_local_to_global(dofs, pattern, false);
+      });
     SparsityTools::distribute_sparsity_pattern(pattern, dof_handler.locally_owned_dofs(),
                                                run.communicator, visible);
     system.bulk.clear();
