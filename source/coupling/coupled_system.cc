@@ -1,10 +1,10 @@
 #include "coupling/coupled_system.h"
 
-#include "stockwork/base/all_gather.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
 #include "coupling/system_sink.h"
+#include "coupling/visible_constraints.h"
 
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -28,30 +28,6 @@ FESystem<dim> make_element(const Discretisation &discretisation)
   if (discretisation.has_pore_pressure)
     return FESystem<dim>(displacement, dim, pressure, 1);
   return FESystem<dim>(displacement, dim);
-}
-
-
-/// Let a rank know which of the visible dofs are held, those too that are far from its cells. None
-/// of these hangs, for bonds end in uniform cells. Collective.
-void make_visible(AffineConstraints<double> &constraints,
-                  const IndexSet &owned,
-                  const IndexSet &visible,
-                  const MPI_Comm communicator)
-{
-  AffineConstraints<double> all(visible);
-  std::vector<types::global_dof_index> held;
-  for (const auto &line : constraints.get_lines())
-  {
-    all.add_line(line.index);
-    all.add_entries(line.index, line.entries);
-    if (owned.is_element(line.index) && line.entries.empty())
-      held.push_back(line.index);
-  }
-  for (const types::global_dof_index dof : all_gather(communicator, held))
-    if (visible.is_element(dof))
-      all.add_line(dof);
-  all.close();
-  constraints = std::move(all);
 }
 
 

@@ -79,14 +79,18 @@ private:
   BlockVector zero;
 };
 
-/// The matrix between diagonal scalings, so that the Krylov method sees the norm of LinearReport.
-class ScaledSystem
+/// A linear action on all unknowns between diagonal scalings, so that the Krylov method sees the
+/// norm of LinearReport.
+class Scaled
 {
 public:
-  ScaledSystem(const SystemOperator &op, const Joined &joined)
-    : op(op)
-    , joined(joined)
-    , scaling(joined.join(op.scaling()))
+  /// dst = action of src, which it may use as working space.
+  using Action = std::function<void(SystemVector &dst, SystemVector &src)>;
+
+  Scaled(const SystemOperator &op, const Joined &joined, const BlockVector &scaling, Action action)
+    : joined(joined)
+    , action(std::move(action))
+    , scaling(scaling)
     , unscaled(scaling)
     , in(op.make_vector())
     , out(op.make_vector())
@@ -98,56 +102,17 @@ public:
     unscaled = src;
     unscaled.scale(scaling);
     joined.split(in, unscaled);
-    op.vmult(out, in);
+    action(out, in);
     joined.join(dst, out);
     dst.scale(scaling);
   }
 
 private:
-  const SystemOperator &op;
   const Joined &joined;
+  const Action action;
   const BlockVector scaling;
   mutable BlockVector unscaled;
   mutable SystemVector in, out;
-};
-
-/// The preconditioner between inverse scalings.
-class ScaledPreconditioner
-{
-public:
-  ScaledPreconditioner(const SystemOperator &op,
-                       const Joined &joined,
-                       const Preconditioner &preconditioner)
-    : joined(joined)
-    , preconditioner(preconditioner)
-    , inverse_scaling(joined.join(op.scaling()))
-    , unscaled(inverse_scaling)
-    , r(op.make_vector())
-    , z(op.make_vector())
-  {
-    for (unsigned int b = 0; b < inverse_scaling.n_blocks(); ++b)
-    {
-      auto &v = inverse_scaling.block(b).trilinos_vector();
-      v.Reciprocal(v);
-    }
-  }
-
-  void vmult(BlockVector &dst, const BlockVector &src) const
-  {
-    unscaled = src;
-    unscaled.scale(inverse_scaling);
-    joined.split(r, unscaled);
-    preconditioner(z, r);
-    joined.join(dst, z);
-    dst.scale(inverse_scaling);
-  }
-
-private:
-  const Joined &joined;
-  const Preconditioner &preconditioner;
-  BlockVector inverse_scaling;
-  mutable BlockVector unscaled;
-  mutable SystemVector r, z;
 };
 } // namespace
 
@@ -160,12 +125,19 @@ void solve_by_krylov(const SystemOperator &op,
                      LinearReport &report)
 {
   const Joined joined(op, communicator);
-  const ScaledSystem matrix(op, joined);
-  const ScaledPreconditioner scaled_preconditioner(op, joined, preconditioner);
+  const BlockVector scaling = joined.join(op.scaling());
+  BlockVector inverse_scaling(scaling);
+  for (unsigned int b = 0; b < inverse_scaling.n_blocks(); ++b)
+  {
+    auto &v = inverse_scaling.block(b).trilinos_vector();
+    v.Reciprocal(v);
+  }
+  const Scaled matrix(op, joined, scaling,
+                      [&](SystemVector &dst, SystemVector &src) { op.vmult(dst, src); });
+  const Scaled scaled_preconditioner(op, joined, inverse_scaling, preconditioner);
   SystemVector load = op.make_vector();
   load.bulk = op.system().residual_bulk;
   load.extra = op.system().residual_extra;
-  const BlockVector scaling = joined.join(op.scaling());
   BlockVector b = joined.join(load), x(scaling), r(scaling);
   b.scale(scaling);
   b *= -1.;
