@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""Run random scenes whose answer is known by symmetry: KGD fractures that lie anywhere in the mesh.
+
+    contrib/campaign.py [--family NAME...] [--n 10] [--seed 1] [--model cohesive_xfem]
+                        [--km-from 0.5] [--km-to 8] [--jobs 2] [--keep DIR]
+
+Each runs beside the aligned fracture of the same K_m. Right means: length within 4 % or a cell and a
+half per wing; aperture and net pressure, averaged over the last half of the time, within 2 and 3 %;
+no part further from the line than a cell and 2 % of the length of a wing; less than a fifth of the
+steps rejected. `turning` has no control: both tips must end within 5 degrees of the greatest
+compression. --n is the number of scenes of each family. The decks and the logs of failures stay in
+DIR. The exit status is 0 if all scenes are right.
+"""
+import argparse
+import concurrent.futures
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+from campaign.deck import deck  # noqa: E402
+from campaign.judge import Run, judge  # noqa: E402
+from campaign.scene import FAMILIES, control, draw  # noqa: E402
+
+
+def run(options, scene, directory, name, number):
+    """(Run, "") or (None, why there is none)."""
+    output = os.path.join(directory, name)
+    path = output + ".prm"
+    os.makedirs(directory, exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(deck(scene, options.model, options.seed, number))
+    command = [options.program, path, "--output", output]
+    for setting in options.set:
+        command += ["--set", setting]
+    try:
+        with open(output + ".log", "w", encoding="utf-8") as log:
+            status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False,
+                                    timeout=options.timeout, stdin=subprocess.DEVNULL,
+                                    env=dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
+                                             DEAL_II_NUM_THREADS="1")).returncode
+    except subprocess.TimeoutExpired:
+        return None, f"{name}: not finished after {options.timeout:g} s"
+    if status != 0:
+        return None, f"{name}: exit status {status}: {last_words(output + '.log')}"
+    try:
+        return Run(scene, output), ""
+    except (OSError, KeyError, ValueError, IndexError) as error:
+        return None, f"{name}: exit status 0, but results cannot be read: {error!r}"
+
+
+def last_words(log):
+    with open(log, encoding="utf-8", errors="replace") as file:
+        lines = [line.strip() for line in file if line.strip()]
+    errors = [i for i, line in enumerate(lines) if "rror" in line]
+    return " ".join(lines[errors[-1]:] if errors else lines[-1:])[:300]
+
+
+def attempt(options, family, number):
+    """Run a scene beside its control: whether it is right."""
+    began = time.time()
+    scene = draw(family, options.seed, number, (options.km_from, options.km_to), options.wing)
+    directory = os.path.join(options.keep, f"{family}_{options.seed}_{number}")
+    shutil.rmtree(directory, ignore_errors=True)
+    aligned = control(scene)
+    beside, why = (run(options, aligned, directory, "control", number) if aligned else (None, ""))
+    found, wrong = why, ["control"]
+    if not why:
+        result, found = run(options, scene, directory, "scene", number)
+        wrong = ["run"]
+        if result:
+            found, wrong = judge(scene, result, beside)
+    with options.talk:
+        print(f"{family:>15} {number:3}  {scene.describe()} | {found} | {time.time() - began:.0f} s | "
+              + ("right" if not wrong else "WRONG: " + ", ".join(wrong)), flush=True)
+    if not wrong and not options.keep_all:
+        shutil.rmtree(directory)
+    elif not options.keep_all:  # decks, logs and tables stay
+        for name in ("control", "scene"):
+            shutil.rmtree(os.path.join(directory, name, "vtu"), ignore_errors=True)
+    return not wrong
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     epilog="families:\n" + "\n".join(
+                                         f"  {name:16} {text}" for name, text in FAMILIES.items()))
+    parser.add_argument("--family", nargs="+", choices=FAMILIES, default=list(FAMILIES), metavar="NAME")
+    parser.add_argument("--n", type=int, default=10, help="scenes of each family")
+    parser.add_argument("--first", type=int, default=0, help="number of the first scene")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--model", default="cohesive_xfem", choices=("cohesive_xfem", "peridynamics"))
+    parser.add_argument("--km-from", type=float, default=0.5)
+    parser.add_argument("--km-to", type=float, default=8.)
+    parser.add_argument("--wing", type=float, default=42., help="length of a wing at the end, in cells")
+    parser.add_argument("--jobs", type=int, default=2, help="scenes at once")
+    parser.add_argument("--timeout", type=float, default=1800., help="seconds per run")
+    parser.add_argument("--program", default=os.path.join(HERE, "..", "build", "source", "stockwork"))
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION/ENTRY=VALUE",
+                        help="for scene and control alike")
+    parser.add_argument("--keep", default="campaign-failures", metavar="DIR",
+                        help="where scenes run, and failures stay")
+    parser.add_argument("--keep-all", action="store_true", help="right ones stay, too, with their fields")
+    options = parser.parse_args()
+    options.program = os.path.abspath(options.program)
+    options.talk = threading.Lock()
+
+    tasks = [(family, options.first + i) for family in options.family for i in range(options.n)]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        right = list(pool.map(lambda task: attempt(options, *task), tasks))
+    for family in options.family:
+        of_family = [ok for (name, _), ok in zip(tasks, right) if name == family]
+        print(f"{family}: {sum(of_family)} of {len(of_family)} right")
+    print(f"{sum(right)} of {len(right)} right ({100 * sum(right) / max(len(right), 1):.0f} %)")
+    return 0 if all(right) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Random scenes whose answer is known by symmetry; contrib/campaign.py runs them."""
