@@ -55,7 +55,8 @@ struct Crossing
 {
   double arc; ///< along the polyline from its first point
   unsigned int face;
-  double share; ///< along the face from its first vertex
+  double share;      ///< along the face from its first vertex
+  unsigned int line; ///< of the polyline's straight lines
 };
 
 /// A polyline with both ends prolonged to rays, so that every cell is crossed as a whole.
@@ -102,10 +103,17 @@ public:
         const double share =
           std::min(std::max(to_p / (to_p - to_q), corner_clearance), 1. - corner_clearance);
         const Tensor<1, 2> way = p + share * edge - points[k];
-        crossings.push_back({arc + way * line / extent, face, swap ? 1. - share : share});
+        crossings.push_back({arc + way * line / extent, face, swap ? 1. - share : share, k});
       }
       arc += extent;
     }
+  }
+
+  /// Unit vector along one of the straight lines.
+  Tensor<1, 2> direction(const unsigned int k) const
+  {
+    const Tensor<1, 2> line = points[k + 1] - points[k];
+    return line / line.norm();
   }
 
   double length = 0.;
@@ -118,15 +126,45 @@ private:
 
 struct Found
 {
-  double arc;
+  std::array<double, 2> arcs; ///< of both ends
   CrackPiece<2> piece;
+  std::string fault; ///< why the crack cannot pass this cell; empty if it can
 
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &arc &piece;
+    ar &arcs &piece &fault;
   }
 };
+
+/// Pieces that meet at a face along the crack belong together.
+void join_across_shallow_faces(std::vector<Found> &found)
+{
+  for (unsigned int i = 0; i + 1 < found.size(); ++i)
+    if (CrackPiece<2> &piece = found[i].piece, &next = found[i + 1].piece;
+        !piece.inside[1] && !piece.at_boundary[1])
+      next.joined[0] = piece.joined[1] = !piece.crosses_transverse_face(1);
+}
+
+/// The spans that lie on the polyline by more than half of their length.
+std::vector<Found> spans_inside(const std::vector<Found> &found, const double length)
+{
+  std::vector<Found> inside;
+  for (unsigned int i = 0, next = 0; i < found.size(); i = next)
+  {
+    for (next = i + 1; next < found.size() && found[next].piece.joined[0];)
+      ++next;
+    const double begin = found[i].arcs[0], end = found[next - 1].arcs[1];
+    const double middle = 0.5 * (begin + end);
+    const double rounding = 1e-9 * (end - begin);
+    if (middle >= -rounding && middle <= length + rounding)
+      inside.insert(inside.end(), found.begin() + i, found.begin() + next);
+  }
+  // What is left out beyond the ends is no part of a span.
+  if (!inside.empty())
+    inside.front().piece.joined[0] = inside.back().piece.joined[1] = false;
+  return inside;
+}
 } // namespace
 
 std::uint64_t hash_combine(const std::uint64_t seed, const std::int64_t value)
@@ -152,11 +190,38 @@ template <int dim>
 Tensor<1, dim> CrackPiece<dim>::normal() const
 {
   static_assert(dim == 2, "a polyline has a normal in two dimensions only");
-  const Tensor<1, dim> t = tangent();
   Tensor<1, dim> n;
-  n[0] = -t[1];
-  n[1] = t[0];
+  n[0] = -along[1];
+  n[1] = along[0];
   return n;
+}
+
+template <int dim>
+bool CrackPiece<dim>::crosses_transverse_face(const unsigned int end) const
+{
+  // How much of the crack's direction is normal to the faces of an axis, at most.
+  const auto normal_part = [this](const unsigned int face)
+  {
+    const Tensor<1, dim> edge = corners[face_vertices[face][1]] - corners[face_vertices[face][0]];
+    return std::abs(cross(along, edge)) / edge.norm();
+  };
+  const unsigned int face = faces[end], other = face < 2 ? 2 : 0;
+  const double here = normal_part(face),
+               there = std::max(normal_part(other), normal_part(other + 1));
+  constexpr double tie = 1e-3;
+  return face < 2 ? here > (1. - tie) * there : here > (1. + tie) * there;
+}
+
+template <int dim>
+std::vector<CrackSpan> spans_of(const CrackPath<dim> &path)
+{
+  std::vector<CrackSpan> spans;
+  for (unsigned int i = 0; i < path.pieces.size(); ++i)
+    if (i > 0 && path.pieces[i - 1].joined[1])
+      spans.back().last = i;
+    else
+      spans.push_back({i, i});
+  return spans;
 }
 
 template <int dim>
@@ -195,6 +260,8 @@ CrackPiece<dim> reversed(const CrackPiece<dim> &piece)
   std::swap(r.unit_ends[0], r.unit_ends[1]);
   std::swap(r.at_boundary[0], r.at_boundary[1]);
   std::swap(r.inside[0], r.inside[1]);
+  std::swap(r.joined[0], r.joined[1]);
+  r.along *= -1.;
   return r;
 }
 
@@ -250,15 +317,16 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
                 [](const Crossing &a, const Crossing &b) { return a.arc < b.arc; });
       for (unsigned int i = 0; i + 1 < crossings.size(); i += 2)
       {
-        const double arcs[2] = {crossings[i].arc, crossings[i + 1].arc};
-        const double middle = 0.5 * (arcs[0] + arcs[1]);
-        // A tip this close to an edge is taken to be on it.
-        const double sliver = exact_ends ? 0.02 * (arcs[1] - arcs[0]) : 0.5 * (arcs[1] - arcs[0]);
+        const std::array<double, 2> arcs = {{crossings[i].arc, crossings[i + 1].arc}};
+        // A tip this close to an edge is taken to be on it. Whole spans are chosen below, from what
+        // lies a few cells beyond the ends as well.
+        const double sliver =
+          exact_ends ? 0.02 * (arcs[1] - arcs[0]) : -3. * cell->vertex(0).distance(cell->vertex(3));
         if (arcs[1] < sliver || arcs[0] > line.length - sliver ||
             crossings[i].face == crossings[i + 1].face)
           continue;
         Found f;
-        f.arc = middle;
+        f.arcs = arcs;
         f.piece.cell = cell->id();
         for (unsigned int v = 0; v < 4; ++v)
           f.piece.corners[v] = cell->vertex(v);
@@ -281,13 +349,27 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
           if (arcs[1] > line.length + sliver)
             end_inside(1, polyline.back());
         }
-        f.piece.held = held_components(discretization, cell);
+        f.piece.along = crossings[i].line == crossings[i + 1].line
+                          ? line.direction(crossings[i].line)
+                          : (f.piece.ends[1] - f.piece.ends[0]) / f.piece.length();
+        try
+        {
+          f.piece.held = held_components(discretization, cell);
+        }
+        catch (const InputError &error)
+        {
+          f.fault = error.what();
+        }
         found.push_back(f);
       }
     }
   found = collectives.gather(found);
   std::stable_sort(found.begin(), found.end(),
-                   [](const Found &a, const Found &b) { return a.arc < b.arc; });
+                   [](const Found &a, const Found &b)
+                   { return a.arcs[0] + a.arcs[1] < b.arcs[0] + b.arcs[1]; });
+  join_across_shallow_faces(found);
+  if (!exact_ends)
+    found = spans_inside(found, line.length);
 
   if (found.empty())
     throw InputError("The crack from " + text(polyline.front()) + " to " + text(polyline.back()) +
@@ -295,6 +377,8 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
   CrackPath<dim> path;
   for (const Found &f : found)
   {
+    if (!f.fault.empty())
+      throw InputError(f.fault);
     if (f.piece.inside[0] && f.piece.inside[1])
       throw InputError("The crack from " + text(polyline.front()) + " to " + text(polyline.back()) +
                        " lies inside one cell. Refine the mesh around it.");
@@ -366,12 +450,14 @@ CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cel
   if (!std::isfinite(best))
     throw SolveError("A crack at " + text(tip) + " does not find its way through the next cell.");
   place_end(piece, 1, exit, share);
+  piece.along = d / d.norm();
   piece.at_boundary = {{cell->face(face)->at_boundary(), cell->face(exit)->at_boundary()}};
   return piece;
 }
 
 template struct CrackPiece<2>;
 template struct CrackPath<2>;
+template std::vector<CrackSpan> spans_of(const CrackPath<2> &);
 template std::uint64_t hash_point<2>(const std::uint64_t, const Point<2> &, const double);
 template CrackPiece<2> reversed(const CrackPiece<2> &);
 template std::array<unsigned char, 4>

@@ -36,6 +36,13 @@ struct CrackPiece
   std::array<bool, 2> at_boundary{{false, false}};   ///< the face is on the domain's boundary
   std::array<bool, 2> inside{{false, false}}; ///< ends in the cell: a tip; its face means nothing
 
+  /// Unit vector along the crack, from entry to exit. It belongs to the crack and not to the mesh: a
+  /// crossing that is kept clear of a vertex turns the line between the ends, but not this vector.
+  dealii::Tensor<1, dim> along;
+
+  /// The crack does not rest at this end: the next piece belongs to the same span, see CrackSpan.
+  std::array<bool, 2> joined{{false, false}};
+
   /// Components of displacement that a boundary condition holds at each corner, one bit each.
   std::array<unsigned char, n_corners> held{};
 
@@ -49,14 +56,12 @@ struct CrackPiece
     return ends[0] + 0.5 * (ends[1] - ends[0]);
   }
 
-  /// Unit vector from entry to exit.
-  dealii::Tensor<1, dim> tangent() const
-  {
-    return (ends[1] - ends[0]) / length();
-  }
-
-  /// Unit normal, to the left of the tangent: it points from the minus to the plus side.
+  /// Unit normal, to the left of `along`: it points from the minus to the plus side.
   dealii::Tensor<1, dim> normal() const;
+
+  /// Whether the face of an end lies across the crack rather than along it. Of two equal ones the
+  /// face that is normal to the first unit coordinate.
+  bool crosses_transverse_face(const unsigned int end) const;
 
   /// Is a point of the unit cell on the plus side?
   bool plus_side(const dealii::Point<dim> &unit_point) const;
@@ -70,7 +75,7 @@ struct CrackPiece
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &cell &corners &faces &ends &unit_ends &at_boundary &inside &held;
+    ar &cell &corners &faces &ends &unit_ends &at_boundary &inside &along &joined &held;
   }
 };
 
@@ -102,7 +107,7 @@ struct CrackPath
   /// Unit vector out of the crack at an end.
   dealii::Tensor<1, dim> direction(const CrackEnd end) const
   {
-    return (end == CrackEnd::first ? -1. : 1.) * piece_at(end).tangent();
+    return (end == CrackEnd::first ? -1. : 1.) * piece_at(end).along;
   }
 
   double length() const;
@@ -114,14 +119,28 @@ struct CrackPath
   }
 };
 
+/// The part of a crack between two faces that lie across it: one piece, or more where the crack
+/// cuts off the corner of a cell on its way. Spans are about as long as a cell whatever the angle
+/// and the place of the crack in the mesh. A tip rests at the end of a span only, and the fluid sees
+/// a span as one segment: what is short is geometry then, and not physics.
+struct CrackSpan
+{
+  unsigned int first; ///< piece
+  unsigned int last;  ///< piece, of the span
+};
+
+/// The spans of a crack in their order.
+template <int dim>
+std::vector<CrackSpan> spans_of(const CrackPath<dim> &path);
+
 /// Crossings stay this share of an edge away from its ends. Larger values trap shallow cracks along
 /// a mesh line, smaller ones gain nothing.
 constexpr double corner_clearance = 1e-3;
 
 /// Cut the mesh along a polyline: the chain of pieces, the same on all ranks.
 ///
-/// Without @p exact_ends a crack consists of whole cells: an end inside a cell moves along the
-/// crack to the nearest edge. A kink inside a cell is cut short. A vertex on the polyline counts as
+/// Without @p exact_ends a crack consists of whole spans: an end moves along the crack to the
+/// nearest face that lies across it. A kink inside a cell is cut short. A vertex on the polyline counts as
 /// being on the plus side, so a crack along a mesh line runs `corner_clearance` of an edge beside
 /// it.
 /// @throws InputError if the crack lies outside the mesh or passes cells of different size

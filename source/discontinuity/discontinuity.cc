@@ -278,6 +278,9 @@ void Discontinuity<dim>::renumber()
 {
   unknowns.rebuild(cracks, tips, domain_size, scale);
   piece_of_cell.clear();
+  spans_of_crack.clear();
+  for (const CrackPath<dim> &crack : cracks)
+    spans_of_crack.push_back(spans_of(crack));
   for (unsigned int c = 0; c < cracks.size(); ++c)
     for (unsigned int i = 0; i < cracks[c].pieces.size(); ++i)
       piece_of_cell[cracks[c].pieces[i].cell] = {c, i};
@@ -344,8 +347,104 @@ Discontinuity<dim>::mean_jumps(const unsigned int crack, const unsigned int inde
 
 
 template <int dim>
+double Discontinuity<dim>::length(const unsigned int crack, const CrackSpan &span) const
+{
+  double sum = 0.;
+  for (unsigned int i = span.first; i <= span.last; ++i)
+    sum += cracks[crack].pieces[i].length();
+  return sum;
+}
+
+
+template <int dim>
+unsigned int Discontinuity<dim>::longest_piece(const unsigned int crack,
+                                               const CrackSpan &span) const
+{
+  const auto &pieces = cracks[crack].pieces;
+  unsigned int longest = span.first;
+  for (unsigned int i = span.first + 1; i <= span.last; ++i)
+    if (pieces[i].length() > pieces[longest].length())
+      longest = i;
+  return longest;
+}
+
+
+template <int dim>
+std::uint64_t Discontinuity<dim>::segment_key(const unsigned int crack,
+                                              const unsigned int piece) const
+{
+  const auto &spans = spans_of_crack[crack];
+  const auto span = std::upper_bound(spans.begin(), spans.end(), piece,
+                                     [](const unsigned int p, const CrackSpan &s)
+                                     { return p < s.first; });
+  return key(crack, *(span - 1));
+}
+
+
+template <int dim>
 std::vector<typename Discontinuity<dim>::Outcome>
 Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives &collectives)
+{
+  std::vector<Outcome> outcomes(advances.size());
+  std::vector<unsigned int> n_new(advances.size(), 0); // pieces
+  std::vector<unsigned int> moving;
+  for (unsigned int a = 0; a < advances.size(); ++a)
+    moving.push_back(a);
+
+  const auto last_piece = [&](const unsigned int a) -> CrackPiece<dim> &
+  {
+    auto &pieces = cracks[advances[a].crack].pieces;
+    return advances[a].end == CrackEnd::first ? pieces.front() : pieces.back();
+  };
+  bool undone = false;
+  while (!moving.empty())
+  {
+    std::vector<Advance> tried;
+    for (const unsigned int a : moving)
+      tried.push_back(advances[a]);
+    const std::vector<Outcome> reached = grow_by_a_cell(tried, collectives);
+
+    std::vector<unsigned int> going_on;
+    for (unsigned int i = 0; i < moving.size(); ++i)
+    {
+      const unsigned int a = moving[i], end = static_cast<unsigned int>(advances[a].end);
+      outcomes[a] = reached[i];
+      if (reached[i] == Outcome::grown || reached[i] == Outcome::reached_boundary)
+      {
+        ++n_new[a];
+        CrackPiece<dim> &piece = last_piece(a);
+        piece.joined[1 - end] = n_new[a] > 1;
+        piece.joined[end] =
+          reached[i] == Outcome::grown && !piece.crosses_transverse_face(end);
+        if (piece.joined[end])
+          going_on.push_back(a);
+      }
+      else if (n_new[a] > 0)
+      {
+        // Half a span is no place to rest.
+        auto &pieces = cracks[advances[a].crack].pieces;
+        if (advances[a].end == CrackEnd::first)
+          pieces.erase(pieces.begin(), pieces.begin() + n_new[a]);
+        else
+          pieces.resize(pieces.size() - n_new[a]);
+        undone = true;
+      }
+    }
+    moving = going_on;
+  }
+  if (undone)
+    restore(cracks);
+  else
+    renumber(); // the spans
+  return outcomes;
+}
+
+
+/// One more cell for each.
+template <int dim>
+std::vector<typename Discontinuity<dim>::Outcome>
+Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
+                                   const Collectives &collectives)
 {
   const auto &triangulation = discretization->triangulation;
 
@@ -452,26 +551,44 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
   std::vector<dealii::types::global_dof_index> dofs;
   for (const OwnedPiece &owned : owned_pieces())
   {
+    const auto &spans = spans_of_crack[owned.crack];
     const auto &pieces = cracks[owned.crack].pieces;
     const CrackPiece<dim> &piece = pieces[owned.piece];
-    Segment<dim> segment;
-    segment.key = piece.key(domain_size);
-    segment.centre = piece.centre();
-    segment.normal = piece.normal();
-    segment.area = piece.length();
-    segment.at_tip = (owned.piece == 0 && cracks[owned.crack].is_tip[0]) ||
-                     (owned.piece + 1 == pieces.size() && cracks[owned.crack].is_tip[1]);
-    if (owned.piece > 0)
-      segment.neighbours.push_back(
-        {pieces[owned.piece - 1].key(domain_size), 0.5 * piece.length(), 1.});
-    if (owned.piece + 1 < pieces.size())
-      segment.neighbours.push_back(
-        {pieces[owned.piece + 1].key(domain_size), 0.5 * piece.length(), 1.});
+    const std::uint64_t own_key = segment_key(owned.crack, owned.piece);
+    if (own_key != piece.key(domain_size))
+      continue; // another piece stands for the span
+    const unsigned int k =
+      std::find_if(spans.begin(), spans.end(),
+                   [&owned](const CrackSpan &s) { return owned.piece <= s.last; }) -
+      spans.begin();
+    const CrackSpan &span = spans[k];
 
-    for (const auto &[extra, jump] : mean_jumps(owned.crack, owned.piece))
+    Segment<dim> segment;
+    segment.key = own_key;
+    const Point<dim> &from = pieces[span.first].ends[0];
+    segment.centre = from + 0.5 * (pieces[span.last].ends[1] - from);
+    segment.area = length(owned.crack, span);
+    segment.at_tip = (k == 0 && cracks[owned.crack].is_tip[0]) ||
+                     (k + 1 == spans.size() && cracks[owned.crack].is_tip[1]);
+    if (k > 0)
+      segment.neighbours.push_back({key(owned.crack, spans[k - 1]), 0.5 * segment.area, 1.});
+    if (k + 1 < spans.size())
+      segment.neighbours.push_back({key(owned.crack, spans[k + 1]), 0.5 * segment.area, 1.});
+
+    std::map<unsigned int, double> opening; // an unknown may open several pieces
+    for (unsigned int i = span.first; i <= span.last; ++i)
+    {
+      const double share = pieces[i].length() / segment.area;
+      const auto normal = pieces[i].normal();
+      segment.normal += share * normal;
+      for (const auto &[extra, jump] : mean_jumps(owned.crack, i))
+        opening[extra] += share * (jump * normal);
+    }
+    segment.normal /= segment.normal.norm();
+    for (const auto &[extra, coefficient] : opening)
     {
       segment.opening.extra.push_back(extra);
-      segment.opening.extra_coefficients.push_back(jump * segment.normal);
+      segment.opening.extra_coefficients.push_back(coefficient);
     }
 
     segment.pore_pressure.constant = in_situ_pore_pressure(segment.centre);
@@ -489,7 +606,7 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
           const Point<dim> &node = piece.corners[fe.system_to_component_index(i).second];
           segment.pore_pressure.bulk.push_back(dofs[i]);
           segment.pore_pressure.bulk_coefficients.push_back(share);
-          segment.pore_distance += share * std::abs((node - segment.centre) * segment.normal);
+          segment.pore_distance += share * std::abs((node - piece.centre()) * piece.normal());
         }
     }
     all.push_back(std::move(segment));

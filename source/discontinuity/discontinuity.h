@@ -53,7 +53,31 @@ public:
     return cracks;
   }
 
-  /// A crack that shall go on by one cell.
+  /// The spans of a crack in their order.
+  const std::vector<CrackSpan> &spans(const unsigned int crack) const
+  {
+    return spans_of_crack[crack];
+  }
+
+  /// The span at an end of a crack.
+  const CrackSpan &span_at(const unsigned int crack, const CrackEnd end) const
+  {
+    return end == CrackEnd::first ? spans_of_crack[crack].front() : spans_of_crack[crack].back();
+  }
+
+  /// Length of a span [m].
+  double length(const unsigned int crack, const CrackSpan &span) const;
+
+  /// Key of the segment that a span is to the fluid: that of its longest piece.
+  std::uint64_t key(const unsigned int crack, const CrackSpan &span) const
+  {
+    return cracks[crack].pieces[longest_piece(crack, span)].key(domain_size);
+  }
+
+  /// Key of the segment that a piece belongs to.
+  std::uint64_t segment_key(const unsigned int crack, const unsigned int piece) const;
+
+  /// A crack that shall go on by one span.
   struct Advance
   {
     unsigned int crack;
@@ -66,10 +90,11 @@ public:
     grown,
     reached_boundary, ///< has grown, and its tip has become a mouth on the domain's boundary
     reached_crack,    ///< the next cell is cut already
-    needs_mesh        ///< the next cell has another size: the mesh must be refined first
+    needs_mesh        ///< a cell ahead has another size: the mesh must be refined first
   };
 
-  /// Let cracks grow, all at once; the same outcomes, in the given order, on every rank.
+  /// Let cracks grow, all at once, each by a span or not at all; the same outcomes, in the given
+  /// order, on every rank.
   std::vector<Outcome> grow(const std::vector<Advance> &advances, const Collectives &collectives);
 
   /// A tip does not grow any more.
@@ -123,7 +148,7 @@ public:
 
   std::vector<OwnedPiece> owned_pieces() const;
 
-  /// The pieces of this rank as segments: geometry, neighbours, opening and pore pressure. The
+  /// The spans whose longest piece is this rank's as segments: geometry, neighbours, opening and pore pressure. The
   /// function gives the in-situ pore pressure.
   std::vector<Segment<dim>>
   segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
@@ -140,6 +165,11 @@ private:
     CutCell<dim> cut;
   };
 
+  unsigned int longest_piece(const unsigned int crack, const CrackSpan &span) const;
+
+  std::vector<Outcome> grow_by_a_cell(const std::vector<Advance> &advances,
+                                      const Collectives &collectives);
+
   /// Number the unknowns and bring `piece_of_cell` and the columns of the cut cells up to date.
   void renumber();
 
@@ -153,6 +183,7 @@ private:
   double scale;
   std::unique_ptr<Discretization<dim>> discretization;
   std::vector<CrackPath<dim>> cracks;
+  std::vector<std::vector<CrackSpan>> spans_of_crack;
   std::vector<CrackTip<dim>> tips;
   Enrichment<dim> unknowns;
   std::map<dealii::CellId, std::pair<unsigned, unsigned>> piece_of_cell; ///< crack, piece

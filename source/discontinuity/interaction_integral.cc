@@ -158,13 +158,14 @@ StressIntensity stress_intensity(const unsigned int crack,
 
   // The loaded faces. [[u^a]],1 = -(kappa+1)/(2 mu sqrt(2 pi r)); with r = s^2 it is smooth.
   const dealii::QGauss<1> line(4);
-  for (const auto &piece : path.pieces)
+  for (unsigned int i = 0; i < path.pieces.size(); ++i)
   {
+    const CrackPiece<dim> &piece = path.pieces[i];
     const double from = piece.ends[0].distance(tip), to = piece.ends[1].distance(tip);
     if (std::min(from, to) >= radius)
       continue;
     const double pressure =
-      state.segment_pressure ? state.segment_pressure(piece.key(scene.domain_size)) : 0.;
+      state.segment_pressure ? state.segment_pressure(discontinuity.segment_key(crack, i)) : 0.;
     const Tensor<1, dim> load =
       -1. * (frame * (pressure * across + scene.in_situ_stress(piece.centre()) * across));
     const double a = std::sqrt(std::min(from, to)), b = std::sqrt(std::max(from, to));

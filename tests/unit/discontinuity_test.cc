@@ -322,7 +322,7 @@ TEST_CASE("tips with functions of their own lie where the crack ends")
     const auto plus = tip->evaluate(mode, x, Side::plus),
                minus = tip->evaluate(mode, x, Side::minus);
     const Tensor<1, 2> jump = plus.value - minus.value;
-    CHECK(jump * (mode == 0 ? path.pieces[4].normal() : path.pieces[4].tangent()) ==
+    CHECK(jump * (mode == 0 ? path.pieces[4].normal() : path.pieces[4].along) ==
           doctest::Approx(jump.norm()));
     // The gradient against differences.
     for (unsigned int d = 0; d < 2; ++d)

@@ -102,19 +102,21 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
   committed_bare_tips.clear();
   initial_pressure.clear();
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
-    for (const auto &piece : discontinuity.paths()[c].pieces)
+  {
+    const bool open = scene.cracks[c].kind == InitialCrack<dim>::Kind::open;
+    const auto &pieces = discontinuity.paths()[c].pieces;
+    for (const auto &piece : pieces)
+      committed_damage[piece.key(scene.domain_size)].fill(open ? 1. : 0.);
+    for (const CrackSpan &span : discontinuity.spans(c))
     {
-      const std::uint64_t key = piece.key(scene.domain_size);
-      PointDamage d;
-      d.fill(scene.cracks[c].kind == InitialCrack<dim>::Kind::open ? 1. : 0.);
-      committed_damage[key] = d;
-      committed_reach[key] = piece.length();
-      if (d[0] >= 1.)
+      const std::uint64_t key = discontinuity.key(c, span);
+      committed_reach[key] = discontinuity.length(c, span);
+      if (open)
         committed_bare_tips.insert(key);
       // The pressure at which the crack begins to open.
-      const auto n = piece.normal();
-      initial_pressure[key] = std::max(0., -(n * (scene.in_situ_stress(piece.centre()) * n)));
+      initial_pressure[key] = std::max(0., closing_stress(pieces[span.first]));
     }
+  }
   committed_paths = discontinuity.paths();
   bare_tips = committed_bare_tips;
 }
@@ -186,7 +188,15 @@ NormalShear CohesiveXFEM<dim>::separation(const CrackPiece<dim> &piece,
                                           const std::vector<double> &a) const
 {
   const Tensor<1, dim> jump = shapes.jump(point, columns, a);
-  return {jump * piece.normal(), jump * piece.tangent()};
+  return {jump * piece.normal(), jump * piece.along};
+}
+
+
+template <int dim>
+double CohesiveXFEM<dim>::closing_stress(const CrackPiece<dim> &piece) const
+{
+  const Tensor<1, dim> normal = piece.normal();
+  return -(normal * (scene.in_situ_stress(piece.centre()) * normal));
 }
 
 
@@ -202,7 +212,7 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
       continue;
     const JumpShapes<dim> shapes(piece);
     const PointDamage history = damage(piece);
-    const Tensor<1, dim> n = piece.normal(), t = piece.tangent();
+    const Tensor<1, dim> n = piece.normal(), t = piece.along;
     const Tensor<1, dim> in_situ = scene.in_situ_stress(piece.centre()) * n;
     const double weight = piece.length() / n_points;
 
@@ -268,7 +278,7 @@ void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
   for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
     for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
     {
-      const std::uint64_t key = discontinuity.paths()[c].piece_at(end).key(scene.domain_size);
+      const std::uint64_t key = discontinuity.key(c, discontinuity.span_at(c, end));
       const auto old = committed_reach.find(key);
       reach[key] =
         std::max(reached_length(c, end, state), old == committed_reach.end() ? 0. : old->second);
@@ -353,14 +363,18 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
   {
     const auto &path = discontinuity.paths()[c];
     result.n_tips += path.is_tip[0] + path.is_tip[1];
-    for (unsigned int i = 0; i < path.pieces.size(); ++i)
+    const auto &spans = discontinuity.spans(c);
+    for (unsigned int i = 0, s = 0; i < path.pieces.size(); ++i)
     {
+      s += i > spans[s].last;
       const CrackPiece<dim> &piece = path.pieces[i];
       const auto &columns = discontinuity.enrichment().columns(c, i);
       const JumpShapes<dim> shapes(piece);
       const PointDamage history = damage(piece);
-      const auto at_end = committed_reach.find(piece.key(scene.domain_size));
-      const double reached = at_end == committed_reach.end() ? piece.length() : at_end->second;
+      const auto at_end = committed_reach.find(discontinuity.key(c, spans[s]));
+      const double reached = at_end == committed_reach.end()
+                               ? piece.length()
+                               : piece.length() * at_end->second / discontinuity.length(c, spans[s]);
       for (unsigned int q = 0; q < n_points; ++q)
       {
         const double length = reached / n_points, d = history[q];
@@ -403,7 +417,8 @@ void CohesiveXFEM<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
                                                        {"damage", mean_damage},
                                                        {"crack", owned.crack + 1.}};
     if (state.segment_pressure)
-      values.emplace_back("fluid_pressure", state.segment_pressure(piece.key(scene.domain_size)));
+      values.emplace_back("fluid_pressure", state.segment_pressure(
+                                            discontinuity.segment_key(owned.crack, owned.piece)));
     sink.add_fracture_piece({piece.ends[0], piece.ends[1]}, values);
   }
 }

@@ -73,16 +73,19 @@ private:
                          const std::vector<EnrichedColumn> &columns,
                          const std::vector<double> &a) const;
 
-  /// Share of the last piece at this end of a crack whose damage is at least so much.
-  double damaged_share(unsigned int crack, CrackEnd end, double least, const State &) const;
+  /// In-situ compression across a piece [Pa].
+  double closing_stress(const CrackPiece<dim> &piece) const;
+
+  /// Distance along the crack from this end to where the damage is at least so much [m].
+  double distance_to_damage(unsigned int crack, CrackEnd end, double least, const State &) const;
 
   /// Whether pressure or suction at this end of a crack, beyond the stress that closes it, is so
   /// much greater than the strength that the latter does not matter.
   bool fluid_overpowers(unsigned int crack, CrackEnd end, const State &) const;
 
-  /// How far into the last piece at this end of a crack the fluid has come [m]: all of it, unless
+  /// How far into the last span at this end of a crack the fluid has come [m]: all of it, unless
   /// there is suction in it, as in viscous fluid, and the tip is bare. Then from its volume and
-  /// that of the piece before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).
+  /// that of the span before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).
   double reached_length(unsigned int crack, CrackEnd end, const State &) const;
 
   Parameters parameters;
@@ -93,10 +96,10 @@ private:
   std::vector<Segment<dim>> all_segments;
   std::vector<std::string> messages;
 
-  // History, the same on all ranks, by key of the piece.
+  // History, the same on all ranks, by key of the piece, or of the span.
   std::unordered_map<std::uint64_t, PointDamage> committed_damage;
-  std::unordered_map<std::uint64_t, double> committed_reach; ///< of pieces at ends [m]
-  /// Pieces at ends to which the rock is broken, without a cohesive zone that spans cells: the
+  std::unordered_map<std::uint64_t, double> committed_reach; ///< of spans at ends [m]
+  /// Spans at ends to which the rock is broken, without a cohesive zone that spans cells: the
   /// fluid alone makes the shape of such a tip.
   std::unordered_set<std::uint64_t> committed_bare_tips;
   std::vector<CrackPath<dim>> committed_paths;
@@ -105,7 +108,7 @@ private:
 
   // Of the current step.
   std::size_t n_messages_before = 0;                 ///< messages that a rollback leaves
-  std::vector<std::array<unsigned int, 2>> advances; ///< cells, by crack and end
+  std::vector<std::array<unsigned int, 2>> advances; ///< spans, by crack and end
   std::unordered_map<std::uint64_t, double> initial_pressure;
   std::unordered_set<std::uint64_t> bare_tips;
 };

@@ -32,22 +32,30 @@ Tensor<1, 2> rounded_direction(const Tensor<1, 2> &v)
 } // namespace
 
 template <int dim>
-double CohesiveXFEM<dim>::damaged_share(const unsigned int crack,
-                                        const CrackEnd end,
-                                        const double least,
-                                        const State &state) const
+double CohesiveXFEM<dim>::distance_to_damage(const unsigned int crack,
+                                             const CrackEnd end,
+                                             const double least,
+                                             const State &state) const
 {
   const auto &pieces = discontinuity.paths()[crack].pieces;
-  const unsigned int i = end == CrackEnd::first ? 0 : pieces.size() - 1;
-  const auto &columns = discontinuity.enrichment().columns(crack, i);
-  const JumpShapes<dim> shapes(pieces[i]);
-  const PointDamage history = damage(pieces[i]);
-  unsigned int count = 0;
-  for (unsigned int q = 0; q < n_points; ++q)
-    count +=
-      law.evaluate(separation(pieces[i], shapes, q, columns, state.current.extra), history[q])
-        .damage >= least;
-  return double(count) / n_points;
+  const unsigned int n = pieces.size();
+  double distance = 0.;
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    const unsigned int i = end == CrackEnd::first ? k : n - 1 - k;
+    const auto &columns = discontinuity.enrichment().columns(crack, i);
+    const JumpShapes<dim> shapes(pieces[i]);
+    const PointDamage history = damage(pieces[i]);
+    for (unsigned int r = 0; r < n_points; ++r)
+    {
+      const unsigned int q = end == CrackEnd::first ? r : n_points - 1 - r;
+      if (law.evaluate(separation(pieces[i], shapes, q, columns, state.current.extra), history[q])
+            .damage >= least)
+        return distance;
+      distance += pieces[i].length() / n_points;
+    }
+  }
+  return distance;
 }
 
 
@@ -58,16 +66,15 @@ bool CohesiveXFEM<dim>::fluid_overpowers(const unsigned int crack,
 {
   if (!state.segment_pressure)
     return false;
-  const auto &pieces = discontinuity.paths()[crack].pieces;
-  const unsigned int n = pieces.size();
+  const auto &spans = discontinuity.spans(crack);
+  const unsigned int n = spans.size();
   double most = 0.;
   for (unsigned int i = 0; i < std::min(2u, n); ++i)
   {
-    const auto &piece = pieces[end == CrackEnd::first ? i : n - 1 - i];
-    const Tensor<1, dim> normal = piece.normal();
-    const double closing_stress = -(normal * (scene.in_situ_stress(piece.centre()) * normal));
-    most = std::max(
-      most, std::abs(state.segment_pressure(piece.key(scene.domain_size)) - closing_stress));
+    const CrackSpan &span = spans[end == CrackEnd::first ? i : n - 1 - i];
+    most = std::max(most,
+                    std::abs(state.segment_pressure(discontinuity.key(crack, span)) -
+                             closing_stress(discontinuity.paths()[crack].pieces[span.first])));
   }
   return most > 10. * law.strength;
 }
@@ -79,33 +86,35 @@ double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
                                          const State &state) const
 {
   const auto &pieces = discontinuity.paths()[crack].pieces;
-  const unsigned int last = end == CrackEnd::first ? 0 : pieces.size() - 1;
-  const double length = pieces[last].length();
-  const std::uint64_t key = pieces[last].key(scene.domain_size);
-  if (pieces.size() < 2 || bare_tips.count(key) == 0 || !state.segment_pressure ||
-      !std::isnan(scene.crack_pressure))
-    return length;
-  const Tensor<1, dim> n = pieces[last].normal();
-  const double closing_stress = -(n * (scene.in_situ_stress(pieces[last].centre()) * n));
-  if (state.segment_pressure(key) >= closing_stress)
+  const auto &spans = discontinuity.spans(crack);
+  const CrackSpan &last = discontinuity.span_at(crack, end);
+  const double length = discontinuity.length(crack, last);
+  const std::uint64_t key = discontinuity.key(crack, last);
+  if (spans.size() < 2 || bare_tips.count(key) == 0 || !state.segment_pressure ||
+      !std::isnan(scene.crack_pressure) ||
+      state.segment_pressure(key) >= closing_stress(pieces[last.first]))
     return length;
 
-  const auto volume = [&](const unsigned int i)
+  const auto volume = [&](const CrackSpan &span)
   {
-    const auto &columns = discontinuity.enrichment().columns(crack, i);
-    const JumpShapes<dim> shapes(pieces[i]);
     double sum = 0.;
-    for (unsigned int q = 0; q < n_points; ++q)
-      sum += separation(pieces[i], shapes, q, columns, state.current.extra).normal;
-    return std::max(sum / n_points * pieces[i].length(), 0.);
+    for (unsigned int i = span.first; i <= span.last; ++i)
+    {
+      const auto &columns = discontinuity.enrichment().columns(crack, i);
+      const JumpShapes<dim> shapes(pieces[i]);
+      for (unsigned int q = 0; q < n_points; ++q)
+        sum += separation(pieces[i], shapes, q, columns, state.current.extra).normal *
+               pieces[i].length() / n_points;
+    }
+    return std::max(sum, 0.);
   };
-  const unsigned int next = end == CrackEnd::first ? 1 : pieces.size() - 2;
+  const CrackSpan &next = spans[end == CrackEnd::first ? 1 : spans.size() - 2];
   const double in_last = volume(last), in_next = volume(next);
   if (in_last == 0. || in_next == 0.)
     return 0.;
   // With w ~ x^(2/3) at the distance x from the front, V ~ x^(5/3) is beyond any place.
   const double ratio = std::pow(in_last / (in_last + in_next), 0.6);
-  return std::min(length, pieces[next].length() * ratio / (1. - ratio));
+  return std::min(length, discontinuity.length(crack, next) * ratio / (1. - ratio));
 }
 
 
@@ -147,30 +156,33 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
   std::vector<bool> broken; // behind the new tip
   for (unsigned int i = 0; i < tips.size(); ++i)
   {
-    const CrackPiece<dim> &last = discontinuity.paths()[tips[i].crack].piece_at(tips[i].end);
+    const unsigned int c = tips[i].crack;
+    const CrackEnd end = tips[i].end;
+    const CrackSpan &last = discontinuity.span_at(c, end);
+    const double span = discontinuity.length(c, last);
     const double pressure =
-      state.segment_pressure ? state.segment_pressure(last.key(scene.domain_size)) : 0.;
+      state.segment_pressure ? state.segment_pressure(discontinuity.key(c, last)) : 0.;
     const auto &stress = stresses[2 * i];
     Tensor<1, dim> across;
     across[0] = -tips[i].direction[1];
     across[1] = tips[i].direction[0];
-    // One intact cell is enough: where the fluid's pressure alone exceeds the strength, cutting
-    // would never end. Where it does so by far, there is no cohesive zone worth the name: cells
+    // One intact span is enough: where the fluid's pressure alone exceeds the strength, cutting
+    // would never end. Where it does so by far, there is no cohesive zone worth the name: spans
     // open by less than the fluid's aperture would be cut one after another.
-    const bool broken_here = damaged_share(tips[i].crack, tips[i].end, 1., state) >= 0.5;
+    const bool broken_here = distance_to_damage(c, end, 1., state) <= 0.5 * span * (1. + 1e-9);
     // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
-    if ((pressure != 0. && damaged_share(tips[i].crack, tips[i].end, 1e-12, state) == 0.) ||
-        (!broken_here && fluid_overpowers(tips[i].crack, tips[i].end, state)))
+    if ((pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9)) ||
+        (!broken_here && fluid_overpowers(c, end, state)))
       continue;
     // Suction at the tip and the tension ahead, both many times the strength, leave a difference
     // that tells nothing: there the fluid has to have arrived.
-    if (reached_length(tips[i].crack, tips[i].end, state) < 0.8 * last.length())
+    if (reached_length(c, end, state) < 0.8 * span)
       continue;
     const double drive = pressure + (parameters.straight ? across * (stress * across)
                                                          : dealii::eigenvalues(stress)[0]);
     if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
       continue;
-    if (advances[tips[i].crack][static_cast<int>(tips[i].end)] >= parameters.most_advances)
+    if (advances[c][static_cast<int>(end)] >= parameters.most_advances)
     {
       held_back = true;
       continue;
@@ -203,7 +215,8 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
       {
         grown = true;
         ++advances[crack][end];
-        const std::uint64_t key = path.piece_at(growing[i].end).key(scene.domain_size);
+        const std::uint64_t key =
+          discontinuity.key(crack, discontinuity.span_at(crack, growing[i].end));
         initial_pressure[key] = pressures[i];
         if (broken[i])
           bare_tips.insert(key);
@@ -243,7 +256,8 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
   return verdict;
 }
 
-template double CohesiveXFEM<2>::damaged_share(unsigned int, CrackEnd, double, const State &) const;
+template double
+CohesiveXFEM<2>::distance_to_damage(unsigned int, CrackEnd, double, const State &) const;
 template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);

@@ -145,11 +145,12 @@ public:
       for (const auto &[extra, unit] : discontinuity.mean_jumps(owned.crack, owned.piece))
         jump += state.current.extra[extra] * unit;
       std::vector<std::pair<std::string, double>> values{{"aperture", jump * piece.normal()},
-                                                         {"slip", jump * piece.tangent()},
+                                                         {"slip", jump * piece.along},
                                                          {"damage", 1.},
                                                          {"crack", owned.crack + 1.}};
       if (state.segment_pressure)
-        values.emplace_back("fluid_pressure", state.segment_pressure(piece.key(scene.domain_size)));
+        values.emplace_back("fluid_pressure", state.segment_pressure(
+                              discontinuity.segment_key(owned.crack, owned.piece)));
       sink.add_fracture_piece({piece.ends[0], piece.ends[1]}, values);
     }
   }
