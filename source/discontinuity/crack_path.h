@@ -36,8 +36,9 @@ struct CrackPiece
   std::array<bool, 2> at_boundary{{false, false}};   ///< the face is on the domain's boundary
   std::array<bool, 2> inside{{false, false}}; ///< ends in the cell: a tip; its face means nothing
 
-  /// Unit vector along the crack, from entry to exit. It belongs to the crack and not to the mesh: a
-  /// crossing that is kept clear of a vertex turns the line between the ends, but not this vector.
+  /// Unit vector along the crack, from entry to exit. It belongs to the crack and not to the mesh:
+  /// a crossing that is kept clear of a vertex turns the line between the ends, but not this
+  /// vector.
   dealii::Tensor<1, dim> along;
 
   /// The crack does not rest at this end: the next piece belongs to the same span, see CrackSpan.
@@ -121,8 +122,8 @@ struct CrackPath
 
 /// The part of a crack between two faces that lie across it: one piece, or more where the crack
 /// cuts off the corner of a cell on its way. Spans are about as long as a cell whatever the angle
-/// and the place of the crack in the mesh. A tip rests at the end of a span only, and the fluid sees
-/// a span as one segment: what is short is geometry then, and not physics.
+/// and the place of the crack in the mesh. A tip rests at the end of a span only, and the fluid
+/// sees a span as one segment: what is short is geometry then, and not physics.
 struct CrackSpan
 {
   unsigned int first; ///< piece
@@ -140,9 +141,9 @@ constexpr double corner_clearance = 1e-3;
 /// Cut the mesh along a polyline: the chain of pieces, the same on all ranks.
 ///
 /// Without @p exact_ends a crack consists of whole spans: an end moves along the crack to the
-/// nearest face that lies across it. A kink inside a cell is cut short. A vertex on the polyline counts as
-/// being on the plus side, so a crack along a mesh line runs `corner_clearance` of an edge beside
-/// it.
+/// nearest face that lies across it. A kink inside a cell is cut short. A vertex on the polyline
+/// counts as being on the plus side, so a crack along a mesh line runs `corner_clearance` of an
+/// edge beside it.
 /// @throws InputError if the crack lies outside the mesh or passes cells of different size
 template <int dim>
 CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,

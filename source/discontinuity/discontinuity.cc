@@ -374,9 +374,9 @@ std::uint64_t Discontinuity<dim>::segment_key(const unsigned int crack,
                                               const unsigned int piece) const
 {
   const auto &spans = spans_of_crack[crack];
-  const auto span = std::upper_bound(spans.begin(), spans.end(), piece,
-                                     [](const unsigned int p, const CrackSpan &s)
-                                     { return p < s.first; });
+  const auto span =
+    std::upper_bound(spans.begin(), spans.end(), piece,
+                     [](const unsigned int p, const CrackSpan &s) { return p < s.first; });
   return key(crack, *(span - 1));
 }
 
@@ -414,8 +414,7 @@ Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives
         ++n_new[a];
         CrackPiece<dim> &piece = last_piece(a);
         piece.joined[1 - end] = n_new[a] > 1;
-        piece.joined[end] =
-          reached[i] == Outcome::grown && !piece.crosses_transverse_face(end);
+        piece.joined[end] = reached[i] == Outcome::grown && !piece.crosses_transverse_face(end);
         if (piece.joined[end])
           going_on.push_back(a);
       }

@@ -148,8 +148,8 @@ public:
 
   std::vector<OwnedPiece> owned_pieces() const;
 
-  /// The spans whose longest piece is this rank's as segments: geometry, neighbours, opening and pore pressure. The
-  /// function gives the in-situ pore pressure.
+  /// The spans whose longest piece is this rank's as segments: geometry, neighbours, opening and
+  /// pore pressure. The function gives the in-situ pore pressure.
   std::vector<Segment<dim>>
   segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
 

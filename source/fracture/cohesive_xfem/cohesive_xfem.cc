@@ -372,9 +372,9 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
       const JumpShapes<dim> shapes(piece);
       const PointDamage history = damage(piece);
       const auto at_end = committed_reach.find(discontinuity.key(c, spans[s]));
-      const double reached = at_end == committed_reach.end()
-                               ? piece.length()
-                               : piece.length() * at_end->second / discontinuity.length(c, spans[s]);
+      const double reached = at_end == committed_reach.end() ? piece.length()
+                                                             : piece.length() * at_end->second /
+                                                                 discontinuity.length(c, spans[s]);
       for (unsigned int q = 0; q < n_points; ++q)
       {
         const double length = reached / n_points, d = history[q];
@@ -418,7 +418,7 @@ void CohesiveXFEM<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
                                                        {"crack", owned.crack + 1.}};
     if (state.segment_pressure)
       values.emplace_back("fluid_pressure", state.segment_pressure(
-                                            discontinuity.segment_key(owned.crack, owned.piece)));
+                                              discontinuity.segment_key(owned.crack, owned.piece)));
     sink.add_fracture_piece({piece.ends[0], piece.ends[1]}, values);
   }
 }

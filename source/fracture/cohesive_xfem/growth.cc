@@ -72,9 +72,9 @@ bool CohesiveXFEM<dim>::fluid_overpowers(const unsigned int crack,
   for (unsigned int i = 0; i < std::min(2u, n); ++i)
   {
     const CrackSpan &span = spans[end == CrackEnd::first ? i : n - 1 - i];
-    most = std::max(most,
-                    std::abs(state.segment_pressure(discontinuity.key(crack, span)) -
-                             closing_stress(discontinuity.paths()[crack].pieces[span.first])));
+    most =
+      std::max(most, std::abs(state.segment_pressure(discontinuity.key(crack, span)) -
+                              closing_stress(discontinuity.paths()[crack].pieces[span.first])));
   }
   return most > 10. * law.strength;
 }

@@ -149,8 +149,8 @@ public:
                                                          {"damage", 1.},
                                                          {"crack", owned.crack + 1.}};
       if (state.segment_pressure)
-        values.emplace_back("fluid_pressure", state.segment_pressure(
-                              discontinuity.segment_key(owned.crack, owned.piece)));
+        values.emplace_back("fluid_pressure", state.segment_pressure(discontinuity.segment_key(
+                                                owned.crack, owned.piece)));
       sink.add_fracture_piece({piece.ends[0], piece.ends[1]}, values);
     }
   }
