@@ -59,11 +59,11 @@ case "${1:-}" in
   --build-only) ;;
   --test)
     begin "tests, Release" "One of them again, with what it says: ctest --test-dir build -R NAME -V"
-    ctest --test-dir build --output-on-failure -j "$cores"
+    ctest --test-dir build --output-on-failure -j "$cores" -LE nightly
     # What deal.II's assertions can find something in; decks and scripts are as good as they were.
     build build-debug Debug ON stockwork_program unit_tests contract_tests taking_over rejecting_model
     begin "quick tests, Debug" "One of them again, with what it says: ctest --test-dir build-debug -R NAME -V"
-    ctest --test-dir build-debug --output-on-failure -j "$cores" -L quick -LE "smoke|house"
+    ctest --test-dir build-debug --output-on-failure -j "$cores" -L quick -LE "smoke|house|nightly"
     printf '\nAll tests passed.\n' ;;
   "")
     begin "running $deck" "The same by hand: build/source/stockwork $deck --output $output"

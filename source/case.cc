@@ -3,6 +3,7 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
+#include "base/parameter_tree.h"
 #include "coupling/initial_cracks.h"
 #include "output/checkpoint.h"
 #include "output/field_output.h"
@@ -84,6 +85,35 @@ void refuse_incompressible(ParameterHandler &prm,
     "a side less, or one of them 'Drained', where 'Rock/Biot modulus' and "
     "'Fluid/Bulk modulus' are infinite: the pressure of a body that nothing leaves "
     "and nothing compresses is undetermined, and fluid that is injected has no place");
+}
+
+
+/// What a region may not have of its own where the fracture model knows one rock only. Pores, their
+/// fluid and the mass are the elements' everywhere.
+void refuse_regions(ParameterHandler &prm, const std::string &model_name)
+{
+  for (const DeclaredEntry &entry : declared_entries(prm))
+    if (entry.path().compare(0, 12, "Rock/Region ") == 0)
+      for (const char *name :
+           {"Young modulus", "Poisson ratio", "Biot coefficient", "Solid bulk modulus",
+            "Fracture toughness", "Critical energy release rate", "Shear energy release rate",
+            "Tensile strength"})
+        if (entry.name == name && !entry.value.empty())
+          throw EntryError(entry.path(), entry.value,
+                           "nothing (an empty entry) with the fracture model '" + model_name +
+                             "', whose rock is one and the same everywhere; 'cohesive_xfem' and "
+                             "'prescribed' know regions");
+}
+
+
+/// The greatest of the first well within a run, where pieces or a constant give it.
+template <int dim>
+double greatest_rate(const Network<dim> &network, const StepControl &control)
+{
+  double greatest = network.rate_of_first_well(control.end_time);
+  for (double t = control.start_time; t < control.end_time; t = network.next_jump(t))
+    greatest = std::max(greatest, network.rate_of_first_well(t));
+  return greatest;
 }
 
 
@@ -216,17 +246,20 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   scene.domain_size = geometry.diameter();
   network.check_perforations(scene.cracks);
   scene.crack_pressure = given_crack_pressure(prm);
+  control.parse_parameters(prm);
+  scene.injection_rate = greatest_rate(network, control);
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
   prm.leave_subsection();
   model = make_model<dim>(prm, registry, scene);
+  if (model->requirements().uniform_rock)
+    refuse_regions(prm, model_name);
   discretisation =
     parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = discretisation.has_pore_pressure;
   if (discretisation.has_pore_pressure)
     refuse_incompressible(prm, rock, geometry, boundary_conditions);
 
-  control.parse_parameters(prm);
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
 
   if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)

@@ -243,6 +243,10 @@ void Report<dim>::finish(const unsigned long n_cells)
   if (errors)
     for (const auto &[name, error] : errors->errors())
       summary.errors[name] = {error.final, error.mean(), reference->name()};
+  for (unsigned int k = 0; errors && k < reference->wrong_factors.size(); ++k)
+    for (const auto &[name, error] : errors->errors_against(k))
+      summary.errors_against[reference->wrong_factors[k]][name] = {error.final, error.mean(),
+                                                                   reference->name()};
   const FluidVolumes &total = stepper.fluid_balance().total;
   summary.case_name = case_name;
   summary.fracture_model = model_name;

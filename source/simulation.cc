@@ -253,6 +253,8 @@ void Simulation<dim>::march()
   print_scene_audit(run, the_case, smallest_cell_size(triangulation));
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
+  for (const std::string &message : the_case.model->take_messages())
+    run.warn(message);
   report.header();
   while (!finished())
   {
@@ -311,6 +313,8 @@ void simulate(RunContext &run,
               const SimulationOptions &options)
 {
   Case<dim> the_case(deck, prm, registry);
+  for (const std::string &message : the_case.model->take_messages())
+    run.warn(message);
   if (options.check_only)
   {
     run.out << "The deck is in order." << std::endl;

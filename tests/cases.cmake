@@ -28,13 +28,17 @@ function(stockwork_run_test mode)
     --timeout ${timeout} ${mode} --deck ${CMAKE_SOURCE_DIR}/${T_DECK} --ranks ${ranks}
     ${settings} ${T_ARGS})
   string(REGEX REPLACE "/.*" "" kind ${T_NAME})
+  if(NOT "nightly" IN_LIST T_LABELS)
+    set_property(GLOBAL APPEND PROPERTY STOCKWORK_DECKS_RUN ${T_DECK})
+  endif()
   string(REPLACE "," ";" ranks ${ranks})
   list(SORT ranks)
   list(GET ranks -1 processors)
   set_tests_properties(${T_NAME} PROPERTIES LABELS "${kind};${T_LABELS}" PROCESSORS ${processors})
 endfunction()
 
-# Each of EXPECT must hold in summary.json; NEGATIVE: and must not, with a wrong reference. WARNS:
+# Each of EXPECT must hold in summary.json; NEGATIVE: each bound on an
+# error is broken with a reference that is off by twice that bound. WARNS:
 # parts of warnings that must have been given.
 function(stockwork_case_test)
   cmake_parse_arguments(C "NEGATIVE" "" "EXPECT;WARNS" ${ARGN})
@@ -115,4 +119,19 @@ function(stockwork_no_restart_test)
     list(APPEND arguments --damage ${C_DAMAGE})
   endif()
   stockwork_run_test(no_restart ${C_UNPARSED_ARGUMENTS} ARGS ${arguments})
+endfunction()
+
+# The run takes two steps and is then interrupted.
+function(stockwork_steps_test)
+  stockwork_run_test(steps ${ARGN} ARGS --steps 2)
+endfunction()
+
+# The run ends on its way (exit status 2), and SAYS why.
+function(stockwork_stop_test)
+  cmake_parse_arguments(C "" "" "SAYS" ${ARGN})
+  set(arguments)
+  foreach(sentence IN LISTS C_SAYS)
+    list(APPEND arguments --says ${sentence})
+  endforeach()
+  stockwork_run_test(stop ${C_UNPARSED_ARGUMENTS} ARGS ${arguments})
 endfunction()

@@ -3,12 +3,14 @@
 
     run_case.py --program build/source/stockwork --scratch DIR MODE ...
 
-    case     one run; every --expect must hold. With --negative, runs again with the reference
-             solution off by twice the tolerance: every expectation on `errors/` must then fail.
+    case     one run; every --expect must hold. With --negative, every bound on an error must be
+             broken against a reference solution that is off by twice that bound, up or down.
     order    one run per --series value; the observed order of a quantity in the last pair of runs
     same     two runs on different numbers of ranks (or with different settings) agree
     restart  a run that is interrupted and restarted agrees with the run that is not
     no_restart  a restart must be refused with every --says, because of --second-set or --damage
+    steps    the run takes --steps steps, whose numbers are finite, and is then interrupted
+    stop     the run must end on its way, with exit status 2 and every --says
     error    a deck which must be refused with given sentences and the place of the mistake, before
              anything is computed
 
@@ -28,6 +30,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "contrib"))
@@ -183,36 +186,45 @@ class Runner:
 
 def run_case(runner, options):
     expectations = [Expectation(text) for text in options.expect]
-    summary = runner.run("run", options.deck, options.set, options.ranks)
+    bounds = [e for e in expectations if e.tolerance() is not None]
+    if options.negative and not bounds:
+        raise Failure("--negative needs an expectation like errors/QUANTITY/final < TOLERANCE")
+    settings = list(options.set)
+    if options.negative:
+        factors = sorted({f for e in bounds for f in wrong_factors(e)})
+        settings.append("Verification/Wrong factors=" + ",".join(map(repr, factors)))
+    summary = runner.run("run", options.deck, settings, options.ranks)
     if any(e.path.startswith("rates/") for e in expectations):
         summary["rates"] = late_rates(read_statistics(runner.output("run")))
     failed = check_all(expectations, summary)
     failed += [f"no warning says '{text}', but {summary['warnings']}" for text in options.warns
                if not any(text in warning for warning in summary["warnings"])]
+    if options.negative:
+        failed += [f"holds against a reference that is off by twice the bound as well: {e.text}"
+                   for e in bounds if not can_fail(e, summary)]
     if failed:
         raise Failure("\n".join(failed))
-    if options.negative:
-        check_negative(runner, options, expectations)
 
 
-def check_negative(runner, options, expectations):
-    """A comparison that cannot fail proves nothing: with the reference off by twice the tolerance
-    every bound on an error must be violated. A result on one side of the reference may by chance
-    be as close to the wrong reference on that side, hence a second attempt on the other."""
-    bounds = [e for e in expectations if e.tolerance() is not None]
-    if not bounds:
-        raise Failure("--negative needs an expectation like errors/QUANTITY/final < TOLERANCE")
-    tolerance = max(e.tolerance() for e in bounds)
-    left = bounds
-    for name, factor in (("above", 1 + 2 * tolerance), ("below", 1 - 2 * tolerance)):
-        setting = f"Verification/Reference factor={factor!r}"
-        summary = runner.run(name, options.deck, [*options.set, setting], options.ranks)
-        left = [e for e in left if e.check(summary)[0]]
-        if not left:
-            print(f"  negative: fails as it must with the reference times {factor:g}")
-            return
-    raise Failure("these hold although the reference is off by twice the tolerance: "
-                  + "; ".join(e.text for e in left))
+def wrong_factors(bound):
+    """Of references that are off by twice the bound. Those of opposite sign would do as well where
+    it is not small, and a reference of zero is none."""
+    shift = 2 * bound.tolerance()
+    return [1 + shift] + ([1 - shift] if shift < 0.99 else [])
+
+
+def can_fail(bound, summary):
+    """A comparison that cannot fail proves nothing: with the reference off by twice the bound it must
+    be violated. A result on one side of the reference may by chance be as close to the wrong
+    reference on that side, hence the other side."""
+    against = {float(factor): errors
+               for factor, errors in summary.get("errors_against", {}).items()}
+    for factor in wrong_factors(bound):
+        if factor not in against:
+            raise Failure(f"summary.json has no errors_against/{factor!r}")
+        if not bound.check({**summary, "errors": against[factor]})[0]:
+            return True
+    return False
 
 
 def run_order(runner, options):
@@ -365,6 +377,41 @@ def run_no_restart(runner, options):
     print(f"  restart refused: {said}")
 
 
+def run_steps(runner, options):
+    """A run that is at its end before that many steps is as good."""
+    command = runner.command("run", options.deck, options.set, options.ranks)
+    started = time.time()
+    process = runner.start("run", command)
+    deadline = threading.Timer(runner.timeout, process.kill)
+    deadline.start()
+    _terminate_after(runner, process, "run", options.steps)
+    status = runner.wait(process, command)
+    deadline.cancel()
+    print(f"  run: {time.time() - started:.1f} s, exit status {status}")
+    if status != 0 and not (status == 2 and "by a signal" in runner.text("run", "stderr")):
+        raise Failure(f"exit status {status}\n{runner.tail('run')}")
+    table = read_statistics(runner.output("run"))
+    rows = len(table["step"])
+    if status != 0 and rows < options.steps:
+        raise Failure(f"{rows} steps, should be {options.steps}")
+    wrong = [name for name, column in table.items()
+             if any(isinstance(x, float) and not math.isfinite(x) for x in column)]
+    if not rows or wrong:
+        raise Failure(f"{rows} steps; not finite: {', '.join(wrong)}")
+
+
+def run_stop(runner, options):
+    command = runner.command("run", options.deck, options.set, options.ranks)
+    status = runner.wait(runner.start("run", command), command)
+    if status != 2:
+        raise Failure(f"exit status {status}, should be 2\n{runner.tail('run')}")
+    said = " ".join((runner.text("run", "stdout") + runner.text("run", "stderr")).split())
+    for sentence in options.says:
+        if sentence not in said:
+            raise Failure(f"it does not say\n  {sentence}\nbut\n{runner.tail('run')}")
+    print(f"  ended with {len(options.says)} expected sentence(s)")
+
+
 def run_error(runner, options):
     """NAME.message holds one sentence per line; all must be on stderr, in any line breaks."""
     with open(os.path.splitext(options.deck)[0] + ".message", encoding="utf-8") as file:
@@ -395,7 +442,7 @@ def run_error(runner, options):
 
 
 MODES = {"case": run_case, "order": run_order, "same": run_same, "restart": run_restart,
-         "no_restart": run_no_restart, "error": run_error}
+         "no_restart": run_no_restart, "steps": run_steps, "stop": run_stop, "error": run_error}
 
 
 def parse(arguments):
@@ -425,6 +472,7 @@ def parse(arguments):
     parser.add_argument("--second-set", action="append", default=[])
     parser.add_argument("--damage", metavar="PATTERN", help="files of the checkpoint")
     parser.add_argument("--says", action="append", default=[], help="part of the message")
+    parser.add_argument("--steps", type=int, default=2, help="steps: so many")
     parser.add_argument("--interrupt-set", action="append", default=[],
                         help="setting that ends the first part early")
     parser.add_argument("--interrupt-after", type=int, default=0, metavar="STEPS",

@@ -11,6 +11,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 
 namespace stockwork
 {
@@ -43,16 +45,33 @@ void write_summary(std::ostream &out, const RunSummary &summary)
       json.member(column, value);
   json.end_object();
 
-  json.begin_object("errors");
-  for (const auto &[quantity, error] : summary.errors)
+  const auto write_errors = [&](const std::map<std::string, RunSummary::Error> &errors)
   {
-    json.begin_object(quantity);
-    json.member("final", error.final);
-    json.member("mean", error.mean);
-    json.member("reference", error.reference);
+    for (const auto &[quantity, error] : errors)
+    {
+      json.begin_object(quantity);
+      json.member("final", error.final);
+      json.member("mean", error.mean);
+      json.member("reference", error.reference);
+      json.end_object();
+    }
+  };
+  json.begin_object("errors");
+  write_errors(summary.errors);
+  json.end_object();
+  if (!summary.errors_against.empty())
+  {
+    json.begin_object("errors_against");
+    for (const auto &[factor, errors] : summary.errors_against)
+    {
+      std::ostringstream name;
+      name << std::setprecision(17) << factor;
+      json.begin_object(name.str());
+      write_errors(errors);
+      json.end_object();
+    }
     json.end_object();
   }
-  json.end_object();
 
   const auto &balance = summary.fluid_balance;
   json.begin_object("fluid_balance");

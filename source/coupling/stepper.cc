@@ -86,7 +86,8 @@ Stepper<dim>::Stepper(RunContext &run,
 
 
 template <int dim>
-bool Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_limit)
+typename Stepper<dim>::Outcome
+Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_limit)
 {
   // More passes than any model's own limit: a model that never stops growing must not hang the run.
   constexpr unsigned int max_passes = 100;
@@ -107,7 +108,7 @@ bool Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_l
     if (!solve.converged)
     {
       reason = solve.reason;
-      return false;
+      return Outcome::rejected;
     }
     const State state = system.state(current, before, rate_reference, acceleration_reference);
     const Verdict verdict = model.advance(context, state, system.collectives());
@@ -115,17 +116,20 @@ bool Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_l
     switch (verdict.kind)
     {
     case Verdict::Kind::accept:
-      return true;
+      return Outcome::accepted;
     case Verdict::Kind::reject:
       reason = verdict.reason;
-      return false;
+      return Outcome::rejected;
+    case Verdict::Kind::stop:
+      reason = verdict.reason;
+      return Outcome::hopeless;
     case Verdict::Kind::topology_changed:
       system.renumber_extra(
         {&current.extra, &before.extra, &rate_reference.extra, &acceleration_reference.extra});
     }
   }
   reason = "the fracture has not come to rest in " + std::to_string(max_passes) + " solves";
-  return false;
+  return Outcome::rejected;
 }
 
 
@@ -139,7 +143,8 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     context = scheme.context(time, dt, step, attempt_number);
     double dt_limit = std::numeric_limits<double>::infinity();
     std::string reason;
-    bool accepted = attempt(report, reason, dt_limit);
+    const Outcome outcome = attempt(report, reason, dt_limit);
+    bool accepted = outcome == Outcome::accepted;
 
     // A smooth run may also be judged by its local error.
     const double error = accepted ? scheme.error_estimate(context, before, current) : -1.;
@@ -192,6 +197,9 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     network.rollback();
     current.extra = committed.extra;
     system.adopt_extra(committed_numbering, {&current.extra});
+    if (outcome == Outcome::hopeless)
+      throw SolveError("Step " + std::to_string(step) + " at t = " + std::to_string(time) +
+                       " s: " + reason);
     if (system.is_interrupted && system.is_interrupted())
       throw SolveError("Step " + std::to_string(step) + " was interrupted by a signal.");
     if (dt <= control.minimum_step * (1. + 1e-10))

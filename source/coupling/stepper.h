@@ -70,7 +70,13 @@ public:
   std::vector<std::vector<double> *> extra_vectors();
 
 private:
-  bool attempt(StepReport &report, std::string &reason, double &dt_limit);
+  enum class Outcome
+  {
+    accepted,
+    rejected,
+    hopeless ///< no shorter step does better
+  };
+  Outcome attempt(StepReport &report, std::string &reason, double &dt_limit);
 
   RunContext &run;
   CoupledSystem<dim> &system;

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace stockwork
 {
@@ -62,7 +63,13 @@ public:
 
   const std::map<std::string, Error> &errors() const
   {
-    return all;
+    return all.front();
+  }
+
+  /// Against the reference times one of its wrong factors.
+  const std::map<std::string, Error> &errors_against(const unsigned int wrong_factor) const
+  {
+    return all[1 + wrong_factor];
   }
 
   template <class Archive>
@@ -74,11 +81,16 @@ public:
 private:
   bool compares(double time) const;
 
-  void add(const std::string &quantity, double time, double dt, double error);
+  /// @param error against the reference times a factor
+  void add(const std::string &quantity,
+           double time,
+           double dt,
+           const std::function<double(double factor)> &error);
 
   const ReferenceSolution<dim> &reference;
   double start_time, end_time;
-  std::map<std::string, Error> all;
+  std::vector<double> factors;                   ///< of the reference; the first is one
+  std::vector<std::map<std::string, Error>> all; ///< by factor
   double peak = 0., peak_reference = 0.;
 };
 } // namespace stockwork

@@ -5,6 +5,8 @@
 
 #include "verification/reference/problems.h"
 
+#include <deal.II/base/utilities.h>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -69,9 +71,10 @@ void declare_reference_parameters(ParameterHandler &prm)
     "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
     "the rollers of the domain all round. radial (3-D): circular, at the deck's own toughness and "
     "viscosity.");
-  prm.declare_entry("Reference factor", "1", Patterns::Double(),
-                    "Multiplies the reference where errors are formed. Other than 1 only in tests "
-                    "that a comparison can fail.");
+  prm.declare_entry("Wrong factors", "", Patterns::List(Patterns::Double()),
+                    "For tests that a comparison can fail: the reference times each of these "
+                    "numbers, separated by commas, is compared with as well (summary.json, "
+                    "errors_against).");
   prm.declare_entry("Start from reference", "false", Patterns::Bool(),
                     "Take displacement and pore pressure at the start time from the reference.");
   prm.declare_entry("Compare", "every step", Patterns::Selection("every step|at the end"),
@@ -122,7 +125,8 @@ std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
         throw EntryError("Verification/Reference", name,
                          std::string("a solution that fits the case. ") + error.what());
       }
-      solution->comparison_factor = prm.get_double("Reference factor");
+      solution->wrong_factors =
+        Utilities::string_to_double(Utilities::split_string_list(prm.get("Wrong factors")));
       solution->compares_every_step = prm.get("Compare") == "every step";
     }
   const bool starts = prm.get_bool("Start from reference");

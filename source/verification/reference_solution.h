@@ -46,10 +46,9 @@ public:
     return {};
   }
 
-  /// Multiplies the solution where errors are formed, and only there: boundary values and initial
-  /// states that the deck takes from the solution stay right, so that a test with another factor
-  /// than 1 shows that the comparison can fail.
-  double comparison_factor = 1.;
+  /// Factors that make wrong solutions of this one, which errors are formed against as well: so a
+  /// test shows that its comparison can fail.
+  std::vector<double> wrong_factors;
 
   /// Whether errors are formed after every step, and not at the end of the run only.
   bool compares_every_step = true;

@@ -149,6 +149,16 @@ stockwork_case_test(NAME convergence/surfing/peridynamics/uncorrected
   SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
       "Fracture/peridynamics/Surface correction=false"
   EXPECT "rates/external_work = 800 within 0.02" "rates/dissipated_energy = 800 within 0.02")
+# Brittle bonds take G_c at the hardest one and less in between (0.90, doc/cases/surfing.md). With the critical
+# stretch of the continuum, without what the lattice's trapping takes off it, they take half as much again.
+stockwork_case_test(NAME convergence/surfing/peridynamics/brittle DECK prm/surfing/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false" "Fracture/peridynamics/Softening=1"
+  EXPECT "rates/external_work = 720 within 0.02")
+stockwork_case_test(NAME convergence/surfing/peridynamics/brittle/uncalibrated
+  DECK prm/surfing/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false" "Fracture/peridynamics/Softening=1"
+      "Fracture/peridynamics/Critical stretch factor=1"
+  EXPECT "rates/external_work > 1100")
 # With a horizon of two cells the crack jumps: bonds soften over several steps.
 stockwork_case_test(NAME convergence/surfing/peridynamics/jumps DECK prm/surfing/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=0.35 s" "Output/Fields=false"
@@ -164,11 +174,18 @@ stockwork_case_test(NAME convergence/peridynamics/dynamic_notch/brittle
   SET "Fracture/peridynamics/Softening=1"
   EXPECT "final/energy_balance_error < 0.01" "final/dissipated_energy > 20"
          "final/kinetic_energy > 100")
-# From a notch of 2 m at 30 degrees, along x, as doc/cases/rotated.md says: straight on it would be 3.6 m
-# by 2.1 m. The volume must balance around the corners.
+# From a notch of 2 m at 30 degrees, nothing but the mesh prefers a direction: straight on it is 3.6 m by 2.1 m.
+# With today's bonds it turns into the axis of the mesh (doc/cases/rotated.md). The volume must balance around
+# the corners nevertheless.
 stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics
   DECK prm/kgd/rotated/30/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
   EXPECT "errors/fracture_volume/final < 1e-9" "errors/inlet_pressure/final < 0.1"
-         "errors/fracture_length/final < 0.1" "final/extent_x > 4" "final/extent_y < 1.1"
-         "fluid_balance/relative_error < 1e-8")
+         "errors/fracture_length/final < 0.1" "fluid_balance/relative_error < 1e-8")
+stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics/direction LABELS nightly
+  DECK prm/kgd/rotated/30/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
+  EXPECT "final/extent_x = 3.6 within 0.1" "final/extent_y = 2.1 within 0.1")
+if(TEST convergence/kgd/rotated/30/peridynamics/direction)
+  set_tests_properties(convergence/kgd/rotated/30/peridynamics/direction PROPERTIES WILL_FAIL TRUE)
+endif()

@@ -63,10 +63,20 @@ class DriverTest(unittest.TestCase):
     def test_exit_status(self):
         self.fails("exit status 2", "case", "status 2")
 
+    def test_stop(self):
+        self.passes("stop", "status 2")
+        self.fails("exit status 0, should be 2", "stop", "")
+        self.fails("does not say", "stop", "status 2", "--says", "no way on")
+
+    def test_steps(self):
+        self.passes("steps", "steps 40\nslow")
+        self.passes("steps", "steps 1")
+        self.fails("exit status 2", "steps", "status 2")
+
     def test_negative(self):
         bound = ("--expect", "errors/y/final < 0.11", "--negative")
         self.passes("case", "", *bound)
-        self.fails("although the reference is off", "case", "blind", *bound)
+        self.fails("off by twice the bound", "case", "blind", *bound)
         self.fails("--negative needs", "case", "", "--expect", "steps == 3", "--negative")
 
     def test_order(self):

@@ -46,6 +46,7 @@ struct RunSummary
   std::uint64_t peak_memory_bytes = 0;
   std::map<std::string, double> final_values; ///< key "final", StatisticsTable::final_values()
   std::map<std::string, Error> errors;
+  std::map<double, std::map<std::string, Error>> errors_against; ///< by wrong factor
   FluidBalance fluid_balance;
   std::vector<std::string> warnings;
 };

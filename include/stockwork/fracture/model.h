@@ -34,6 +34,7 @@ struct Requirements
   bool quasi_static_only = false;
   bool linear_elements = false; ///< displacements live at vertices only
   bool bulk_alone = false;      ///< has neither unknowns nor segments, ever: rock, to a split
+  bool uniform_rock = false;    ///< its own terms know the rock at large, no region's
 };
 
 /// What a model says about a converged solution.
@@ -43,7 +44,8 @@ struct Verdict
   {
     accept,
     topology_changed, ///< the fracture has grown: solve again at the same time
-    reject            ///< not admissible: the driver rolls back and cuts the step
+    reject,           ///< not admissible: the driver rolls back and cuts the step
+    stop              ///< nor with any shorter step: the run ends at the last accepted one
   };
   Kind kind = Kind::accept;
   double dt_limit = std::numeric_limits<double>::infinity(); ///< for the next attempt or step

@@ -87,5 +87,8 @@ struct Scene
   /// Fluid pressure in all cracks, where the case gives it [Pa]; zero in a dry case. NaN: the fluid
   /// network solves for it.
   double crack_pressure = std::numeric_limits<double>::quiet_NaN();
+
+  /// The greatest rate of the first well, of both wings [m^2/s; m^3/s in 3-D]; zero: none is given.
+  double injection_rate = 0.;
 };
 } // namespace stockwork

@@ -19,8 +19,9 @@ constexpr double soon_to_soften = 0.9;
 constexpr unsigned int most_passes = 60;
 /// Attempts at a step after which it is no matter how far tips advance.
 constexpr unsigned int attempts_for_advances = 3;
-/// Net pressure over the strength from which on bonds may break in a blob.
-constexpr double high_pressure = 0.5;
+/// Attempts at a step, each with half the length of the one before, after which its length is not
+/// what is wrong.
+constexpr unsigned int attempts_for_length = 6;
 } // namespace
 
 
@@ -165,34 +166,6 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
 }
 
 
-/// Rock that is stretched alike in all directions breaks everywhere at once, at a stress which is
-/// greater the smaller the horizon.
-template <int dim>
-void Peridynamics<dim>::warn_of_pressure(const State &state)
-{
-  if (told_of_pressure || !state.segment_pressure)
-    return;
-  const RockProperties &rock = scene.rock.main();
-  const double strength = (dim * rock.lame_lambda() + 2. * rock.shear_modulus()) * softening.first;
-  double pressure = 0.;
-  for (const Segment<dim> &segment : all_segments)
-    pressure = std::max(pressure,
-                        state.segment_pressure(segment.key) +
-                          segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
-  if (pressure < high_pressure * strength)
-    return;
-  std::ostringstream message;
-  message.precision(3);
-  message << "The net pressure in a crack, " << pressure * 1e-6
-          << " MPa, has come near the strength of the bonds, " << strength * 1e-6
-          << " MPa with a horizon of " << parameters.horizon * zone.spacing()
-          << " m. They may break in a blob where a crack should be, and branches may be those of "
-             "the mesh. The strength grows as the cells shrink, with the root.";
-  messages.push_back(message.str());
-  told_of_pressure = true;
-}
-
-
 template <int dim>
 void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
 {
@@ -220,11 +193,10 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                                    const Collectives &collectives)
 {
   Verdict verdict;
-  if (!parameters.growth && parameters.written == Parameters<dim>::Bonds::none)
-    return verdict;
-  displacement = zone.displacement(state.current.bulk, collectives);
+  if (parameters.growth || parameters.written != Parameters<dim>::Bonds::none)
+    displacement = zone.displacement(state.current.bulk, collectives);
   if (!parameters.growth)
-    return verdict;
+    return verdict_on(context, state, collectives);
   Rim rim = Rim::away;
   const std::vector<double> relief = pressure_stretch(state, collectives);
   const std::vector<Candidate> candidates = overstretched(displacement, relief, rim);
@@ -240,6 +212,11 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     verdict.kind = Verdict::Kind::reject;
     has_rejected = true;
     verdict.reason = "a crack has come to the rim of the zone, which grows between steps";
+    if (context.attempt >= attempts_for_length)
+    {
+      verdict.kind = Verdict::Kind::stop;
+      verdict.reason = wanted_zone();
+    }
     return verdict;
   }
 
@@ -251,6 +228,9 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     softening.brittle() ? !candidates.empty() : soften_bonds(displacement, relief, candidates);
   if (!changed)
   {
+    verdict = verdict_on(context, state, collectives);
+    if (verdict.kind != Verdict::Kind::accept)
+      return verdict;
     verdict.dt_limit = context.dt * (n_new > n_tips ? 0.6 : n_new > 0 ? 0.8 : 1.25);
     if (followed < 1.)
       verdict.dt_limit = context.dt * std::pow(2., context.attempt);
@@ -267,6 +247,11 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     reason << "a tip wants to advance by more than " << parameters.most_advances
            << " cells in a step";
     verdict.reason = passes >= most_passes ? "bonds go on breaking" : reason.str();
+    if (passes >= most_passes && context.attempt >= attempts_for_length)
+    {
+      verdict.kind = Verdict::Kind::stop;
+      verdict.reason = "bonds go on breaking, however short the step is" + what_bonds_carry();
+    }
     return verdict;
   }
 
@@ -300,7 +285,6 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
     const std::vector<double> &, const std::vector<double> &, Rim &) const;                    \
   template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \
-  template void Peridynamics<dim>::warn_of_pressure(const State &);                            \
   template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,              \
                                               const Collectives &);
 INSTANTIATE(2)

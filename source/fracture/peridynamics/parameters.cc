@@ -11,6 +11,11 @@ namespace stockwork::peridynamics
 {
 namespace Patterns = dealii::Patterns;
 
+namespace
+{
+constexpr char default_zone_growth[] = "8", default_bonds_per_pass[] = "20";
+}
+
 template <int dim>
 void Parameters<dim>::declare(dealii::ParameterHandler &prm)
 {
@@ -34,7 +39,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Zone", "", Patterns::Anything(),
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
-  prm.declare_entry("Zone growth", "8", Patterns::Integer(0),
+  prm.declare_entry("Zone growth", default_zone_growth, Patterns::Integer(0),
                     "Cells by which the zone is enlarged ahead of a fracture when less than the "
                     "margin of it is left there; 0: the zone stays as it is, and fractures stop at "
                     "its rim. It grows only where 'Cell size' is given, which the new cells are "
@@ -85,8 +90,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "falls from the fracture's to the rock's within one cell then, whatever the permeability. For "
     "porous rock and 'Fracture flow/Leak-off = resolved'.");
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
-  prm.declare_entry("Bonds per pass", "20", Patterns::Integer(1),
-                    "Bonds that break, the most stretched first, before the step is solved again.");
+  prm.declare_entry("Bonds per pass", default_bonds_per_pass, Patterns::Integer(1),
+                    "Brittle bonds that break, the most stretched first, before the step is solved "
+                    "again. Bonds that soften all follow their stretch at once.");
   prm.declare_entry("Most advances per step", "20", Patterns::Integer(1),
                     "Cells by which a tip may advance within a time step, else it is taken again "
                     "with half its length. Not more than twice: in viscous fluid a tip may jump, "
@@ -159,6 +165,14 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   p.tensor_fluid = prm.get("Fluid") == "permeability tensor";
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
+  if (p.softening > 1. && prm.get("Bonds per pass") != default_bonds_per_pass)
+    throw bad("Bonds per pass", std::string(default_bonds_per_pass) +
+                                  " where bonds soften, each by itself; other numbers with "
+                                  "'Softening = 1'");
+  if (p.cell_size == 0. && prm.get("Zone growth") != default_zone_growth &&
+      prm.get("Zone growth") != "0")
+    throw bad("Zone growth", std::string(default_zone_growth) +
+                               ", or 0, without a 'Cell size' that new cells could be refined to");
   p.most_advances = prm.get_integer("Most advances per step");
   const std::string written = prm.get("Write bonds");
   p.written = written == "all" ? Bonds::all : written == "broken" ? Bonds::broken : Bonds::none;

@@ -59,9 +59,12 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
                      "tensor'");
   if (scene.cracks.empty() && parameters.boxes.empty())
     throw InputError("Peridynamics needs an initial crack, or the box of its 'Zone'.");
+  refuse_what_bonds_do_not_know();
   shape.cracks = scene.cracks;
   shape.boxes = parameters.boxes;
   shape.margin = parameters.margin;
+  if (parameters.cell_size > 0.)
+    foresee(parameters.cell_size);
 }
 
 
@@ -74,7 +77,36 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.linear_elements = true;
   requirements.pore_pressure = parameters.tensor_fluid;
   requirements.bulk_alone = scene.cracks.empty() && !parameters.growth;
+  requirements.uniform_rock = true;
   return requirements;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::set_law(const double spacing)
+{
+  const RockProperties &rock = scene.rock.main();
+  const double horizon = parameters.horizon * spacing;
+  law = parameters.state_based ? state_based_law<dim>(rock, stencil, spacing)
+                               : bond_based_law<dim>(rock, stencil, spacing);
+  coefficients = bond_coefficients<dim>(stencil, law, spacing);
+  critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
+  // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
+  const double held = crossing_energy<dim>(stencil, law, spacing, critical_stretch);
+  critical_stretch *= !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
+                      : parameters.softening > 1. && held > 0.
+                        ? std::sqrt(rock.energy_release_rate / held)
+                        : trapping_factor(parameters.horizon);
+  energy_over_spring =
+    std::pow(continuum_critical_stretch<dim>(rock, horizon) /
+               continuum_critical_stretch<dim>(rock, horizon, parameters.state_based),
+             2);
+  softening.first = critical_stretch / std::sqrt(parameters.softening);
+  softening.last = critical_stretch * std::sqrt(parameters.softening);
+  // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
+  if (const double at_one = crossing_energy<dim>(stencil, law, spacing, 1.);
+      parameters.effective_stretch && at_one > 0.)
+    relief_by_fluid = spacing * softening.when_wet() / softening.first / (2. * at_one);
 }
 
 
@@ -91,33 +123,14 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 
-  const RockProperties &rock = scene.rock.main();
-  const double horizon = parameters.horizon * zone.spacing();
-  law = parameters.state_based ? state_based_law<dim>(rock, stencil, zone.spacing())
-                               : bond_based_law<dim>(rock, stencil, zone.spacing());
-  coefficients = bond_coefficients<dim>(stencil, law, zone.spacing());
-  critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
-  // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
-  const double held = crossing_energy<dim>(stencil, law, zone.spacing(), critical_stretch);
-  critical_stretch *= !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
-                      : parameters.softening > 1. && held > 0.
-                        ? std::sqrt(rock.energy_release_rate / held)
-                        : trapping_factor(parameters.horizon);
-  energy_over_spring =
-    std::pow(continuum_critical_stretch<dim>(rock, horizon) /
-               continuum_critical_stretch<dim>(rock, horizon, parameters.state_based),
-             2);
+  set_law(zone.spacing());
+  if (!started && parameters.cell_size == 0.)
+    foresee(zone.spacing());
   in_situ_is_zero = true;
   for (const unsigned int i : zone.peridynamic_sites())
     in_situ_is_zero =
       in_situ_is_zero && scene.in_situ_stress(zone.position(zone.sites()[i].place)).norm() == 0.;
 
-  softening.first = critical_stretch / std::sqrt(parameters.softening);
-  softening.last = critical_stretch * std::sqrt(parameters.softening);
-  // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
-  if (const double at_one = crossing_energy<dim>(stencil, law, zone.spacing(), 1.);
-      parameters.effective_stretch && at_one > 0.)
-    relief_by_fluid = zone.spacing() * softening.when_wet() / softening.first / (2. * at_one);
   if (started)
   {
     bonds.set_broken(committed_bonds);
@@ -238,6 +251,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   told_of_rim_before = told_of_rim;
   told_of_pressure_before = told_of_pressure;
   n_segments_before = cells.size();
+  extent_before = extent();
   n_tips_before = 0;
   for (const bool at_end : at_front)
     n_tips_before += at_end;

@@ -187,8 +187,39 @@ private:
 
   void write_bonds(FieldSink<dim> &sink) const;
 
+  /// The bonds of cells of this size [m].
+  void set_law(double spacing);
+
+  /// @throws InputError for entries of the deck that bonds would drop without a word
+  void refuse_what_bonds_do_not_know() const;
+
+  /// Isotropic effective stress at which bonds begin to break, or to soften [Pa].
+  double strength() const;
+
+  /// Before the run: what of the scene bonds of cells of this size [m] cannot carry.
+  void foresee(double spacing);
+
+  void foresee_stress(double spacing);
+  void foresee_pressure(double spacing);
+
   /// Once, when the net pressure is so high that bonds may break where no crack is.
   void warn_of_pressure(const State &state);
+
+  /// Whether a converged solution, in which no more bonds break, can be one.
+  Verdict
+  verdict_on(const StepContext &context, const State &state, const Collectives &collectives) const;
+
+  /// Volume between the faces [m^2; m^3 in 3-D].
+  double fracture_volume(const State &state, const Collectives &collectives) const;
+
+  /// Greatest edge of the box that the fractures fill [m].
+  double extent() const;
+
+  /// A sentence: which zone to write into the deck.
+  std::string wanted_zone() const;
+
+  /// The end of a sentence on bonds that break where they should not.
+  std::string what_bonds_carry() const;
 
   /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
   double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
@@ -266,6 +297,7 @@ private:
   // Of the current step.
   std::size_t n_messages_before = 0;
   std::size_t n_segments_before = 0, n_tips_before = 0;
+  double extent_before = 0.;
   unsigned int passes = 0;
   /// How far bonds soften within the step, of what their stretch asks for. Where a crack jumps, no
   /// step is short enough; so an attempt after one that has not converged lets them soften by less,

@@ -1,0 +1,325 @@
+// What bonds cannot do: refused, foreseen, or noticed while it happens.
+#include "fracture/peridynamics/peridynamics.h"
+
+#include "stockwork/base/error.h"
+#include "verification/analytical/kgd.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+/// Net pressure over the strength from which on bonds may break in a blob.
+constexpr double high_pressure = 0.5;
+/// In-situ stress along a crack less that across it, over the strength, below which pressure and
+/// length are off by less than 1 %.
+constexpr double equal_stress = 0.1;
+/// Overlap of faces over the extent of the fracture that is no rounding error of a closed one.
+constexpr double overlap = 1e-7;
+/// Attempts at a step in which a fracture jumps, before it is believed that it does at any length.
+constexpr unsigned int attempts_for_jumps = 3;
+/// A jump: so many times what 'Most advances per step' permits, or so many times the extent before
+/// and half of what it permits.
+constexpr double most_advances = 3.;
+constexpr double most_enlargement = 3.;
+
+std::string text(const double number)
+{
+  std::ostringstream stream;
+  stream.precision(3);
+  stream << number;
+  return stream.str();
+}
+
+std::string megapascals(const double stress)
+{
+  return text(1e-6 * stress) + " MPa";
+}
+
+/// Unit normals and middles of the flat parts of a crack.
+template <int dim>
+std::vector<std::pair<Point<dim>, Tensor<1, dim>>> flat_parts(const InitialCrack<dim> &crack)
+{
+  std::vector<std::pair<Point<dim>, Tensor<1, dim>>> parts;
+  if (crack.disc)
+    parts.emplace_back(crack.disc->centre, crack.disc->normal);
+  if constexpr (dim == 2)
+    for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
+      if (const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i]; along.norm() > 0.)
+        parts.emplace_back(crack.points[i] + 0.5 * along, cross_product_2d(along) / along.norm());
+  return parts;
+}
+} // namespace
+
+
+template <int dim>
+void Peridynamics<dim>::refuse_what_bonds_do_not_know() const
+{
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    if (crack.kind == InitialCrack<dim>::Kind::cohesive)
+      throw EntryError(crack.entry, crack.text,
+                       "nothing (an empty entry) with the fracture model 'peridynamics', whose "
+                       "cracks are open from the start ('Cracks/Open'); 'cohesive_xfem' knows "
+                       "cohesive ones");
+  if (!parameters.growth)
+    return;
+  const RockProperties &rock = scene.rock.main();
+  if (!std::isnan(rock.tensile_strength))
+    throw EntryError("Rock/Tensile strength", megapascals(rock.tensile_strength),
+                     "nothing (an empty entry) with the fracture model 'peridynamics', where the "
+                     "strength follows from the energy release rate and the cells' size; "
+                     "'cohesive_xfem' takes one");
+  if (std::abs(rock.shear_energy_release_rate - rock.energy_release_rate) >
+      1e-6 * rock.energy_release_rate)
+    throw EntryError("Rock/Shear energy release rate",
+                     text(rock.shear_energy_release_rate) + " J/m^2",
+                     "nothing (an empty entry), or the critical one, with the fracture model "
+                     "'peridynamics', whose bonds break by their stretch, whatever the mode; "
+                     "'cohesive_xfem' takes one");
+}
+
+
+template <int dim>
+double Peridynamics<dim>::strength() const
+{
+  const RockProperties &rock = scene.rock.main();
+  return (dim * rock.lame_lambda() + 2. * rock.shear_modulus()) * softening.first;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::foresee(const double spacing)
+{
+  if (!parameters.growth)
+    return;
+  set_law(spacing);
+  foresee_stress(spacing);
+  foresee_pressure(spacing);
+}
+
+
+/// Bonds that cross the way of a crack feel the stress along it as well, and the faces release only
+/// that across it.
+template <int dim>
+void Peridynamics<dim>::foresee_stress(const double spacing)
+{
+  double worst = equal_stress * strength();
+  std::string message;
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    for (const auto &[middle, normal] : flat_parts(crack))
+    {
+      const SymmetricTensor<2, dim> stress = scene.in_situ_stress(middle);
+      const double across = normal * (stress * normal);
+      const SymmetricTensor<2, dim> difference =
+        stress - across * dealii::unit_symmetric_tensor<dim>();
+      const double along = (trace(stress) - across) / (dim - 1),
+                   shear = (stress * normal - across * normal).norm(), unequal = difference.norm();
+      if (unequal <= worst)
+        continue;
+      worst = unequal;
+      message =
+        "The in-situ stress along the crack '" + crack.text + "', " + megapascals(along) +
+        ", is not that across it, " + megapascals(across) +
+        (shear > 1e-6 * unequal ? ", and there is a shear stress of " + megapascals(shear) : "") +
+        ". Bonds ahead of the crack feel all of it, and what they hold, " +
+        megapascals(strength()) + " with cells of " + text(spacing) + " m, is " +
+        (unequal > strength() ? "less" : "little more") +
+        ": expect pressures and lengths that are wrong by ten per cent and more, or no "
+        "convergence. Use 'cohesive_xfem'.";
+    }
+  if (!message.empty())
+    messages.push_back(message);
+}
+
+
+/// The pressure of a fracture in an infinite body is greatest when it is short. It is taken when
+/// each wing has the length of the crack, or of a horizon.
+template <int dim>
+void Peridynamics<dim>::foresee_pressure(const double spacing)
+{
+  if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
+    return;
+  const RockProperties &rock = scene.rock.main();
+  const analytical::KgdParameters fracture{
+    rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio, scene.rock.fluid().viscosity,
+    rock.toughness(), scene.injection_rate};
+  const analytical::Kgd kgd(fracture);
+  double wing = parameters.horizon * spacing;
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    wing = std::max(wing, crack.size());
+  // Lengths are as t^(2/3).
+  const double time = std::pow(wing / kgd.half_length(1.), 1.5);
+  const double pressure = kgd.inlet_pressure(time);
+  if (pressure < strength())
+    return;
+  const double finer = std::pow(strength() / pressure, 2) * spacing;
+  messages.push_back(
+    "A fracture of this rock, fluid and rate (K_m = " + text(fracture.dimensionless_toughness()) +
+    ") needs a net pressure of " + megapascals(pressure) + " when its wings are " + text(wing) +
+    " m long, and the bonds of cells of " + text(spacing) + " m hold " + megapascals(strength()) +
+    ": they may break in a blob where a crack should be. Cells of " + text(finer) +
+    " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'.");
+}
+
+
+/// Rock that is stretched alike in all directions breaks everywhere at once, at a stress which is
+/// greater the smaller the horizon.
+template <int dim>
+void Peridynamics<dim>::warn_of_pressure(const State &state)
+{
+  if (told_of_pressure || !state.segment_pressure)
+    return;
+  double pressure = 0.;
+  for (const Segment<dim> &segment : all_segments)
+    pressure = std::max(pressure,
+                        state.segment_pressure(segment.key) +
+                          segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
+  if (pressure < high_pressure * strength())
+    return;
+  std::ostringstream message;
+  message.precision(3);
+  message << "The net pressure in a crack, " << pressure * 1e-6
+          << " MPa, has come near the strength of the bonds, " << strength() * 1e-6
+          << " MPa with a horizon of " << parameters.horizon * zone.spacing()
+          << " m. They may break in a blob where a crack should be, and branches may be those of "
+             "the mesh. The strength grows as the cells shrink, with the root.";
+  messages.push_back(message.str());
+  told_of_pressure = true;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::fracture_volume(const State &state, const Collectives &collectives) const
+{
+  std::vector<double> volume(1, 0.);
+  for (const Segment<dim> &segment : owned_segments)
+    volume[0] += segment.area * value(segment.opening, state.current);
+  collectives.sum(volume);
+  return volume[0];
+}
+
+
+template <int dim>
+double Peridynamics<dim>::extent() const
+{
+  double greatest = 0.;
+  for (unsigned int d = 0; d < dim && !all_segments.empty(); ++d)
+  {
+    const auto [first, last] = std::minmax_element(all_segments.begin(), all_segments.end(),
+                                                   [d](const Segment<dim> &a, const Segment<dim> &b)
+                                                   { return a.centre[d] < b.centre[d]; });
+    greatest = std::max(greatest, last->centre[d] - first->centre[d] + zone.spacing());
+  }
+  return greatest;
+}
+
+
+template <int dim>
+Verdict Peridynamics<dim>::verdict_on(const StepContext &context,
+                                      const State &state,
+                                      const Collectives &collectives) const
+{
+  Verdict verdict;
+  if (all_segments.empty())
+    return verdict;
+  double area = 0.;
+  for (const Segment<dim> &segment : all_segments)
+    area += segment.area;
+  const double volume = fracture_volume(state, collectives), reach = extent();
+  if (volume < -overlap * area * reach)
+  {
+    verdict.kind = Verdict::Kind::stop;
+    verdict.reason =
+      "the fracture holds less than nothing, " + text(volume) + (dim == 2 ? " m^2" : " m^3") +
+      ": its faces overlap by " + text(-1e6 * volume / area) +
+      " um on the average, for nothing keeps faces of bonds apart. The pressure in the fracture is "
+      "less than what the rock closes it with, or its tips run ahead of the fluid" +
+      what_bonds_carry();
+    return verdict;
+  }
+  const double grown = reach - extent_before;
+  const double permitted =
+    parameters.most_advances * zone.spacing() * std::max<std::size_t>(n_tips_before, 1);
+  if (grown > most_advances * permitted ||
+      (reach > most_enlargement * extent_before && grown > 0.5 * permitted))
+  {
+    const bool again = context.attempt + 1 < attempts_for_jumps;
+    verdict.kind = again ? Verdict::Kind::reject : Verdict::Kind::stop;
+    verdict.reason = "the fracture jumps from " + text(extent_before) + " to " + text(reach) + " m";
+    if (!again)
+      verdict.reason += " within " + text(context.dt) + " s" + what_bonds_carry();
+  }
+  return verdict;
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::wanted_zone() const
+{
+  // The boxes that joined while the step was tried, with room for what it wants next.
+  Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = shape.boxes.back().lower_bound(d);
+    upper[d] = shape.boxes.back().upper_bound(d);
+    for (const auto &box : shape.boxes)
+    {
+      lower[d] = std::min(lower[d], box.lower_bound(d));
+      upper[d] = std::max(upper[d], box.upper_bound(d));
+    }
+    const double more = parameters.zone_growth * zone.spacing();
+    lower[d] = std::max(lower[d] - more, zone.room().lower_bound(d));
+    upper[d] = std::min(upper[d] + more, zone.room().upper_bound(d));
+  }
+  std::ostringstream box;
+  box.precision(5);
+  const auto write = [&](const Point<dim> &corner)
+  {
+    box << '(';
+    for (unsigned int d = 0; d < dim; ++d)
+      box << (d > 0 ? ", " : "") << corner[d] << " m";
+    box << ')';
+  };
+  write(lower);
+  box << " to ";
+  write(upper);
+  return "bonds are stretched too far up to the rim of the peridynamic zone, however short the "
+         "step "
+         "is. A greater zone from the start: 'Fracture/peridynamics/Zone = " +
+         box.str() + "'" + what_bonds_carry();
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::what_bonds_carry() const
+{
+  return ". Bonds of cells of " + text(zone.spacing()) + " m hold " + megapascals(strength()) +
+         ", the more the smaller the cells are; if pressures or in-situ stresses of the scene "
+         "differ "
+         "by as much, use smaller cells, or 'cohesive_xfem'.";
+}
+
+#define INSTANTIATE(dim)                                                                        \
+  template void Peridynamics<dim>::refuse_what_bonds_do_not_know() const;                       \
+  template double Peridynamics<dim>::strength() const;                                          \
+  template void Peridynamics<dim>::foresee(double);                                             \
+  template void Peridynamics<dim>::foresee_stress(double);                                      \
+  template void Peridynamics<dim>::foresee_pressure(double);                                    \
+  template void Peridynamics<dim>::warn_of_pressure(const State &);                             \
+  template double Peridynamics<dim>::fracture_volume(const State &, const Collectives &) const; \
+  template double Peridynamics<dim>::extent() const;                                            \
+  template Verdict Peridynamics<dim>::verdict_on(const StepContext &, const State &,            \
+                                                 const Collectives &) const;                    \
+  template std::string Peridynamics<dim>::wanted_zone() const;                                  \
+  template std::string Peridynamics<dim>::what_bonds_carry() const;
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics
