@@ -16,19 +16,19 @@ namespace stockwork
 /// Written by the build from the folders of source/fracture.
 void register_all_fracture_models(FractureModelRegistry &registry);
 
-/// A deck's coupled system of equations in 2-D, for tests that look at residual and matrix. One
-/// rank.
-class Scenario
+/// A deck's coupled system of equations, for tests that look at residual and matrix. One rank.
+template <int dim>
+class ScenarioIn
 {
 public:
   using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
 
-  Scenario(const std::string &file, const std::vector<std::string> &overrides)
+  ScenarioIn(const std::string &file, const std::vector<std::string> &overrides)
     : deck(Deck::read(file, overrides))
     , the_case(make_case())
     , triangulation(run.communicator,
-                    dealii::Triangulation<2>::limit_level_difference_at_vertices,
-                    dealii::parallel::distributed::Triangulation<2>::no_automatic_repartitioning)
+                    dealii::Triangulation<dim>::limit_level_difference_at_vertices,
+                    dealii::parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
     , mapping(the_case->geometry.mapping())
     , system(run,
              triangulation,
@@ -50,12 +50,12 @@ public:
     dt = the_case->control.initial_step;
   }
 
-  FractureModel<2> &model()
+  FractureModel<dim> &model()
   {
     return *the_case->model;
   }
 
-  Network<2> &network()
+  Network<dim> &network()
   {
     return the_case->network;
   }
@@ -139,12 +139,12 @@ public:
   dealii::ParameterHandler prm;
   std::ostringstream log;
   RunContext run{MPI_COMM_WORLD, log};
-  std::unique_ptr<Case<2>> the_case;
-  dealii::parallel::distributed::Triangulation<2> triangulation;
-  std::unique_ptr<dealii::Mapping<2>> mapping;
-  CoupledSystem<2> system;
-  MeshAdaptation<2> adaptation;
-  Stepper<2> stepper;
+  std::unique_ptr<Case<dim>> the_case;
+  dealii::parallel::distributed::Triangulation<dim> triangulation;
+  std::unique_ptr<dealii::Mapping<dim>> mapping;
+  CoupledSystem<dim> system;
+  MeshAdaptation<dim> adaptation;
+  Stepper<dim> stepper;
 
   double time = 0., dt; ///< dt: proposed for the next step
   unsigned int step = 0;
@@ -152,14 +152,16 @@ public:
   Unknowns current, rate_reference, acceleration_reference;
 
 private:
-  std::unique_ptr<Case<2>> make_case()
+  std::unique_ptr<Case<dim>> make_case()
   {
     FractureModelRegistry registry;
     register_all_fracture_models(registry);
     load_plug_ins(deck, registry);
     declare_all_parameters(prm, registry);
     deck.parse_into(prm);
-    return std::make_unique<Case<2>>(deck, prm, registry);
+    return std::make_unique<Case<dim>>(deck, prm, registry);
   }
 };
+
+using Scenario = ScenarioIn<2>;
 } // namespace stockwork

@@ -182,7 +182,7 @@ stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
   EXPECT "errors/fracture_volume/final < 1e-9" "errors/inlet_pressure/final < 0.1"
          "errors/fracture_length/final < 0.1" "fluid_balance/relative_error < 1e-8")
-stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics/direction LABELS nightly
+stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics/direction
   DECK prm/kgd/rotated/30/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
   EXPECT "final/extent_x = 3.6 within 0.1" "final/extent_y = 2.1 within 0.1")

@@ -1,9 +1,9 @@
-// Waves across the rim of the peridynamic zone: a strip that cannot expand sideways, elements on
-// the left, bonds on the right, and a pulse that comes from the elements. Lengths in cells, wave
-// speed one.
+// Waves across the rim of the peridynamic zone: a strip that cannot expand sideways, elements
+// below, bonds above, and a pulse that comes from the elements. Stiffness and mass are those that
+// the program assembles. Lengths in cells, wave speed one.
 #include <doctest/doctest.h>
 
-#include "fracture/peridynamics/lattice_moduli.h"
+#include "scenario.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -12,7 +12,6 @@
 
 namespace stockwork::peridynamics_seam_test
 {
-using namespace stockwork::peridynamics;
 using Matrix = dealii::LAPACKFullMatrix<double>;
 using Vector = dealii::Vector<double>;
 
@@ -21,62 +20,77 @@ namespace
 enum class Mass
 {
   consistent, ///< of the elements, in all rows: what the model takes
-  lumped      ///< rho V_i in the rows of bonds
+  lumped      ///< gathered at the nodes, in the rows of bonds
 };
 
-/// Force per displacement between layers k cells apart, k from 1; sum k^2 w_k is the modulus, one.
-std::vector<double> layer_stiffness(const unsigned int m)
-{
-  RockProperties rock;
-  rock.poisson_ratio = 0.25;
-  rock.young_modulus = 1. / 1.2;
-  rock.plane_stress = false;
-  const auto stencil = horizon_stencil<2>(m, VolumeRule::isotropic);
-  const auto bonds = bond_coefficients<2>(stencil, bond_based_law<2>(rock, stencil, 1.), 1.);
-  std::vector<double> stiffness(m, 0.);
-  for (unsigned int b = 0; b < stencil.size(); ++b)
-    if (const int k = stencil[b].offset[1]; k > 0)
-      stiffness[k - 1] += bonds[b].stiffness * bonds[b].direction[1] * bonds[b].direction[1];
-  return stiffness;
-}
+/// Nodes of the strip, and the first one with bonds.
+constexpr unsigned int n_nodes = 301, seam = 150;
 
-/// A strip of n nodes; those from `seam` on that have a whole horizon are peridynamic.
+/// Of the strip in tests/data/strip.prm, per area. All nodes of a layer move alike.
 struct Strip
 {
-  Strip(const unsigned int n, const unsigned int seam, const unsigned int m, const Mass mass)
-    : stiffness(n)
-    , masses(n)
-    , n(n)
+  template <int dim>
+  static Strip assemble(std::vector<std::string> settings, const Mass mass = Mass::consistent)
   {
-    stiffness = 0.;
-    masses = 0.;
-    const std::vector<double> layers = layer_stiffness(m);
-    for (unsigned int i = 0; i < n; ++i)
+    if (dim == 3)
     {
-      const bool bonds = i >= seam && i + m + 1 < n;
-      for (const int side : {-1, 1})
-      {
-        const auto couple = [&](const unsigned int k, const double k_layer)
-        {
-          stiffness(i, i) += k_layer;
-          stiffness(i, i + side * static_cast<int>(k)) -= k_layer;
-        };
-        if (side < 0 ? i == 0 : i == n - 1)
-          continue;
-        if (bonds)
-          for (unsigned int k = 1; k <= m; ++k)
-            couple(k, layers[k - 1]);
-        else
-          couple(1, 1.);
-        masses(i, i) += bonds && mass == Mass::lumped ? 0.5 : 1. / 3.;
-        if (!bonds || mass == Mass::consistent)
-          masses(i, i + side) += 1. / 6.;
-      }
+      const std::vector<std::string> space{
+        "Dimension=3", "Mesh/Box/Lower corner=0, 0, 0", "Mesh/Box/Upper corner=1 m, 1 m, 300 m",
+        "Boundary conditions/Roller=left, right, front, back, bottom"};
+      settings.insert(settings.begin(), space.begin(), space.end());
     }
+    Strip strip;
+    strip.stiffness = layers<dim>(settings).first;
+    settings.push_back("Time/Inertia=on");
+    const auto [sum, acceleration] = layers<dim>(settings);
+    strip.masses = sum;
+    strip.masses.add(-1., strip.stiffness);
+    strip.masses /= acceleration;
+    if (mass == Mass::lumped)
+      for (unsigned int i = seam; i + 4 < n_nodes; ++i)
+      {
+        double total = 0.;
+        for (unsigned int j = 0; j < n_nodes; ++j)
+        {
+          total += strip.masses(i, j);
+          strip.masses(i, j) = 0.;
+        }
+        strip.masses(i, i) = total;
+      }
+    return strip;
   }
 
   Matrix stiffness, masses;
-  unsigned int n;
+  unsigned int n = n_nodes;
+
+private:
+  /// Rows of the nodes along one edge, per area, and the factor of the mass in them.
+  template <int dim>
+  static std::pair<Matrix, double> layers(const std::vector<std::string> &settings)
+  {
+    ScenarioIn<dim> scenario(STOCKWORK_TEST_DATA "/strip.prm", settings);
+    scenario.begin_step();
+    std::map<dealii::types::global_dof_index, unsigned int> layer_of, row_of;
+    for (const auto &cell : scenario.system.bulk_dofs().active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+      {
+        const auto x = cell->vertex(v);
+        double aside = 0.;
+        for (unsigned int d = 0; d + 1 < dim; ++d)
+          aside += x[d];
+        const auto dof = cell->vertex_dof_index(v, dim - 1);
+        layer_of[dof] = std::lround(x[dim - 1]);
+        if (aside < 0.5)
+          row_of[dof] = std::lround(x[dim - 1]);
+      }
+    Matrix matrix(n_nodes);
+    matrix = 0.;
+    for (const auto &entry : scenario.linearise().bulk)
+      if (const auto row = row_of.find(entry.row()); row != row_of.end())
+        if (const auto column = layer_of.find(entry.column()); column != layer_of.end())
+          matrix(row->second, column->second) += (1 << (dim - 1)) * entry.value();
+    return {matrix, scenario.context.acceleration};
+  }
 };
 
 /// A pulse of the given length, 100 cells from the left end, runs to the right for some time.
@@ -128,38 +142,58 @@ struct Motion
 
 /// Energy that comes back into the elements, over what was sent: that of the difference to a strip
 /// of elements alone, for they leave short waves behind, too.
-double reflected_energy(const unsigned int m, const double length, const Mass mass)
+double reflected_energy(const Strip &elements, const Strip &both, const double length)
 {
-  const unsigned int n = 300, seam = 150;
   const double end = 110., dt = 0.25;
-  const Motion sent(Strip(n, n, m, mass), length, 0., dt),
-    alone(Strip(n, n, m, mass), length, end, dt);
-  Motion back(Strip(n, seam, m, mass), length, end, dt);
+  const Motion sent(elements, length, 0., dt), alone(elements, length, end, dt);
+  Motion back(both, length, end, dt);
   back.u -= alone.u;
   back.v -= alone.v;
-  return back.energy(seam) / sent.energy(n);
+  return back.energy(seam) / sent.energy(n_nodes);
 }
+
+const std::vector<std::string> without_bonds{"Fracture/Model=none"};
 } // namespace
 
 
 TEST_CASE("peridynamics: long waves pass between elements and bonds, short ones return")
 {
-  double sum = 0.;
-  const std::vector<double> layers = layer_stiffness(3);
-  for (unsigned int k = 1; k <= 3; ++k)
-    sum += k * k * layers[k - 1];
-  REQUIRE(sum == doctest::Approx(1.).epsilon(1e-12));
+  const Strip elements = Strip::assemble<2>(without_bonds), both = Strip::assemble<2>({});
+  // A wrong modulus of bonds would reflect as well, and pass for something else: that of a layer
+  // inside.
+  double modulus = 0.;
+  for (unsigned int j = 0; j < n_nodes; ++j)
+    modulus -= 0.5 * both.stiffness(200, j) * std::pow(j - 200., 2);
+  CHECK(modulus == doctest::Approx(1.).epsilon(1e-9));
+  CHECK(both.stiffness(200, 203) != 0.); // a horizon of three cells
+  CHECK(both.masses(200, 201) == doctest::Approx(1. / 6.).epsilon(1e-9));
 
   for (const auto &[length, most] : {std::make_pair(4., 0.5), {8., 0.022}, {16., 0.0019}})
   {
-    const double reflected = reflected_energy(3, length, Mass::consistent);
+    const double reflected = reflected_energy(elements, both, length);
     CAPTURE(length);
     CAPTURE(reflected);
     CHECK(reflected < most);
     CHECK(reflected > 0.5 * most);
   }
   // A mass of its own for every node makes the lattice slower than the elements.
-  CHECK(reflected_energy(3, 8., Mass::lumped) > 0.1);
-  CHECK(reflected_energy(3, 16., Mass::lumped) > 0.004);
+  const Strip lumped = Strip::assemble<2>({}, Mass::lumped);
+  CHECK(reflected_energy(elements, lumped, 8.) > 0.1);
+  CHECK(reflected_energy(elements, lumped, 16.) > 0.004);
+}
+
+TEST_CASE("peridynamics: waves across the rim in three dimensions")
+{
+  const std::vector<std::string> zone{
+    "Fracture/peridynamics/Zone=(0, 0, 150 m) to (1 m, 1 m, 296 m)"};
+  const Strip elements = Strip::assemble<3>(without_bonds), both = Strip::assemble<3>(zone);
+  for (const auto &[length, most] : {std::make_pair(8., 0.022), {16., 0.0019}})
+  {
+    const double reflected = reflected_energy(elements, both, length);
+    CAPTURE(length);
+    CAPTURE(reflected);
+    CHECK(reflected < most);
+    CHECK(reflected > 0.5 * most);
+  }
 }
 } // namespace stockwork::peridynamics_seam_test

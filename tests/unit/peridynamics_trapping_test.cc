@@ -1,3 +1,4 @@
+// By the box kernel BondForces, which no run uses (a run's own: convergence/surfing/peridynamics/brittle).
 // Steady growth of a straight crack in a lattice: what driving force it takes, and with it the
 // calibration of the critical stretch.
 #include <doctest/doctest.h>
