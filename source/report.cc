@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 
 namespace stockwork
 {
@@ -138,21 +139,38 @@ std::map<std::string, double> Report<dim>::observe()
     const auto pressures = network.pressures(stepper.committed);
     shown.least_pressure = -system.collectives().max(
       pressures.empty() ? -1e300 : -*std::min_element(pressures.begin(), pressures.end()));
+    values["least_pressure"] = shown.least_pressure;
+    // Of segments: below zero, faces have passed through one another.
+    const auto apertures = network.apertures(state.current, system.collectives());
+    const auto [least, greatest] = std::minmax_element(apertures.begin(), apertures.end());
+    values["least_aperture"] = *least;
+    values["greatest_aperture"] = *greatest;
     // Over the in-situ stress across the fracture, which is what analytical solutions call p.
     const auto &inlet = network.segments()[wells[0].inlet_segment];
     values["net_inlet_pressure"] =
       wells[0].inlet_pressure + inlet.normal * (in_situ.stress(inlet.centre) * inlet.normal);
   }
-  // How the fluid is shared.
-  if (wells.size() > 1 || (!wells.empty() && wells[0].perforation_rates.size() > 1))
-    for (unsigned int w = 0; w < wells.size(); ++w)
-    {
-      const std::string well = "well_" + std::to_string(w + 1);
-      values[well + "_borehole_pressure"] = wells[w].borehole_pressure;
+  for (unsigned int w = 0; w < wells.size(); ++w)
+  {
+    const std::string well = "well_" + std::to_string(w + 1);
+    values[well + "_borehole_pressure"] = wells[w].borehole_pressure;
+    values[well + "_rate"] = wells[w].rate;
+    values[well + "_wanted_rate"] = wells[w].wanted_rate;
+    // How the fluid is shared.
+    if (wells.size() > 1 || wells[w].perforation_rates.size() > 1)
       for (unsigned int i = 0; i < wells[w].perforation_rates.size(); ++i)
         values[well + "_perforation_" + std::to_string(i + 1) + "_rate"] =
           wells[w].perforation_rates[i];
+    if (wells[w].rate > wells[w].wanted_rate && dry_wells.insert(w).second)
+    {
+      std::ostringstream text;
+      text << "From t = " << time << " s on, the well '" << wells[w].name
+           << "' gives less than it should, " << -wells[w].rate << " of "
+           << -wells[w].wanted_rate << (dim == 2 ? " m^2/s" : " m^3/s")
+           << ": its pressure is at its least, " << wells[w].borehole_pressure << " Pa.";
+      run.warn(text.str());
     }
+  }
   return values;
 }
 

@@ -8,8 +8,11 @@
 #include "outcome_audit.h"
 #include "verification/error_record.h"
 
+#include <boost/serialization/set.hpp>
+
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace stockwork
@@ -60,7 +63,7 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
       .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
-      .fluid_balance.relative_error &external_work &peak_load &shown;
+      .fluid_balance.relative_error &external_work &peak_load &shown &dry_wells;
     if (errors)
       archive &*errors;
   }
@@ -85,6 +88,7 @@ private:
   std::string directory;
   StatisticsTable statistics;
   Outcome shown;
+  std::set<unsigned int> dry_wells; ///< of which this has been said
   RunSummary summary;
   double start_of_run;
   std::unique_ptr<ErrorRecord<dim>> errors;

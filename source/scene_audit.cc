@@ -118,6 +118,10 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
     numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});
 
+  for (const auto &[well, pressure] : the_case.network.least_well_pressures())
+    numbers.push_back({"least pressure in '" + well + "' [Pa]", pressure,
+                       "at it, what the well takes is what flows (Least pressure)"});
+
   if (!the_case.scene.cracks.empty() && !std::isnan(rock.energy_release_rate))
   {
     if (!std::isnan(rock.tensile_strength))

@@ -71,7 +71,7 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   if (leak_off == LeakOff::filter_cake && filter_cake_coefficient == 0.)
     throw EntryError("Fracture flow/Filter cake coefficient", "0",
                      "a value > 0 with leak-off through a filter cake");
-  all_wells.parse_parameters(prm);
+  all_wells.parse_parameters(prm, least_pressure);
 }
 
 

@@ -134,6 +134,12 @@ public:
     return !all_wells.empty();
   }
 
+  /// Of wells that may produce, by name [Pa].
+  std::vector<std::pair<std::string, double>> least_well_pressures() const
+  {
+    return all_wells.least_pressures();
+  }
+
   double rate_of_first_well(double t) const
   {
     return all_wells.first_rate(t);

@@ -89,6 +89,12 @@ double TimeHistory::magnitude() const
   return largest;
 }
 
+double TimeHistory::least() const
+{
+  return expression ? -std::numeric_limits<double>::infinity()
+                    : *std::min_element(values.begin(), values.end());
+}
+
 double TimeHistory::next_jump(const double t) const
 {
   // Times of steps are sums with rounding errors.

@@ -31,6 +31,9 @@ public:
   /// The greatest magnitude; of an expression, the greatest found at powers of ten of time.
   double magnitude() const;
 
+  /// The least value; of an expression, unknown: minus infinity.
+  double least() const;
+
   /// The next time after t at which the value jumps [s]; infinity if there is none. Steps should
   /// end there.
   double next_jump(double t) const;

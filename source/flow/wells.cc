@@ -66,6 +66,12 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
                         forms);
     prm.declare_entry("Pressure", "0", Patterns::Anything(),
                       "In the borehole [Pa]. With control 'pressure'." + forms);
+    prm.declare_entry("Least pressure", "", Patterns::Anything(),
+                      "In the borehole [Pa]. With control 'rate': a well cannot take what is not "
+                      "there; at this pressure the rate is what flows. Empty: where the rate may "
+                      "be negative, the 'Least pressure' of 'Fracture flow' if that is finite, "
+                      "else 0: vacuum, or in unstressed rock, where pressures are net ones, that "
+                      "at which a fracture is closed.");
     prm.declare_entry("Perforations", "", Patterns::Anything(),
                       "Points where the well is open to a fracture: coordinates separated by "
                       "',', points by ';'. Each opens into the nearest segment of a fracture, "
@@ -89,7 +95,7 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
 
 
 template <int dim>
-void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
+void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double boiling_pressure)
 {
   wells.clear();
   prm.enter_subsection("Wells");
@@ -114,6 +120,23 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm)
       well.value = well.pressure_control
                      ? TimeHistory(prm.get("Pressure"), dimension::pressure, path + "Pressure")
                      : TimeHistory(prm.get("Rate"), rate_dimension<dim>, path + "Rate");
+
+      if (const std::string text = prm.get("Least pressure"); !text.empty())
+      {
+        const std::string allowed = "a pressure such as '5 MPa', of a well with control 'rate'";
+        if (well.pressure_control)
+          throw EntryError(path + "Least pressure", text, allowed);
+        try
+        {
+          well.least_pressure = parse_quantity(text, dimension::pressure);
+        }
+        catch (const InputError &)
+        {
+          throw EntryError(path + "Least pressure", text, allowed);
+        }
+      }
+      else if (!well.pressure_control && well.value.least() < 0.)
+        well.least_pressure = std::isfinite(boiling_pressure) ? boiling_pressure : 0.;
 
       well.fraction = prm.get_double("Fraction in model");
       if (!(well.fraction > 0.))
@@ -259,14 +282,29 @@ double Wells<dim>::mean(const Perforation &perforation, const std::vector<double
 
 
 template <int dim>
-double Wells<dim>::Well::rate(const StepContext &context, const State &state) const
+double Wells<dim>::Well::flow(const StepContext &context,
+                              const State &state,
+                              const double compressibility) const
 {
-  if (!pressure_control)
-    return given(context);
   double sum = 0.;
   for (unsigned int k = 0; k < perforations.size(); ++k)
     sum += perforation_rate(k, context, state);
+  if (!is_direct() && !pressure_control)
+    sum += volume * compressibility * context.fracture_pressure_factor() / context.fracture_dt() *
+           (state.current.extra[pressure_index()] -
+            state.fracture_reference(context).extra[pressure_index()]);
   return sum;
+}
+
+
+template <int dim>
+double Wells<dim>::Well::rate(const StepContext &context,
+                              const State &state,
+                              const double compressibility) const
+{
+  return pressure_control || is_dry(context, state, compressibility)
+           ? flow(context, state, compressibility)
+           : given(context);
 }
 
 
@@ -281,6 +319,7 @@ void Wells<dim>::assemble(const StepContext &context,
   LocalSystem local;
   for (const Well &well : wells)
   {
+    const bool dry = well.is_dry(context, state, compressibility);
     for (unsigned int k = 0; k < well.perforations.size(); ++k)
     {
       const Perforation &perforation = well.perforations[k];
@@ -311,8 +350,12 @@ void Wells<dim>::assemble(const StepContext &context,
         local.matrix(n, n) = c * 2. * well.friction * std::abs(q) * well.conductance;
         if (!well.pressure_control)
         {
-          local.residual(n + 1) = -dt * q;
-          local.matrix(n, n + 1) = local.matrix(n + 1, n) = -c;
+          local.matrix(n, n + 1) = -c;
+          if (!dry)
+          {
+            local.residual(n + 1) = -dt * q;
+            local.matrix(n + 1, n) = -c;
+          }
         }
       }
       sink.add(local);
@@ -321,12 +364,15 @@ void Wells<dim>::assemble(const StepContext &context,
     if (!well.is_direct() && !well.pressure_control)
     {
       const unsigned int index = well.pressure_index();
-      const double c = well.volume * compressibility * context.fracture_pressure_factor();
+      // The row of the balance, or that of the pressure, as a volume.
+      const double c = dry ? dt * well.conductance
+                           : well.volume * compressibility * context.fracture_pressure_factor();
+      const double reference =
+        dry ? well.least_pressure : state.fracture_reference(context).extra[index];
       local.extra = {index};
       local.reinit();
       local.residual(0) =
-        dt * well.given(context) -
-        c * (state.current.extra[index] - state.fracture_reference(context).extra[index]);
+        (dry ? 0. : dt * well.given(context)) - c * (state.current.extra[index] - reference);
       local.matrix(0, 0) = -c;
       sink.add(local);
     }
@@ -340,7 +386,7 @@ FluidVolumes Wells<dim>::volumes(const StepContext &context, const State &state)
   FluidVolumes volumes;
   for (const Well &well : wells)
   {
-    const double rate = well.rate(context, state);
+    const double rate = well.rate(context, state, compressibility);
     (rate > 0. ? volumes.injected : volumes.outflow) += std::abs(rate) * context.dt;
     if (!well.is_direct() && !well.pressure_control)
     {
@@ -366,7 +412,8 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
   {
     WellReport report;
     report.name = well.name;
-    report.rate = well.rate(context, state);
+    report.rate = well.rate(context, state, compressibility);
+    report.wanted_rate = well.pressure_control ? report.rate : well.given(context);
     for (unsigned int k = 0; k < well.perforations.size(); ++k)
       report.perforation_rates.push_back(well.perforation_rate(k, context, state));
     report.inlet_segment = well.perforations[0].segments[0];
@@ -393,6 +440,17 @@ void Wells<dim>::check(const std::vector<InitialCrack<dim>> &cracks) const
       if (!on_crack)
         throw perforation_error(well, perforation, "none. Give an initial crack there");
     }
+}
+
+
+template <int dim>
+std::vector<std::pair<std::string, double>> Wells<dim>::least_pressures() const
+{
+  std::vector<std::pair<std::string, double>> result;
+  for (const Well &well : wells)
+    if (well.is_bounded())
+      result.emplace_back(well.name, well.least_pressure);
+  return result;
 }
 
 

@@ -2,7 +2,10 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "flow/fluid_balance.h"
@@ -21,6 +24,7 @@ struct WellReport
 {
   std::string name;
   double rate = 0.;                      ///< into the model, at the well head [m^3/s]
+  double wanted_rate = 0.;               ///< as given; `rate` where the pressure is [m^3/s]
   double borehole_pressure = 0.;         ///< [Pa]
   double inlet_pressure = 0.;            ///< in the fracture at the first perforation [Pa]
   double inlet_aperture = 0.;            ///< there [m]
@@ -37,6 +41,11 @@ struct WellReport
 /// pressure without friction is an unstable split, and no splitting of the equations survives it.
 /// A well of given rate with one perforation and no storage needs no unknown.
 ///
+/// A well cannot take what is not there. Where its rate may be negative, its pressure is at least
+/// p_least, and the rate becomes what flows at that pressure:
+///
+///   p_b >= p_least,  V c_f dp_b/dt + sum_i q_i >= Q,  one of the two is an equality.
+///
 /// The unknown of a rate is y = q/c, and its equation is multiplied by c, with c the well's
 /// conductance at 1 MPa: like all others of the flow it then is a pressure, and its equation a
 /// volume, and one tolerance fits all.
@@ -47,8 +56,9 @@ public:
   /// Subsection "Wells".
   static void declare_parameters(dealii::ParameterHandler &prm);
 
+  /// @param boiling_pressure of the fluid, -infinity where the deck gives none [Pa]
   /// @throws InputError
-  void parse_parameters(dealii::ParameterHandler &prm);
+  void parse_parameters(dealii::ParameterHandler &prm, double boiling_pressure);
 
   void set_compressibility(const double fluid_compressibility)
   {
@@ -99,6 +109,9 @@ public:
   /// The next time after t at which a rate or pressure jumps.
   double next_jump(double t) const;
 
+  /// Names of the wells whose pressure is bounded below, and the bounds [Pa].
+  std::vector<std::pair<std::string, double>> least_pressures() const;
+
   /// Rate of the first well as the deck gives it, for the whole fracture; zero where there is none
   /// or its pressure is given.
   double first_rate(double t) const;
@@ -122,15 +135,22 @@ private:
     double fraction = 1.;
     double friction = 0.; ///< kappa, for the rate in the model
     double volume = 0.;   ///< of the borehole, the part in the model
+    /// In the borehole; -infinity: no bound [Pa]
+    double least_pressure = -std::numeric_limits<double>::infinity();
     std::vector<Perforation> perforations;
     double conductance = 1.; ///< c [m^3/(Pa s)]
     double initial_pressure = 0.;
     unsigned int first_index = 0; ///< of y_0, y_1, ..., and then p_b
 
+    bool is_bounded() const
+    {
+      return std::isfinite(least_pressure);
+    }
+
     /// The given rate enters the segment's balance as a number.
     bool is_direct() const
     {
-      return !pressure_control && perforations.size() == 1 && volume == 0.;
+      return !pressure_control && perforations.size() == 1 && volume == 0. && !is_bounded();
     }
 
     unsigned int n_unknowns() const
@@ -155,7 +175,19 @@ private:
       return is_direct() ? given(context) : conductance * state.current.extra[first_index + k];
     }
 
-    double rate(const StepContext &context, const State &state) const;
+    double rate(const StepContext &context, const State &state, double compressibility) const;
+
+    /// What flows through the perforations and stays in the borehole [m^3/s].
+    double flow(const StepContext &context, const State &state, double compressibility) const;
+
+    /// At the least pressure, less than the given rate can be taken: of both conditions the one that
+    /// is nearer to being violated holds (an active set; Hintermueller, Ito and Kunisch 2003).
+    bool is_dry(const StepContext &context, const State &state, double compressibility) const
+    {
+      return is_bounded() &&
+             flow(context, state, compressibility) - given(context) >
+               conductance * (state.current.extra[pressure_index()] - least_pressure);
+    }
   };
 
   /// What is wrong with the place of a perforation.

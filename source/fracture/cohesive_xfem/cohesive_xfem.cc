@@ -11,6 +11,7 @@
 #include "stockwork/fracture/registry.h"
 
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace stockwork::cohesive_xfem
@@ -38,6 +39,7 @@ CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &
   : parameters(parameters)
   , scene(scene)
   , discontinuity(scene.domain_size, 1.)
+  , contact(parameters.friction, scene.rock.main().plane_modulus(), scene.domain_size)
 {
   const RockProperties &rock = scene.rock.main();
   if (!(rock.energy_release_rate > 0.))
@@ -181,6 +183,14 @@ CohesiveXFEM<dim>::damage(const CrackPiece<dim> &piece) const
 
 
 template <int dim>
+double CohesiveXFEM<dim>::broken_share(const CrackPiece<dim> &piece) const
+{
+  const PointDamage d = damage(piece);
+  return std::accumulate(d.begin(), d.end(), 0.) / n_points;
+}
+
+
+template <int dim>
 NormalShear CohesiveXFEM<dim>::separation(const CrackPiece<dim> &piece,
                                           const JumpShapes<dim> &shapes,
                                           const unsigned int point,
@@ -244,6 +254,8 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
       }
     }
     sink.add(local);
+    contact.assemble(discontinuity, owned.crack, owned.piece, state.current.extra, sink,
+                     broken_share(piece));
   }
 }
 
@@ -258,6 +270,7 @@ void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
       const CrackPiece<dim> &piece = discontinuity.paths()[c].pieces[i];
       const auto &columns = discontinuity.enrichment().columns(c, i);
       const JumpShapes<dim> shapes(piece);
+      contact.commit(discontinuity, c, i, state.current.extra, broken_share(piece));
       const PointDamage old = damage(piece);
       PointDamage now = old;
       for (unsigned int q = 0; q < n_points; ++q)
@@ -325,6 +338,8 @@ std::vector<std::string> CohesiveXFEM<dim>::take_messages()
   std::vector<std::string> taken;
   taken.swap(messages);
   n_messages_before = 0;
+  for (const std::string &message : contact.take_messages())
+    taken.push_back(message);
   return taken;
 }
 
@@ -333,7 +348,7 @@ template <int dim>
 void CohesiveXFEM<dim>::save(boost::archive::binary_oarchive &archive) const
 {
   archive << committed_paths << committed_damage << committed_reach << committed_bare_tips
-          << dissipated << started << law.strength;
+          << dissipated << started << law.strength << contact;
 }
 
 
@@ -342,7 +357,7 @@ void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
 {
   double strength;
   archive >> committed_paths >> committed_damage >> committed_reach >> committed_bare_tips >>
-    dissipated >> started >> strength;
+    dissipated >> started >> strength >> contact;
   law = make_law(parameters, scene.rock.main(), strength);
   initial_pressure.clear();
   bare_tips = committed_bare_tips;
@@ -390,7 +405,7 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
       }
     }
   }
-  result.dissipated_energy = dissipated;
+  result.dissipated_energy = dissipated + contact.work();
   return result;
 }
 
@@ -416,6 +431,10 @@ void CohesiveXFEM<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
                                                        {"slip", shear},
                                                        {"damage", mean_damage},
                                                        {"crack", owned.crack + 1.}};
+    const ContactResponse touching = contact.traction(
+      discontinuity, owned.crack, owned.piece, state.current.extra, broken_share(piece));
+    values.emplace_back("contact_pressure", -touching.normal);
+    values.emplace_back("friction", touching.shear);
     if (state.segment_pressure)
       values.emplace_back("fluid_pressure", state.segment_pressure(
                                               discontinuity.segment_key(owned.crack, owned.piece)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "discontinuity/contact.h"
 #include "discontinuity/discontinuity.h"
 #include "fracture/cohesive_xfem/law.h"
 #include "fracture/cohesive_xfem/parameters.h"
@@ -21,6 +22,13 @@ public:
   using typename FractureModel<dim>::CellIterator;
 
   CohesiveXFEM(const Parameters &parameters, const Scene<dim> &scene);
+
+  Requirements requirements() const override
+  {
+    Requirements needs;
+    needs.symmetric = !contact.has_friction();
+    return needs;
+  }
 
   void setup(const Discretization<dim> &discretization, const Collectives &collectives) override;
 
@@ -66,6 +74,9 @@ private:
   /// Committed damage of a piece; zero for a new one.
   PointDamage damage(const CrackPiece<dim> &piece) const;
 
+  /// Share of a piece that has no strength left and rubs where its faces touch, of the last step.
+  double broken_share(const CrackPiece<dim> &piece) const;
+
   /// Separation of the faces in the frame of the piece.
   NormalShear separation(const CrackPiece<dim> &piece,
                          const JumpShapes<dim> &shapes,
@@ -92,6 +103,7 @@ private:
   const Scene<dim> &scene;
   CohesiveLaw law;
   Discontinuity<dim> discontinuity;
+  FaceContact<dim> contact;
   std::unique_ptr<Discretization<dim>> discretization;
   std::vector<Segment<dim>> all_segments;
   std::vector<std::string> messages;

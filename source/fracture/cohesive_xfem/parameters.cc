@@ -2,6 +2,8 @@
 
 #include "stockwork/base/quantity.h"
 
+#include "discontinuity/contact.h"
+
 namespace stockwork::cohesive_xfem
 {
 void Parameters::declare(dealii::ParameterHandler &prm)
@@ -34,6 +36,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
     "of the given mesh.");
   prm.declare_entry("Rings ahead", "8", dealii::Patterns::Integer(1),
                     "Cells of this size kept ready around a tip.");
+  FaceContact<2>::declare_parameters(prm);
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
                     "Cracks go straight on when the stress across their direction is enough, "
                     "whatever the stress along it: for a weak seam, or the joint of two beams.");
@@ -52,6 +55,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm)
   p.most_advances = prm.get_integer("Most advances per step");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.rings_ahead = prm.get_integer("Rings ahead");
+  p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   return p;

@@ -16,6 +16,7 @@ struct Parameters
   unsigned int most_advances;  ///< cells per tip and step
   double cell_size;            ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;    ///< cells of that size ahead of a tip
+  double friction;             ///< coefficient, of faces that touch
   bool straight;
   bool growth;
 

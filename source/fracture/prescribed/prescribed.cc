@@ -1,5 +1,6 @@
 #include <deal.II/dofs/dof_accessor.h>
 
+#include "discontinuity/contact.h"
 #include "discontinuity/discontinuity.h"
 #include "discontinuity/interaction_integral.h"
 #include "stockwork/base/error.h"
@@ -11,8 +12,8 @@ namespace stockwork::prescribed
 using dealii::Point;
 using dealii::Tensor;
 
-/// Given cracks that neither grow nor resist opening: their faces carry the fluid's pressure and
-/// nothing else. The problem is linear, and faces may overlap where the load closes them.
+/// Given cracks that neither grow nor resist opening: their faces carry the fluid's pressure, and
+/// where they touch, one another.
 template <int dim>
 class Prescribed : public FractureModel<dim>
 {
@@ -25,6 +26,9 @@ public:
     , tip_functions(prm.get_bool("Tip functions"))
     , cell_size(get_quantity(prm, "Cell size", dimension::length))
     , discontinuity(scene.domain_size, 1.)
+    , contact(get_quantity(prm, "Friction coefficient", dimension::number),
+              scene.rock.main().plane_modulus(),
+              scene.domain_size)
   {
     if (scene.cracks.empty())
       throw InputError("The model 'prescribed' needs at least one crack (subsection Cracks).");
@@ -42,6 +46,14 @@ public:
     prm.declare_entry(
       "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
       "Wanted size of the cells along the crack [m]; zero: that of the given mesh.");
+    FaceContact<dim>::declare_parameters(prm);
+  }
+
+  Requirements requirements() const override
+  {
+    Requirements needs;
+    needs.symmetric = !contact.has_friction();
+    return needs;
   }
 
   void setup(const Discretization<dim> &d, const Collectives &collectives) override
@@ -78,8 +90,8 @@ public:
     return {discontinuity.cut_cell(cell->active_cell_index()), nullptr};
   }
 
-  /// The crack releases the in-situ traction of its faces.
-  void assemble(const StepContext &, const State &, Sink &sink) const override
+  /// The crack releases the in-situ traction of its faces, but for what they go on to carry.
+  void assemble(const StepContext &, const State &state, Sink &sink) const override
   {
     LocalSystem local;
     for (const auto &owned : discontinuity.owned_pieces())
@@ -96,7 +108,30 @@ public:
       for (unsigned int i = 0; i < jumps.size(); ++i)
         local.residual(i) = -piece.length() * (jumps[i].second * traction);
       sink.add(local);
+      contact.assemble(discontinuity, owned.crack, owned.piece, state.current.extra, sink);
     }
+  }
+
+  void commit(const StepContext &, const State &state) override
+  {
+    for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+      for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
+        contact.commit(discontinuity, c, i, state.current.extra);
+  }
+
+  std::vector<std::string> take_messages() override
+  {
+    return contact.take_messages();
+  }
+
+  void save(boost::archive::binary_oarchive &archive) const override
+  {
+    archive << contact;
+  }
+
+  void load(boost::archive::binary_iarchive &archive) override
+  {
+    archive >> contact;
   }
 
   void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
@@ -118,6 +153,7 @@ public:
       result.n_tips += path.is_tip[0] + path.is_tip[1];
     }
     result.broken_length = result.length;
+    result.dissipated_energy = contact.work();
 
     const CrackPath<dim> &first = discontinuity.paths().front();
     for (const CrackEnd end : {CrackEnd::last, CrackEnd::first})
@@ -127,8 +163,12 @@ public:
         for (unsigned int c = 1; c < discontinuity.paths().size(); ++c) // clear of other cracks
           for (const auto &piece : discontinuity.paths()[c].pieces)
             r = std::min(r, 0.9 * piece.centre().distance(first.tip(end)));
+        // What the faces carry is not released.
+        Scene<dim> released = scene;
+        released.in_situ_stress = [&](const Point<dim> &x)
+        { return scene.in_situ_stress(x) - carried_stress(0, x, state); };
         const StressIntensity k =
-          stress_intensity(0, end, r, *discretization, discontinuity, scene, state, collectives);
+          stress_intensity(0, end, r, *discretization, discontinuity, released, state, collectives);
         result.stress_intensity_I = k.opening;
         result.stress_intensity_II = k.shear;
         break;
@@ -148,6 +188,10 @@ public:
                                                          {"slip", jump * piece.along},
                                                          {"damage", 1.},
                                                          {"crack", owned.crack + 1.}};
+      const ContactResponse touching =
+        contact.traction(discontinuity, owned.crack, owned.piece, state.current.extra);
+      values.emplace_back("contact_pressure", -touching.normal);
+      values.emplace_back("friction", touching.shear);
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(discontinuity.segment_key(
                                                 owned.crack, owned.piece)));
@@ -156,11 +200,28 @@ public:
   }
 
 private:
+  /// A stress whose traction on the piece with this centre is what its faces exert on one another.
+  dealii::SymmetricTensor<2, dim>
+  carried_stress(const unsigned int crack, const Point<dim> &centre, const State &state) const
+  {
+    const auto &pieces = discontinuity.paths()[crack].pieces;
+    const auto nearest =
+      std::min_element(pieces.begin(), pieces.end(),
+                       [&](const auto &a, const auto &b)
+                       { return a.centre().distance(centre) < b.centre().distance(centre); });
+    const ContactResponse touching =
+      contact.traction(discontinuity, crack, nearest - pieces.begin(), state.current.extra);
+    const Tensor<1, dim> n = nearest->normal(), t = nearest->tangent();
+    return touching.normal * symmetrize(outer_product(n, n)) +
+           2. * touching.shear * symmetrize(outer_product(n, t));
+  }
+
   const Scene<dim> &scene;
   double radius;
   bool tip_functions;
   double cell_size;
   Discontinuity<dim> discontinuity;
+  FaceContact<dim> contact;
   std::unique_ptr<Discretization<dim>> discretization;
   std::vector<Segment<dim>> all_segments;
 };

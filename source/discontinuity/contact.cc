@@ -1,0 +1,150 @@
+#include "discontinuity/contact.h"
+
+#include "stockwork/base/quantity.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace stockwork
+{
+using dealii::Tensor;
+
+template <int dim>
+void FaceContact<dim>::declare_parameters(dealii::ParameterHandler &prm)
+{
+  prm.declare_entry("Friction coefficient", "0", Quantity(dimension::number, Range::non_negative()),
+                    "Coulomb's, between the faces of a crack that touch: shear traction over what "
+                    "presses them together beyond the fluid's pressure. 0: they slide freely.");
+}
+
+
+template <int dim>
+typename FaceContact<dim>::Patch FaceContact<dim>::patch(const Discontinuity<dim> &discontinuity,
+                                                         const unsigned int crack,
+                                                         const unsigned int piece) const
+{
+  const auto &pieces = discontinuity.paths()[crack].pieces;
+  const unsigned int n = pieces.size();
+  Patch patch;
+  patch.first = patch.last = piece;
+  if (n >= 4 && piece < 2 && pieces[0].inside[0])
+    patch.first = 0, patch.last = 1;
+  else if (n >= 4 && piece + 2 >= n && pieces[n - 1].inside[1])
+    patch.first = n - 2, patch.last = n - 1;
+  for (unsigned int i = patch.first; i <= patch.last; ++i)
+    patch.length += pieces[i].length();
+  for (unsigned int i = patch.first; i <= patch.last; ++i)
+    for (const auto &[unknown, unit] : discontinuity.mean_jumps(crack, i))
+    {
+      const auto found = std::find_if(patch.jumps.begin(), patch.jumps.end(),
+                                      [unknown = unknown](const auto &jump)
+                                      { return jump.first == unknown; });
+      const Tensor<1, dim> share = pieces[i].length() / patch.length * unit;
+      if (found == patch.jumps.end())
+        patch.jumps.emplace_back(unknown, share);
+      else
+        found->second += share;
+    }
+  return patch;
+}
+
+
+template <int dim>
+double FaceContact<dim>::slip(const CrackPiece<dim> &piece) const
+{
+  const auto found = slips.find(piece.key(domain_size));
+  return found == slips.end() ? 0. : found->second;
+}
+
+
+template <int dim>
+ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinuity,
+                                           const unsigned int crack,
+                                           const unsigned int index,
+                                           const std::vector<double> &extra,
+                                           const double broken) const
+{
+  const Patch patch = this->patch(discontinuity, crack, index);
+  const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[patch.first];
+  Tensor<1, dim> jump;
+  for (const auto &[unknown, unit] : patch.jumps)
+    jump += extra[unknown] * unit;
+  const ContactLaw law{1000. * plane_modulus / piece.cell_size(), friction};
+  return law.evaluate(jump * piece.normal(), jump * piece.tangent(),
+                      has_friction() ? slip(piece) : 0., broken);
+}
+
+
+template <int dim>
+void FaceContact<dim>::assemble(const Discontinuity<dim> &discontinuity,
+                                const unsigned int crack,
+                                const unsigned int index,
+                                const std::vector<double> &extra,
+                                Sink &sink,
+                                const double broken) const
+{
+  const auto [first, last, length, jumps] = patch(discontinuity, crack, index);
+  const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  if (index != first || response.normal == 0.)
+    return;
+  const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[index];
+  const Tensor<1, dim> n = piece.normal(), t = piece.tangent();
+  const Tensor<1, dim> force = length * (response.normal * n + response.shear * t);
+  Tensor<2, dim> stiffness;
+  const auto &k = response.tangent;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      stiffness[i][j] = length * (n[i] * (k[0][0] * n[j] + k[0][1] * t[j]) +
+                                          t[i] * (k[1][0] * n[j] + k[1][1] * t[j]));
+  LocalSystem local;
+  for (const auto &[unknown, unit] : jumps)
+    local.extra.push_back(unknown);
+  local.reinit();
+  for (unsigned int i = 0; i < jumps.size(); ++i)
+  {
+    local.residual(i) = jumps[i].second * force;
+    if (sink.wants_matrix())
+      for (unsigned int j = 0; j < jumps.size(); ++j)
+        local.matrix(i, j) = jumps[i].second * (stiffness * jumps[j].second);
+  }
+  sink.add(local);
+}
+
+
+template <int dim>
+void FaceContact<dim>::commit(const Discontinuity<dim> &discontinuity,
+                              const unsigned int crack,
+                              const unsigned int index,
+                              const std::vector<double> &extra,
+                              const double broken)
+{
+  const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  touched = touched || (response.normal < 0. && broken >= 1.);
+  const Patch patch = this->patch(discontinuity, crack, index);
+  if (!has_friction() || index != patch.first)
+    return;
+  const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[index];
+  double &committed = slips[piece.key(domain_size)];
+  friction_work += patch.length * response.shear * (response.slip - committed);
+  committed = response.slip;
+}
+
+
+template <int dim>
+std::vector<std::string> FaceContact<dim>::take_messages()
+{
+  if (!touched || said)
+    return {};
+  said = true;
+  std::ostringstream text;
+  text << "Faces of a crack touch. ";
+  if (has_friction())
+    text << "The coefficient of their friction is " << friction << ".";
+  else
+    text << "They slide without friction, for 'Friction coefficient' is 0.";
+  return {text.str()};
+}
+
+
+template class FaceContact<2>;
+} // namespace stockwork

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <boost/serialization/unordered_map.hpp>
+
+#include "discontinuity/contact_law.h"
+#include "discontinuity/discontinuity.h"
+#include "stockwork/fracture/sink.h"
+#include "stockwork/fracture/state.h"
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace stockwork
+{
+/// Keeps the faces of cracks from passing through one another, and lets them rub (contact_law.h).
+///
+/// Each piece has one gap, its mean aperture, which is the fluid's as well: as many conditions as
+/// pieces, for as many jumps of displacement along the crack, so that the tractions do not
+/// oscillate. A piece that ends in its cell has no jumps of its own but those of the tip's
+/// functions, which reach over half the crack; it shares the gap of the piece before. The penalty is a thousand times the stiffness of the rock over a cell, 1000 E'/h:
+/// under the stress S faces overlap by h S/(1000 E'), less than a thousandth of a per cent of h.
+template <int dim>
+class FaceContact
+{
+public:
+  /// @param friction coefficient
+  /// @param plane_modulus E' of the rock [Pa]
+  FaceContact(const double friction, const double plane_modulus, const double domain_size)
+    : friction(friction)
+    , plane_modulus(plane_modulus)
+    , domain_size(domain_size)
+  {
+  }
+
+  /// "Friction coefficient" of a model's subsection.
+  static void declare_parameters(dealii::ParameterHandler &prm);
+
+  bool has_friction() const
+  {
+    return friction > 0.;
+  }
+
+  /// What the faces of a piece exert on one another.
+  /// @param broken see ContactLaw::evaluate
+  ContactResponse traction(const Discontinuity<dim> &discontinuity,
+                           unsigned int crack,
+                           unsigned int piece,
+                           const std::vector<double> &extra,
+                           double broken = 1.) const;
+
+  /// Add the tractions of a piece.
+  void assemble(const Discontinuity<dim> &discontinuity,
+                unsigned int crack,
+                unsigned int piece,
+                const std::vector<double> &extra,
+                Sink &sink,
+                double broken = 1.) const;
+
+  /// The step is accepted: its slip on a piece is what it was.
+  void commit(const Discontinuity<dim> &discontinuity,
+              unsigned int crack,
+              unsigned int piece,
+              const std::vector<double> &extra,
+              double broken = 1.);
+
+  /// Done against friction since the start [J/m].
+  double work() const
+  {
+    return friction_work;
+  }
+
+  /// That broken faces have touched for the first time, and how they slide; else empty.
+  std::vector<std::string> take_messages();
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &slips &friction_work &touched &said;
+  }
+
+private:
+  /// Pieces that share a gap; it opens by the jumps, in the frame of the first.
+  struct Patch
+  {
+    unsigned int first = 0, last = 0; ///< pieces
+    double length = 0.;               ///< [m]
+    std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> jumps;
+  };
+  Patch patch(const Discontinuity<dim> &discontinuity, unsigned int crack, unsigned int piece) const;
+
+  double slip(const CrackPiece<dim> &piece) const;
+
+  double friction, plane_modulus, domain_size;
+
+  // Committed, the same on all ranks.
+  std::unordered_map<std::uint64_t, double> slips; ///< by key of the piece [m]
+  double friction_work = 0.;
+  bool touched = false, said = false;
+};
+} // namespace stockwork

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stockwork
+{
+/// Traction between the faces of a crack that touch, on the plus side, positive in tension and along
+/// the crack.
+struct ContactResponse
+{
+  double normal = 0.;                           ///< never positive [Pa]
+  double shear = 0.;                            ///< [Pa]
+  std::array<std::array<double, 2>, 2> tangent; ///< d(normal, shear)/d(gap, shear gap) [Pa/m]
+  double slip = 0.;                             ///< trial value of the irreversible shear gap [m]
+};
+
+/// Unilateral contact with Coulomb's friction, by a penalty K,
+///
+///   t_n = K min(g, 0),   t_s = K (s - s_p),   |t_s| <= mu |t_n|,
+///
+/// where the slip s_p is what it was, unless the bound is reached: then it follows (backward Euler;
+/// Wriggers 2006, section 5.2). Open faces slip with no traction, so those that close again stick
+/// where they are. As t_n is what the faces carry and not the fluid between them, this is friction
+/// by effective stress.
+struct ContactLaw
+{
+  double stiffness; ///< K [Pa/m]
+  double friction;  ///< mu
+
+  /// @param gap, shear_gap of the faces [m]
+  /// @param slip the committed one [m]
+  /// @param broken share of the area that rubs; the rest holds by other laws (Alfano and Sacco 2006)
+  ContactResponse evaluate(const double gap,
+                           const double shear_gap,
+                           const double slip,
+                           const double broken = 1.) const
+  {
+    ContactResponse response;
+    const bool closed = gap < 0.;
+    response.normal = closed ? stiffness * gap : 0.;
+    response.tangent = {{{{closed ? stiffness : 0., 0.}}, {{0., 0.}}}};
+    const double bound = -broken * friction * response.normal;
+    const double trial = stiffness * (shear_gap - slip);
+    if (std::abs(trial) < bound)
+    {
+      response.shear = trial;
+      response.tangent[1][1] = stiffness;
+      response.slip = slip;
+    }
+    else
+    {
+      response.shear = std::copysign(bound, trial);
+      if (closed)
+        response.tangent[1][0] = -std::copysign(broken * friction * stiffness, trial);
+      response.slip = shear_gap - response.shear / stiffness;
+    }
+    return response;
+  }
+};
+} // namespace stockwork
