@@ -130,6 +130,14 @@ std::map<std::string, double> Report<dim>::observe()
   values["fracture_volume"] = balance.fracture_volume;
   values["injected_volume"] = balance.total.injected - balance.total.outflow;
   values["leaked_volume"] = balance.total.leaked;
+  if (!network.segments().empty())
+  {
+    // Below zero, faces have passed through one another.
+    const auto apertures = network.apertures(state.current, system.collectives());
+    const auto [least, greatest] = std::minmax_element(apertures.begin(), apertures.end());
+    values["least_aperture"] = *least;
+    values["greatest_aperture"] = *greatest;
+  }
   const auto wells = network.wells(stepper.last_context(), state, system.collectives());
   if (!wells.empty())
   {
@@ -140,11 +148,6 @@ std::map<std::string, double> Report<dim>::observe()
     shown.least_pressure = -system.collectives().max(
       pressures.empty() ? -1e300 : -*std::min_element(pressures.begin(), pressures.end()));
     values["least_pressure"] = shown.least_pressure;
-    // Of segments: below zero, faces have passed through one another.
-    const auto apertures = network.apertures(state.current, system.collectives());
-    const auto [least, greatest] = std::minmax_element(apertures.begin(), apertures.end());
-    values["least_aperture"] = *least;
-    values["greatest_aperture"] = *greatest;
     // Over the in-situ stress across the fracture, which is what analytical solutions call p.
     const auto &inlet = network.segments()[wells[0].inlet_segment];
     values["net_inlet_pressure"] =
@@ -165,9 +168,9 @@ std::map<std::string, double> Report<dim>::observe()
     {
       std::ostringstream text;
       text << "From t = " << time << " s on, the well '" << wells[w].name
-           << "' gives less than it should, " << -wells[w].rate << " of "
-           << -wells[w].wanted_rate << (dim == 2 ? " m^2/s" : " m^3/s")
-           << ": its pressure is at its least, " << wells[w].borehole_pressure << " Pa.";
+           << "' gives less than it should, " << -wells[w].rate << " of " << -wells[w].wanted_rate
+           << (dim == 2 ? " m^2/s" : " m^3/s") << ": its pressure is at its least, "
+           << wells[w].borehole_pressure << " Pa.";
       run.warn(text.str());
     }
   }

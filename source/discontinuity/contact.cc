@@ -24,21 +24,32 @@ typename FaceContact<dim>::Patch FaceContact<dim>::patch(const Discontinuity<dim
                                                          const unsigned int piece) const
 {
   const auto &pieces = discontinuity.paths()[crack].pieces;
-  const unsigned int n = pieces.size();
+  const auto &spans = discontinuity.spans(crack);
+  const unsigned int n = spans.size();
+  const unsigned int span =
+    std::find_if(spans.begin(), spans.end(), [piece](const auto &s) { return piece <= s.last; }) -
+    spans.begin();
   Patch patch;
-  patch.first = patch.last = piece;
-  if (n >= 4 && piece < 2 && pieces[0].inside[0])
-    patch.first = 0, patch.last = 1;
-  else if (n >= 4 && piece + 2 >= n && pieces[n - 1].inside[1])
-    patch.first = n - 2, patch.last = n - 1;
+  patch.first = spans[span].first;
+  patch.last = spans[span].last;
+  if (n >= 4 && span < 2 && pieces.front().inside[0])
+  {
+    patch.first = 0;
+    patch.last = spans[1].last;
+  }
+  else if (n >= 4 && span + 2 >= n && pieces.back().inside[1])
+  {
+    patch.first = spans[n - 2].first;
+    patch.last = pieces.size() - 1;
+  }
   for (unsigned int i = patch.first; i <= patch.last; ++i)
     patch.length += pieces[i].length();
   for (unsigned int i = patch.first; i <= patch.last; ++i)
     for (const auto &[unknown, unit] : discontinuity.mean_jumps(crack, i))
     {
-      const auto found = std::find_if(patch.jumps.begin(), patch.jumps.end(),
-                                      [unknown = unknown](const auto &jump)
-                                      { return jump.first == unknown; });
+      const auto found =
+        std::find_if(patch.jumps.begin(), patch.jumps.end(),
+                     [unknown = unknown](const auto &jump) { return jump.first == unknown; });
       const Tensor<1, dim> share = pieces[i].length() / patch.length * unit;
       if (found == patch.jumps.end())
         patch.jumps.emplace_back(unknown, share);
@@ -70,8 +81,8 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   for (const auto &[unknown, unit] : patch.jumps)
     jump += extra[unknown] * unit;
   const ContactLaw law{1000. * plane_modulus / piece.cell_size(), friction};
-  return law.evaluate(jump * piece.normal(), jump * piece.tangent(),
-                      has_friction() ? slip(piece) : 0., broken);
+  return law.evaluate(jump * piece.normal(), jump * piece.along, has_friction() ? slip(piece) : 0.,
+                      broken);
 }
 
 
@@ -83,19 +94,20 @@ void FaceContact<dim>::assemble(const Discontinuity<dim> &discontinuity,
                                 Sink &sink,
                                 const double broken) const
 {
-  const auto [first, last, length, jumps] = patch(discontinuity, crack, index);
+  const Patch patch = this->patch(discontinuity, crack, index);
   const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
-  if (index != first || response.normal == 0.)
+  if (index != patch.first || response.normal == 0.)
     return;
   const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[index];
-  const Tensor<1, dim> n = piece.normal(), t = piece.tangent();
-  const Tensor<1, dim> force = length * (response.normal * n + response.shear * t);
+  const Tensor<1, dim> n = piece.normal(), t = piece.along;
+  const Tensor<1, dim> force = patch.length * (response.normal * n + response.shear * t);
   Tensor<2, dim> stiffness;
   const auto &k = response.tangent;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
-      stiffness[i][j] = length * (n[i] * (k[0][0] * n[j] + k[0][1] * t[j]) +
-                                          t[i] * (k[1][0] * n[j] + k[1][1] * t[j]));
+      stiffness[i][j] = patch.length * (n[i] * (k[0][0] * n[j] + k[0][1] * t[j]) +
+                                        t[i] * (k[1][0] * n[j] + k[1][1] * t[j]));
+  const auto &jumps = patch.jumps;
   LocalSystem local;
   for (const auto &[unknown, unit] : jumps)
     local.extra.push_back(unknown);

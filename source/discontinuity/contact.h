@@ -15,11 +15,12 @@ namespace stockwork
 {
 /// Keeps the faces of cracks from passing through one another, and lets them rub (contact_law.h).
 ///
-/// Each piece has one gap, its mean aperture, which is the fluid's as well: as many conditions as
-/// pieces, for as many jumps of displacement along the crack, so that the tractions do not
-/// oscillate. A piece that ends in its cell has no jumps of its own but those of the tip's
-/// functions, which reach over half the crack; it shares the gap of the piece before. The penalty is a thousand times the stiffness of the rock over a cell, 1000 E'/h:
-/// under the stress S faces overlap by h S/(1000 E'), less than a thousandth of a per cent of h.
+/// Each span has one gap, its mean aperture, which is the fluid's as well: as many conditions as
+/// there are independent jumps of displacement along the crack, so that the tractions do not
+/// oscillate. A span that ends in its cell has no jumps of its own but those of the tip's
+/// functions, which reach over half the crack; it shares the gap of the span before. The penalty is
+/// a thousand times the stiffness of the rock over a cell, 1000 E'/h: under the stress S faces
+/// overlap by h S/(1000 E'), less than a thousandth of a per cent of h.
 template <int dim>
 class FaceContact
 {
@@ -80,21 +81,22 @@ public:
   }
 
 private:
-  /// Pieces that share a gap; it opens by the jumps, in the frame of the first.
+  /// Pieces that share a gap, which opens by the jumps.
   struct Patch
   {
     unsigned int first = 0, last = 0; ///< pieces
     double length = 0.;               ///< [m]
     std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> jumps;
   };
-  Patch patch(const Discontinuity<dim> &discontinuity, unsigned int crack, unsigned int piece) const;
+  Patch
+  patch(const Discontinuity<dim> &discontinuity, unsigned int crack, unsigned int piece) const;
 
-  double slip(const CrackPiece<dim> &piece) const;
+  double slip(const CrackPiece<dim> &first_of_patch) const;
 
   double friction, plane_modulus, domain_size;
 
   // Committed, the same on all ranks.
-  std::unordered_map<std::uint64_t, double> slips; ///< by key of the piece [m]
+  std::unordered_map<std::uint64_t, double> slips; ///< by key of the first piece [m]
   double friction_work = 0.;
   bool touched = false, said = false;
 };

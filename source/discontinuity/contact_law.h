@@ -6,8 +6,8 @@
 
 namespace stockwork
 {
-/// Traction between the faces of a crack that touch, on the plus side, positive in tension and along
-/// the crack.
+/// Traction between the faces of a crack that touch, on the plus side, positive in tension and
+/// along the crack.
 struct ContactResponse
 {
   double normal = 0.;                           ///< never positive [Pa]
@@ -31,7 +31,8 @@ struct ContactLaw
 
   /// @param gap, shear_gap of the faces [m]
   /// @param slip the committed one [m]
-  /// @param broken share of the area that rubs; the rest holds by other laws (Alfano and Sacco 2006)
+  /// @param broken share of the area that rubs; the rest holds by other laws (Alfano and Sacco
+  /// 2006)
   ContactResponse evaluate(const double gap,
                            const double shear_gap,
                            const double slip,

@@ -180,8 +180,8 @@ private:
     /// What flows through the perforations and stays in the borehole [m^3/s].
     double flow(const StepContext &context, const State &state, double compressibility) const;
 
-    /// At the least pressure, less than the given rate can be taken: of both conditions the one that
-    /// is nearer to being violated holds (an active set; Hintermueller, Ito and Kunisch 2003).
+    /// At the least pressure, less than the given rate can be taken: of both conditions the one
+    /// that is nearer to being violated holds (an active set; Hintermueller, Ito and Kunisch 2003).
     bool is_dry(const StepContext &context, const State &state, double compressibility) const
     {
       return is_bounded() &&

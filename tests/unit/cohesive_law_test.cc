@@ -78,13 +78,16 @@ TEST_CASE("initiation is quadratic")
   }
 }
 
-TEST_CASE("unloading goes to the origin, contact is undamaged, compression does no damage")
+TEST_CASE(
+  "unloading goes to the origin, broken faces are left to contact, compression does no damage")
 {
   const auto loaded = law.evaluate({1e-4, 0.}, 0.);
   const auto half = law.evaluate({0.5e-4, 0.}, loaded.damage);
   CHECK(half.damage == loaded.damage);
   CHECK(half.traction.normal == doctest::Approx(0.5 * loaded.traction.normal));
-  CHECK(law.evaluate({-1e-5, 0.}, 1.).traction.normal == doctest::Approx(-1e-5 * law.stiffness));
+  CHECK(law.evaluate({-1e-5, 0.}, 1.).traction.normal == 0.);
+  CHECK(law.evaluate({-1e-5, 0.}, 1.).tangent[0][0] == 0.);
+  CHECK(law.evaluate({-1e-5, 0.}, 0.3).traction.normal == doctest::Approx(-0.7e-5 * law.stiffness));
   CHECK(law.evaluate({-1., 0.}, 0.).damage == 0.);
 }
 

@@ -52,8 +52,8 @@ TEST_CASE("friction never gives work")
   double slip = 0., work = 0.;
   for (unsigned int i = 1; i <= 200; ++i)
   {
-    const auto response = law.evaluate(-1e-5 * (1. + std::sin(0.3 * i)), 1e-4 * std::sin(0.1 * i),
-                                       slip);
+    const auto response =
+      law.evaluate(-1e-5 * (1. + std::sin(0.3 * i)), 1e-4 * std::sin(0.1 * i), slip);
     const double done = response.shear * (response.slip - slip);
     CHECK(done >= 0.);
     work += done;

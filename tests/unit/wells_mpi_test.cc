@@ -95,9 +95,9 @@ TEST_CASE("without an entry the bound is vacuum, or where the fluid boils; an in
 TEST_CASE("two perforations, one of them far from what is left")
 {
   Chain chain(6);
-  chain.set_up(well("0 s: 1e-4 m^2/s; 10 s: -1e-4 m^2/s",
-                    {{"Wells/Well 1/Perforations", "0.25, 0; 0.75, 0"},
-                     {"Wells/Well 1/Least pressure", "20 kPa"}}));
+  chain.set_up(
+    well("0 s: 1e-4 m^2/s; 10 s: -1e-4 m^2/s", {{"Wells/Well 1/Perforations", "0.25, 0; 0.75, 0"},
+                                                {"Wells/Well 1/Least pressure", "20 kPa"}}));
   for (unsigned int i = 0; i < 10; ++i)
     chain.step(1.);
   for (unsigned int i = 0; i < 10; ++i)

@@ -431,8 +431,8 @@ void CohesiveXFEM<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
                                                        {"slip", shear},
                                                        {"damage", mean_damage},
                                                        {"crack", owned.crack + 1.}};
-    const ContactResponse touching = contact.traction(
-      discontinuity, owned.crack, owned.piece, state.current.extra, broken_share(piece));
+    const ContactResponse touching = contact.traction(discontinuity, owned.crack, owned.piece,
+                                                      state.current.extra, broken_share(piece));
     values.emplace_back("contact_pressure", -touching.normal);
     values.emplace_back("friction", touching.shear);
     if (state.segment_pressure)

@@ -25,12 +25,13 @@ struct CohesiveResponse
 /// A bilinear cohesive law: traction rises with stiffness K to the strength, then falls linearly to
 /// zero, dissipating G_c; unloading goes to the origin.
 ///
-///   t_n = (1-D) K d_n in opening, K d_n in contact;  t_s = (1-D) K d_s;
+///   t_n = (1-D) K d_n;  t_s = (1-D) K d_s;
 ///   D = d_f (d - d_0) / (d (d_f - d_0)),  d = sqrt(<d_n>^2 + d_s^2)
 ///
 /// Damage starts when (<t_n>/T)^2 + (t_s/S)^2 = 1. The dissipation in mixed mode is
 /// G_c = G_I + (G_II - G_I) B^eta (Benzeggagh and Kenane 1996), where B is the share of shear in
 /// the work done; as both modes have the same stiffness, B = d_s^2/d^2 (Camanho and Davila 2002).
+/// Between broken faces the law has nothing to say: they touch by contact_law.h.
 /// The history is the damage itself and not the largest separation, so damage never heals when the
 /// mode changes.
 struct CohesiveLaw
@@ -144,9 +145,9 @@ inline CohesiveResponse CohesiveLaw::evaluate(const NormalShear &separation,
   }
   else
   {
-    response.traction.normal = K * separation.normal;
-    response.tangent[0][0] = K;
-    response.tangent[0][1] = 0.;
+    response.traction.normal = kept * K * separation.normal;
+    response.tangent[0][0] = kept * K;
+    response.tangent[0][1] = separation.normal < 0. ? -damage_s * K * separation.normal : 0.;
   }
   response.traction.shear = kept * K * s;
   response.tangent[1][0] = -damage_n * K * s;

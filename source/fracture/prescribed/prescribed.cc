@@ -211,7 +211,7 @@ private:
                        { return a.centre().distance(centre) < b.centre().distance(centre); });
     const ContactResponse touching =
       contact.traction(discontinuity, crack, nearest - pieces.begin(), state.current.extra);
-    const Tensor<1, dim> n = nearest->normal(), t = nearest->tangent();
+    const Tensor<1, dim> n = nearest->normal(), t = nearest->along;
     return touching.normal * symmetrize(outer_product(n, n)) +
            2. * touching.shear * symmetrize(outer_product(n, t));
   }

@@ -1,0 +1,21 @@
+# Faces that touch and rub.
+# A closed crack turned against the mesh, whose faces overlap by less than a thousandth of the slip: slip, K_II and the work of friction of the exact solution
+# (prm/cases/closed.part.prm); with another coefficient they are others, with a great one it sticks.
+foreach(angle 0 20 27)
+  set(deck prm/closed/${angle}/prescribed.prm)
+  stockwork_case_test(NAME convergence/closed/${angle} DECK ${deck} SET "Resolution=coarse"
+    EXPECT "final/stress_intensity_II = 4.49949e7 within 0.01"
+           "final/dissipated_energy = 40396 within 0.01"
+           "final/stress_intensity_I > -4.5e5" "final/stress_intensity_I < 4.5e5"
+           "least/least_aperture > -3.8e-6")
+  stockwork_case_test(NAME convergence/closed/${angle}/frictionless DECK ${deck}
+    SET "Resolution=coarse" "Fracture/prescribed/Friction coefficient=0"
+    WARNS "They slide without friction"
+    EXPECT "final/stress_intensity_II = 5.69656e7 within 0.01" "final/dissipated_energy == 0")
+  stockwork_case_test(NAME convergence/closed/${angle}/sticks DECK ${deck}
+    SET "Resolution=coarse" "Fracture/prescribed/Friction coefficient=3"
+    EXPECT "final/stress_intensity_II < 4.5e5" "final/stress_intensity_II > -4.5e5"
+           "final/dissipated_energy < 40")
+endforeach()
+stockwork_same_test(NAME parallel/closed DECK prm/closed/27/prescribed.prm
+  SET "Resolution=coarse" RANKS 1,2 TOLERANCE 1e-8 IGNORE balance_error)
