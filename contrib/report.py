@@ -22,9 +22,14 @@ def report(summary):
     """The lines of the table."""
     errors, final = summary.get("errors", {}), summary.get("final", {})
     rows = [("quantity at the end", "computed", "reference", "error", "mean error")]
+    beside = [n for n in ("fracture_length", "broken_length") if n in final and "equivalent_length" in errors]
     others = [n for n in final if n not in errors and not n.startswith(("error_", "reference_"))
               and n not in ("step", "time", "time_step", "fluid_balance_error")]
-    for name in [*errors, *others]:
+    names = [*errors, *(n for n in others if n not in beside)]
+    if beside:  # what the compared length lies between
+        place = names.index("equivalent_length") + 1
+        names[place:place] = beside
+    for name in names:
         error = errors.get(name, {})
         rows.append((name, show(final.get(name)), show(final.get("reference_" + name)),
                      percent(error.get("final")), percent(error.get("mean"))))
@@ -37,10 +42,12 @@ def report(summary):
     if balance.get("injected"):
         lines.append(f"fluid: {show(balance['injected'])} injected, balanced to "
                      f"{balance.get('relative_error', float('nan')):.1e}")
-    wall = summary.get("wall_seconds", {}).get("total")
+    wall, work = summary.get("wall_seconds", {}).get("total"), summary.get("cpu_seconds")
     lines.append(f"{summary.get('case', '')} ({summary.get('fracture_model', '')}): "
                  f"{summary.get('steps')} steps, {summary.get('unknowns')} unknowns, "
-                 f"{show(wall)} s on {summary.get('ranks')} rank(s)")
+                 f"{show(wall)} s ({show(work)} s of CPU time) on {summary.get('ranks')} rank(s)")
+    if summary.get("deck"):
+        lines.append(f"{summary['deck']}, {summary.get('date', '')}, {summary.get('machine', '')}")
     lines += [f"warning: {text}" for text in summary.get("warnings", [])]
     return lines
 

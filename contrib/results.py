@@ -18,6 +18,25 @@ def read_statistics(directory):
     return {name: [_number(row[i] if i < len(row) else "") for row in rows[1:]] for i, name in enumerate(names)}
 
 
+def read_deck(directory):
+    """effective.prm as {"Section/Entry": value}; empty if there is none."""
+    entries, path = {}, []
+    try:
+        with open(os.path.join(directory, "effective.prm"), encoding="utf-8") as file:
+            lines = [line.split("#")[0].strip() for line in file]
+    except OSError:
+        return entries
+    for line in lines:
+        if line.startswith("subsection "):
+            path.append(line[len("subsection "):].strip())
+        elif line == "end":
+            path.pop()
+        elif line.startswith("set ") and "=" in line:
+            name, value = line[len("set "):].split("=", 1)
+            entries["/".join([*path, name.strip()])] = value.strip()
+    return entries
+
+
 def lookup(data, path):
     """The entry `a/b/c` of nested dictionaries and lists; a KeyError says what there is instead."""
     here = data

@@ -12,6 +12,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <filesystem>
 #include <iostream>
 
 namespace stockwork
@@ -67,6 +68,7 @@ int run_program(const CommandLine &command_line, RunContext &run)
       run.warn(warning);
 
     SimulationOptions options;
+    options.deck = std::filesystem::absolute(command_line.deck).string();
     options.output_directory = prm.get("Output directory");
     options.check_only = command_line.action == CommandLine::Action::check;
     options.restart = command_line.restart;

@@ -75,6 +75,7 @@ std::map<std::string, double> Report<dim>::observe()
   const FractureSummary summary = model.summary(state, system.collectives());
   values["fracture_length"] = summary.length;
   values["broken_length"] = summary.broken_length;
+  values["equivalent_length"] = 0.5 * (summary.length + summary.broken_length);
   values["dissipated_energy"] = summary.dissipated_energy;
   if (summary.stress_intensity_I)
     values["stress_intensity_I"] = *summary.stress_intensity_I;
@@ -271,6 +272,9 @@ void Report<dim>::finish(const unsigned long n_cells)
   const FluidVolumes &total = stepper.fluid_balance().total;
   summary.case_name = case_name;
   summary.fracture_model = model_name;
+  summary.deck = deck;
+  summary.machine = machine();
+  summary.date = utc_date();
   summary.ranks = run.n_ranks;
   summary.fluid_balance.injected = total.injected;
   summary.fluid_balance.in_fractures = total.in_fractures;
@@ -278,6 +282,7 @@ void Report<dim>::finish(const unsigned long n_cells)
   summary.cells = n_cells;
   summary.unknowns = system.n_unknowns();
   summary.wall_seconds = run.timers.seconds(run.communicator);
+  summary.cpu_seconds = cpu_seconds(run.communicator);
   summary.peak_memory_bytes = peak_memory(run.communicator);
   summary.warnings = run.warnings;
   if (run.rank == 0)

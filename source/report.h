@@ -38,6 +38,7 @@ public:
          const std::string &directory);
 
   std::string case_name, model_name;
+  std::string deck; ///< its path
 
   /// Open statistics.csv; after a restart keep its rows up to `time`.
   void open(bool restarted, double time);

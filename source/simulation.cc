@@ -176,6 +176,7 @@ Simulation<dim>::Simulation(RunContext &run,
   system.is_interrupted = [&run]() { return stop_requested(run.communicator); };
   report.case_name = the_case.name;
   report.model_name = the_case.model_name;
+  report.deck = options.deck;
   fields.parse_parameters(prm);
   schedule.parse_parameters(prm);
   if (options.restart && !checkpoint.exists())

@@ -12,6 +12,7 @@ namespace stockwork
 {
 struct SimulationOptions
 {
+  std::string deck; ///< its path, for people
   std::string output_directory;
   bool check_only = false;
   bool restart = false;

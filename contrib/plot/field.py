@@ -4,7 +4,9 @@
     field.py DIRECTORY [--field pore_pressure] [--component yy] [--time T...] [--warp FACTOR]
              [--window x0,x1,y0,y1] [--mirror] [--fluid] [--output FILE.png]
 
-Several times are drawn side by side. --fluid fills the opening with the pressure of the fluid, in
+What has a sign (components of stress, displacement, flux) is drawn in colours that part at zero, or
+at the stress in situ where the deck gives one. Cells that the fracture has opened, or whose bonds
+are broken, have no stress of their own and are left grey. Several times are drawn side by side. --fluid fills the opening with the pressure of the fluid, in
 the colours of the pore pressure; otherwise it is white.
 Without --window, what surrounds the fracture is shown (without a fracture, everything). --warp is
 the factor on displacement and opening; by default the greatest opening is drawn as 6 % of the
@@ -12,6 +14,7 @@ window's height. --mirror adds the mirror image at x = 0 of a half model.
 """
 import argparse
 import os
+import re
 import sys
 
 import matplotlib
@@ -19,9 +22,12 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
+from matplotlib.tri import Triangulation  # noqa: E402
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..")]
 import vtu  # noqa: E402
+from results import read_deck  # noqa: E402
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "xy": 1, "xz": 2, "yx": 3, "yy": 4, "yz": 5,
               "zx": 6, "zy": 7, "zz": 8}
@@ -39,6 +45,65 @@ def choose(grid, name, component):
     if values.ndim == 2:
         values = values[:, COMPONENTS[component]] if component else np.linalg.norm(values, axis=1)
     return values, name in grid.point_data
+
+
+def neutral(options):
+    """The value in the middle of the colours, in the unit drawn; None where nothing has a sign."""
+    if options.component is None:
+        return None
+    if options.field != "total_stress":
+        return 0.
+    deck = read_deck(options.directory)
+    if deck.get("In situ/Stress gradient"):
+        return 0.
+    names = ["xx", "yy", "xy"] if deck.get("Dimension", "2") == "2" else ["xx", "yy", "zz", "xy", "xz", "yz"]
+    given = dict(zip(names, deck.get("In situ/Stress", "").split(",")))
+    return pascals(given.get(options.component, "")) * UNITS["total_stress"][1]
+
+
+def pascals(text):
+    """A stress as decks have it, with a prefix or none; zero if it is anything else."""
+    match = re.fullmatch(r"\s*([-+0-9.eE]+)\s*([kMG]?)Pa\s*|\s*([-+0-9.eE]+)\s*", text)
+    if not match:
+        return 0.
+    return float(match[1] or match[3]) * {"k": 1e3, "M": 1e6, "G": 1e9}.get(match[2], 1.)
+
+
+def opened(polygons, lines):
+    """Which quadrilaterals (n, 4, 2), sides along the axes or nearly, hold a piece of line."""
+    low, high = polygons.min(axis=1), polygons.max(axis=1)
+    inside = np.zeros(len(polygons), bool)
+    for place in (lines.mean(axis=1), 0.9 * lines[:, 0] + 0.1 * lines[:, 1],
+                  0.1 * lines[:, 0] + 0.9 * lines[:, 1]):
+        for point in place:
+            inside |= ((point > low) & (point < high)).all(axis=1)
+    return inside
+
+
+def at_corners(grid, corners, cells, values, at_points, broken):
+    """A value at each corner of each cell: of a field that is written by cells, or with a jump from
+    cell to cell, the mean of those around that are whole and of the same rock."""
+    own = values[corners] if at_points else np.repeat(values[cells][:, None], 4, axis=1)
+    keys = np.round(grid.points[corners][:, :, :2] / np.ptp(grid.points, axis=0).max(), 9)
+    rock = grid.point_data.get("region")
+    rock = np.zeros(corners.shape) if rock is None else rock[corners]
+    keys = np.concatenate([keys, rock[:, :, None], np.repeat(broken[:, None], 4, axis=1)[:, :, None]], axis=2)
+    _, place = np.unique(keys.reshape(-1, 4), axis=0, return_inverse=True)
+    place = place.ravel()
+    mean = np.bincount(place, own.ravel()) / np.bincount(place)
+    return mean[place].reshape(own.shape)
+
+
+def smooth(ax, polygons, colour):
+    """Quadrilaterals (n, 4, 2) with a value at each corner, shaded: four triangles each."""
+    n = len(polygons)
+    points = np.concatenate([polygons.reshape(-1, 2), polygons.mean(axis=1)])
+    values = np.concatenate([colour.ravel(), colour.mean(axis=1)])
+    corner = np.arange(4 * n).reshape(n, 4)
+    triangles = np.stack([corner, np.roll(corner, -1, axis=1),
+                          np.repeat(4 * n + np.arange(n)[:, None], 4, axis=1)], axis=2)
+    return ax.tripcolor(Triangulation(*points.T, triangles.reshape(-1, 3)), values, shading="gouraud",
+                        rasterized=True)
 
 
 def fracture_lines(fracture):
@@ -101,34 +166,39 @@ def panel(ax, options, time):
     if "displacement" in grid.point_data:
         moved += warp * grid.point_data["displacement"][:, :2]
     factor = UNITS.get(options.field, ("-", 1.))[1]
-    colour = factor * (values[corners].mean(axis=1) if at_points else values[cells])
+    broken = opened(grid.points[corners][:, :, :2], lines[is_open(aperture)])
+    if "damage" in grid.point_data:  # elements know nothing of the bonds that have gone
+        broken |= grid.point_data["damage"][corners].mean(axis=1) > 0.05
+    colour = factor * at_corners(grid, corners, cells, values, at_points, broken)
 
     polygons = moved[corners]
     faces = lines
     if options.mirror:
         flip = np.array([-1., 1.])
         polygons = np.concatenate([polygons, polygons * flip])
-        colour = np.concatenate([colour, colour])
+        colour, broken = np.concatenate([colour, colour]), np.concatenate([broken, broken])
         faces, aperture = np.concatenate([faces, faces * flip]), np.concatenate([aperture] * 2)
         pressure = None if pressure is None else np.concatenate([pressure] * 2)
         window = (-window[1], window[1], window[2], window[3])
-    shown = [ax.add_collection(PolyCollection(polygons, array=colour, cmap="viridis",
-                                              antialiaseds=False, rasterized=True))]
+    shown = [smooth(ax, polygons[~broken], colour[~broken])]
+    if broken.any():
+        ax.add_collection(PolyCollection(polygons[broken], facecolors="0.8", edgecolors="0.8",
+                                         linewidths=0.3))
     if len(faces):
         tangent = faces[:, 1] - faces[:, 0]
         normal = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
         normal /= np.linalg.norm(normal, axis=1)[:, None]
         half = (0.5 * warp * np.maximum(aperture, 0.))[:, None] * normal
         upper, lower = faces + half[:, None], faces - half[:, None]
-        closed, opened = ~is_open(aperture), is_open(aperture)
+        closed, wide = ~is_open(aperture), is_open(aperture)
         ax.add_collection(LineCollection(faces[closed], colors="0.6", linewidths=0.8))
-        upper, lower = upper[opened], lower[opened]
+        upper, lower = upper[wide], lower[wide]
         inside = np.concatenate([upper, lower[:, ::-1]], axis=1)
         if pressure is None:
             ax.add_collection(PolyCollection(inside, facecolors="white", edgecolors="white"))
         else:
             shown.append(ax.add_collection(PolyCollection(
-                inside, array=pressure[opened], cmap="viridis", linewidths=0.)))
+                inside, array=pressure[wide], linewidths=0.)))
         ax.add_collection(LineCollection(np.concatenate([upper, lower]), colors="crimson",
                                          linewidths=1.))
     ax.set_xlim(window[0], window[1])
@@ -138,6 +208,15 @@ def panel(ax, options, time):
     ax.set_title(f"t = {time:.4g} s" + (f", opening drawn × {float(f'{warp:.2g}'):g}" if warp else ""),
                  fontsize=10)
     return shown, window
+
+
+def limits(values, middle):
+    """(least, greatest, which ends are cut off): all values; around a middle, as far to both sides, and
+    without the last hundredth, for there is no end to what a tip has."""
+    if middle is None:
+        return values.min(), values.max(), "neither"
+    reach = np.quantile(np.abs(np.asarray(values) - middle), 0.99) or 1e-12
+    return middle - reach, middle + reach, "both"
 
 
 def draw(options):
@@ -150,14 +229,14 @@ def draw(options):
     figure.set_size_inches(len(times) * height / max(1., shape if len(times) > 1 else 1.),
                            height * (shape if len(times) == 1 else 1.) + 0.3)
     coloured = [collection for shown, _ in panels for collection in shown]
-    low = min(c.get_array().min() for c in coloured)
-    high = max(c.get_array().max() for c in coloured)
+    low, high, ends = limits(np.concatenate([np.ravel(c.get_array()) for c in coloured]), neutral(options))
     for collection in coloured:
+        collection.set_cmap("viridis" if neutral(options) is None else "RdBu_r")
         collection.set_clim(low, high)
     axes[0, 0].set_ylabel("y [m]")
     name = " ".join(filter(None, (options.field.replace("_", " "), options.component)))
     unit = UNITS.get(options.field, ("-", 1.))[0]
-    figure.colorbar(coloured[0], ax=list(axes[0]), shrink=0.8, label=f"{name} [{unit}]",
+    figure.colorbar(coloured[0], ax=list(axes[0]), shrink=0.8, label=f"{name} [{unit}]", extend=ends,
                     **({"pad": 0.01} if len(times) > 1 else {}))
     output = options.output or os.path.join(options.directory, options.field + ".png")
     figure.savefig(output, dpi=110 if len(times) == 1 else 80, bbox_inches="tight")

@@ -4,7 +4,8 @@
     history.py DIRECTORY... [--columns fracture_length,inlet_aperture] [--output FILE.png]
 
 Several directories (models, resolutions) share the axes. A reference is the column
-`reference_NAME` of statistics.csv.
+`reference_NAME` of statistics.csv. Of the length, what is compared is drawn, from the mouth to the
+middle of the process zone, and the physical tip as a thin line.
 """
 import argparse
 import os
@@ -16,23 +17,34 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from results import read_statistics, read_summary  # noqa: E402
+from results import read_deck, read_statistics, read_summary  # noqa: E402
 
 # What is drawn, if there: column, label, unit and factor from SI.
 QUANTITIES = {
-    "fracture_length": ("fracture half-length", "m", 1.),
+    "equivalent_length": ("fracture length", "m", 1.),
     "inlet_aperture": ("aperture at the inlet", "mm", 1e3),
-    "inlet_pressure": ("net pressure at the inlet", "MPa", 1e-6),
+    "net_inlet_pressure": ("net pressure at the inlet", "MPa", 1e-6),
     "pore_pressure": ("pore pressure", "MPa", 1e-6),
     "displacement": ("displacement", "mm", 1e3),
     "load": ("load", "kN/m", 1e-3),
     "dissipated_energy": ("dissipated energy", "J/m", 1.),
 }
 PREFIX = "reference_"
+THIN = {"equivalent_length": ("fracture_length", "physical tip")}
 
 
 def numbers(column):
     return np.array([x if isinstance(x, float) else np.nan for x in column])
+
+
+def labels(directories, runs):
+    """Model and resolution of each run, and its directory where that does not tell them apart."""
+    names = [", ".join(filter(None, (summary.get("fracture_model", ""), read_deck(d).get("Resolution"))))
+             for d, (summary, _) in zip(directories, runs)]
+    places = [os.path.normpath(d) for d in directories]
+    shared = len(os.path.commonpath(places)) + 1 if len(set(places)) > 1 else 0
+    return [f"{name} ({place[shared:]})" if names.count(name) > 1 else name
+            for name, place in zip(names, places)]
 
 
 def draw(directories, columns, output):
@@ -41,10 +53,11 @@ def draw(directories, columns, output):
                         if any(any(numbers(table.get(n, []))) for _, table in runs)]
     if not names:
         sys.exit("history.py: none of these columns: " + ", ".join(QUANTITIES))
+    named = labels(directories, runs)
     figure, axes = plt.subplots(1, len(names), figsize=(4 * len(names), 3.2), squeeze=False)
     for ax, name in zip(axes[0], names):
         label, unit, factor = QUANTITIES.get(name, (name.replace("_", " "), "SI", 1.))
-        for i, (summary, table) in enumerate(runs):
+        for i, (_, table) in enumerate(runs):
             if name not in table:
                 continue
             time = numbers(table["time"])
@@ -52,8 +65,11 @@ def draw(directories, columns, output):
                 ax.plot(time, factor * numbers(table[PREFIX + name]), color="0.2", lw=2.5,
                         alpha=0.5, label="reference")
             ax.plot(time, factor * numbers(table[name]), "--" if i else "-", color=f"C{i}", lw=1.2,
-                    label=summary.get("fracture_model", "") if len(runs) == 1
-                    else os.path.basename(os.path.normpath(directories[i])))
+                    label=named[i])
+            thin, meaning = THIN.get(name, (None, ""))
+            if thin in table:
+                ax.plot(time, factor * numbers(table[thin]), color=f"C{i}", lw=0.5,
+                        label=meaning if i == 0 else None)
         ax.set_xlabel("time [s]")
         ax.set_ylabel(f"{label} [{unit}]")
         ax.set_ylim(bottom=min(0., ax.get_ylim()[0]))

@@ -5,14 +5,17 @@
 #include "stockwork/base/version.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
+#include <thread>
 
 namespace stockwork
 {
@@ -22,6 +25,9 @@ void write_summary(std::ostream &out, const RunSummary &summary)
   json.begin_object();
   json.member("case", summary.case_name);
   json.member("fracture_model", summary.fracture_model);
+  json.member("deck", summary.deck);
+  json.member("date", summary.date);
+  json.member("machine", summary.machine);
   json.member("version", version());
   json.member("dealii_version", dealii_version());
   json.member("ranks", summary.ranks);
@@ -37,6 +43,7 @@ void write_summary(std::ostream &out, const RunSummary &summary)
     json.member(phase, seconds);
   json.end_object();
 
+  json.member("cpu_seconds", summary.cpu_seconds);
   json.member("peak_memory_bytes", summary.peak_memory_bytes);
 
   json.begin_object("final");
@@ -102,6 +109,39 @@ void write_summary(const std::string &file, const RunSummary &summary)
   std::filesystem::rename(unfinished, file, error);
   if (error)
     throw OutputError("cannot write '" + file + "': " + error.message());
+}
+
+double cpu_seconds(const MPI_Comm communicator)
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval &t) { return t.tv_sec + 1e-6 * t.tv_usec; };
+  double mine = seconds(usage.ru_utime) + seconds(usage.ru_stime), sum = 0.;
+  MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, communicator);
+  return sum;
+}
+
+std::string machine()
+{
+  char name[256] = "";
+  gethostname(name, sizeof(name) - 1);
+  std::string result = name;
+  std::ifstream processors("/proc/cpuinfo");
+  for (std::string line; std::getline(processors, line);)
+    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
+    {
+      result += ", " + line.substr(line.find(": ") + 2);
+      break;
+    }
+  return result + ", " + std::to_string(std::thread::hardware_concurrency()) + " processors";
+}
+
+std::string utc_date()
+{
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
 }
 
 std::uint64_t peak_memory(const MPI_Comm communicator)

@@ -56,9 +56,7 @@ public:
                   const Unknowns &solution,
                   const Role &role);
 
-  /// Relative errors of scalars that both sides know. The length of a fracture with a process zone
-  /// is the mean of its whole and its fully broken length: the zone counts for half, as in the
-  /// linear-elastic limit.
+  /// Relative errors of scalars that both sides know.
   void add_values(double time, double dt, const std::map<std::string, double> &values);
 
   const std::map<std::string, Error> &errors() const

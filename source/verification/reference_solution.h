@@ -39,8 +39,7 @@ public:
     return {};
   }
 
-  /// Scalars at a time, by the names of the columns of the statistics; `inlet_pressure` is net of
-  /// the in-situ stress and is compared with the column net_inlet_pressure.
+  /// Scalars at a time, by the names of the columns of the statistics.
   virtual std::map<std::string, double> values(double /*time*/) const
   {
     return {};

@@ -1,16 +1,16 @@
 # Fractures against their references; doc/cases says what each resolution reaches.
 stockwork_case_test(NAME convergence/kgd/toughness DECK prm/kgd/toughness/cohesive_xfem.prm NEGATIVE
   SET "Resolution=medium"
-  EXPECT "errors/fracture_length/final < 0.01" "errors/fracture_length/mean < 0.015"
+  EXPECT "errors/equivalent_length/final < 0.01" "errors/equivalent_length/mean < 0.015"
          "errors/inlet_aperture/final < 0.002" "errors/inlet_aperture/mean < 0.003"
-         "errors/inlet_pressure/final < 0.005" "errors/inlet_pressure/mean < 0.006"
+         "errors/net_inlet_pressure/final < 0.005" "errors/net_inlet_pressure/mean < 0.006"
          "fluid_balance/relative_error < 1e-8" "rejected_steps == 0"
          "warnings == 1") # the strength that was chosen
 stockwork_case_test(NAME convergence/kgd/viscosity DECK prm/kgd/viscosity/cohesive_xfem.prm NEGATIVE
   SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.003" "errors/fracture_length/mean < 0.006"
+  EXPECT "errors/equivalent_length/final < 0.003" "errors/equivalent_length/mean < 0.006"
          "errors/inlet_aperture/final < 0.006" "errors/inlet_aperture/mean < 0.007"
-         "errors/inlet_pressure/final < 0.003" "errors/inlet_pressure/mean < 0.003"
+         "errors/net_inlet_pressure/final < 0.003" "errors/net_inlet_pressure/mean < 0.003"
          "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 # Two fractures on one well. Friction in the perforations shares the fluid evenly, although one notch
 # is twice as long; without it, the longer takes all.
@@ -25,16 +25,16 @@ stockwork_case_test(NAME convergence/clusters/without_friction DECK prm/clusters
 stockwork_case_test(NAME convergence/kgd/toughness/peridynamics NEGATIVE
   DECK prm/kgd/toughness/peridynamics.prm
   SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.01" "errors/inlet_aperture/final < 0.01"
-         "errors/inlet_pressure/final < 0.015" "errors/inlet_pressure/mean < 0.025"
+  EXPECT "errors/equivalent_length/final < 0.01" "errors/inlet_aperture/final < 0.01"
+         "errors/net_inlet_pressure/final < 0.015" "errors/net_inlet_pressure/mean < 0.025"
          "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/kgd/sun/peridynamics NEGATIVE
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/mean < 0.015" "errors/inlet_aperture/mean < 0.025"
-         "errors/inlet_pressure/mean < 0.006" "fluid_balance/relative_error < 1e-8")
+  EXPECT "errors/equivalent_length/mean < 0.015" "errors/inlet_aperture/mean < 0.025"
+         "errors/net_inlet_pressure/mean < 0.006" "fluid_balance/relative_error < 1e-8")
 stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics DECK prm/kgd/sun/peridynamics.prm
   SET "Output/Fields=false" SERIES "Resolution=coarse" "Resolution=medium" TOLERANCE 0.3
-  ORDER "errors/fracture_length/mean=1" "errors/inlet_aperture/mean=1" "errors/inlet_pressure/mean=1")
+  ORDER "errors/equivalent_length/mean=1" "errors/inlet_aperture/mean=1" "errors/net_inlet_pressure/mean=1")
 # The zone that grows with the fracture does what one does that has been there before.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
@@ -180,8 +180,8 @@ stockwork_case_test(NAME convergence/peridynamics/dynamic_notch/brittle
 stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics
   DECK prm/kgd/rotated/30/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
-  EXPECT "errors/fracture_volume/final < 1e-9" "errors/inlet_pressure/final < 0.1"
-         "errors/fracture_length/final < 0.1" "fluid_balance/relative_error < 1e-8")
+  EXPECT "errors/fracture_volume/final < 1e-9" "errors/net_inlet_pressure/final < 0.1"
+         "errors/equivalent_length/final < 0.1" "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics/direction
   DECK prm/kgd/rotated/30/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"

@@ -2,13 +2,13 @@
 # With toughness and viscosity of the same weight, in the rocks of Wang. The goal is 4 %.
 stockwork_case_test(NAME convergence/kgd/wang DECK prm/kgd/wang/cohesive_xfem.prm NEGATIVE
   SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.03" "errors/inlet_aperture/final < 0.02"
-         "errors/inlet_pressure/final < 0.03" "fluid_balance/relative_error < 1e-8"
+  EXPECT "errors/equivalent_length/final < 0.03" "errors/inlet_aperture/final < 0.02"
+         "errors/net_inlet_pressure/final < 0.03" "fluid_balance/relative_error < 1e-8"
          "rejected_steps == 0")
 stockwork_case_test(NAME convergence/kgd/wang/hard DECK prm/kgd/wang/hard/cohesive_xfem.prm NEGATIVE
   SET "Resolution=medium"
-  EXPECT "errors/fracture_length/final < 0.04" "errors/inlet_aperture/final < 0.02"
-         "errors/inlet_pressure/final < 0.03" "fluid_balance/relative_error < 1e-8"
+  EXPECT "errors/equivalent_length/final < 0.04" "errors/inlet_aperture/final < 0.02"
+         "errors/net_inlet_pressure/final < 0.03" "fluid_balance/relative_error < 1e-8"
          "rejected_steps == 0")
 # In permeable rock what was injected is in the fracture or in the pores.
 stockwork_case_test(NAME convergence/kgd/wang/permeable
@@ -18,11 +18,11 @@ stockwork_case_test(NAME convergence/kgd/wang/permeable
 # Leak-off that takes 60 and 97 % of the fluid.
 stockwork_case_test(NAME convergence/kgd/carter DECK prm/kgd/carter/cohesive_xfem.prm NEGATIVE
   SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.015" "errors/inlet_aperture/final < 0.01"
-         "errors/inlet_pressure/final < 0.01" "errors/leaked_volume/final < 0.005"
+  EXPECT "errors/equivalent_length/final < 0.015" "errors/inlet_aperture/final < 0.01"
+         "errors/net_inlet_pressure/final < 0.01" "errors/leaked_volume/final < 0.005"
          "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 stockwork_case_test(NAME convergence/kgd/carter/strong NEGATIVE
   DECK prm/kgd/carter/strong/cohesive_xfem.prm SET "Resolution=coarse"
-  EXPECT "errors/fracture_length/final < 0.01" "errors/inlet_aperture/final < 0.01"
-         "errors/inlet_pressure/final < 0.005" "errors/leaked_volume/final < 0.001"
+  EXPECT "errors/equivalent_length/final < 0.01" "errors/inlet_aperture/final < 0.01"
+         "errors/net_inlet_pressure/final < 0.005" "errors/leaked_volume/final < 0.001"
          "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")

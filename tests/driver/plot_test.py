@@ -74,10 +74,10 @@ def write_run(directory):
                 f'<DataSet timestep="{i}" file="{name}-{i}.vtu"/>' for i in range(2))
                 + "</Collection></VTKFile>")
     with open(f"{directory}/statistics.csv", "w", encoding="utf-8") as file:
-        file.write("# s, m, m\ntime,fracture_length,reference_fracture_length\n0,,\n1,2,2.1\n2,3,3.1\n")
+        file.write("# s, m, m, m\ntime,fracture_length,equivalent_length,reference_equivalent_length\n0,,,\n1,3,2,2.1\n2,4,3,3.1\n")
     with open(f"{directory}/summary.json", "w", encoding="utf-8") as file:
-        file.write('{"case": "test", "fracture_model": "none", "final": {"fracture_length": 3, "reference_fracture_length": 3.1},'
-                   '"errors": {"fracture_length": {"final": 0.03, "mean": null, "reference": "KGD"}},'
+        file.write('{"case": "test", "fracture_model": "none", "final": {"fracture_length": 4, "equivalent_length": 3, "reference_equivalent_length": 3.1},'
+                   '"errors": {"equivalent_length": {"final": 0.03, "mean": null, "reference": "KGD"}},'
                    '"fluid_balance": {"injected": 1, "relative_error": 1e-12}}')
 
 
@@ -120,7 +120,7 @@ class PlotTest(unittest.TestCase):
         self.assertIn("there is: displacement, pore_pressure", unknown.stderr)
         report = subprocess.run([sys.executable, os.path.join(PLOT, "..", "report.py"),
                                  self.directory], check=True, capture_output=True, text=True)
-        self.assertRegex(report.stdout, r"fracture_length +3 +3\.1 +3 % +-")
+        self.assertRegex(report.stdout, r"equivalent_length +3 +3\.1 +3 % +-\n *fracture_length +4 +- +- +-")
 
 
 if __name__ == "__main__":

@@ -76,6 +76,9 @@ TEST_CASE("the summary has the promised keys")
   summary.case_name = "kgd/cohesive_xfem";
   summary.steps = 12;
   summary.wall_seconds = PhaseTimers().seconds(MPI_COMM_WORLD);
+  summary.cpu_seconds = cpu_seconds(MPI_COMM_WORLD);
+  summary.machine = machine();
+  summary.date = utc_date();
   summary.peak_memory_bytes = peak_memory(MPI_COMM_WORLD);
   summary.final_values["inlet_pressure"] = 1e6;
   summary.final_values["undefined"] = std::nan("");
@@ -86,6 +89,9 @@ TEST_CASE("the summary has the promised keys")
   const auto tree = read_json(out.str());
   for (const char *key : {"case",
                           "fracture_model",
+                          "deck",
+                          "date",
+                          "machine",
                           "version",
                           "dealii_version",
                           "ranks",
@@ -101,6 +107,7 @@ TEST_CASE("the summary has the promised keys")
                           "wall_seconds.solve",
                           "wall_seconds.fracture",
                           "wall_seconds.output",
+                          "cpu_seconds",
                           "peak_memory_bytes",
                           "final.inlet_pressure",
                           "errors.pore_pressure.final",
@@ -119,6 +126,9 @@ TEST_CASE("the summary has the promised keys")
   }
   CHECK_FALSE(tree.get_child_optional("final.undefined").has_value());
   CHECK(tree.get<double>("errors.pore_pressure.mean") == 0.02);
+  CHECK(summary.cpu_seconds > 0.);
+  CHECK(summary.machine.find(" processors") != std::string::npos);
+  CHECK(summary.date.size() == 20);
   // A process with deal.II loaded takes more than a megabyte and less than this machine has.
   CHECK(summary.peak_memory_bytes > 1e6);
   CHECK(summary.peak_memory_bytes < 1e12);

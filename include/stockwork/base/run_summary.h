@@ -35,6 +35,9 @@ struct RunSummary
 
   std::string case_name; ///< key "case"
   std::string fracture_model;
+  std::string deck;    ///< its path
+  std::string machine; ///< machine()
+  std::string date;    ///< of the end, utc_date()
   unsigned int ranks = 1;
   std::uint64_t cells = 0;
   std::uint64_t unknowns = 0;
@@ -43,6 +46,7 @@ struct RunSummary
   std::uint64_t nonlinear_iterations = 0;
   std::uint64_t linear_iterations = 0;
   std::map<std::string, double> wall_seconds; ///< PhaseTimers::seconds()
+  double cpu_seconds = 0; ///< cpu_seconds(), since this run or its last restart began
   std::uint64_t peak_memory_bytes = 0;
   std::map<std::string, double> final_values; ///< key "final", StatisticsTable::final_values()
   std::map<std::string, Error> errors;
@@ -58,6 +62,15 @@ void write_summary(std::ostream &out, const RunSummary &summary);
 /// Write summary.json; the file appears complete or not at all. To be called on rank 0.
 /// @throws OutputError
 void write_summary(const std::string &file, const RunSummary &summary);
+
+/// Time that processors have worked for this run, summed over the ranks [s]. Collective.
+double cpu_seconds(MPI_Comm communicator);
+
+/// Name, processor and number of processors of this computer.
+std::string machine();
+
+/// Now, as in 2024-02-29T12:34:56Z.
+std::string utc_date();
 
 /// The greatest resident memory so far, summed over the ranks [bytes]. Collective.
 std::uint64_t peak_memory(MPI_Comm communicator);

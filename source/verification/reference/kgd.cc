@@ -58,9 +58,9 @@ public:
 
   std::map<std::string, double> values(const double time) const override
   {
-    return {{"fracture_length", wings * kgd.half_length(time)},
+    return {{"equivalent_length", wings * kgd.half_length(time)},
             {"inlet_aperture", kgd.inlet_opening(time)},
-            {"inlet_pressure", kgd.inlet_pressure(time)},
+            {"net_inlet_pressure", kgd.inlet_pressure(time)},
             {"fracture_volume", 0.5 * wings * kgd.volume(time)}};
   }
 
@@ -87,9 +87,9 @@ public:
 
   std::map<std::string, double> values(const double time) const override
   {
-    return {{"fracture_length", wings * kgd.half_length(time)},
+    return {{"equivalent_length", wings * kgd.half_length(time)},
             {"inlet_aperture", kgd.inlet_opening(time)},
-            {"inlet_pressure", kgd.pressure(time)},
+            {"net_inlet_pressure", kgd.pressure(time)},
             {"fracture_volume", 0.5 * wings * rate * time}};
   }
 
@@ -122,9 +122,9 @@ public:
   std::map<std::string, double> values(const double time) const override
   {
     std::map<std::string, double> result = {
-      {"fracture_length", wings * kgd.half_length(time)},
+      {"equivalent_length", wings * kgd.half_length(time)},
       {"inlet_aperture", kgd.inlet_opening(time)},
-      {"inlet_pressure", kgd.inlet_pressure(time)},
+      {"net_inlet_pressure", kgd.inlet_pressure(time)},
       {"fracture_volume", 0.5 * wings * kgd.fracture_volume(time)}};
     if (leaks)
       result["leaked_volume"] = 0.5 * wings * kgd.leaked_volume(time);

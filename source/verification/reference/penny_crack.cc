@@ -72,7 +72,7 @@ public:
 
   std::map<std::string, double> values(double) const override
   {
-    return {{"fracture_volume", share * crack.volume()}, {"fracture_length", share * area}};
+    return {{"fracture_volume", share * crack.volume()}, {"equivalent_length", share * area}};
   }
 
 private:

@@ -34,7 +34,7 @@ public:
   {
     const double radius = fracture.half_length(time);
     std::map<std::string, double> result = {
-      {"fracture_length", share * numbers::PI * radius * radius},
+      {"equivalent_length", share * numbers::PI * radius * radius},
       {"inlet_aperture", fracture.inlet_opening(time)},
       {"fracture_volume", share * fracture.fracture_volume(time)}};
     if (leaks)
