@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Run a scene and check what a user would have noticed. Numpy where tips are looked at.
+
+    check_scene.py --program build/source/stockwork --scratch DIR --deck DECK ...
+
+    --beside DECK --within COLUMN=SHARE   COLUMN of statistics.csv, averaged over the last half of the time
+                                          that both runs have reached, is that of the other deck
+    --every 'COLUMN OP VALUE'             in every row, the last ones of a run that failed as well
+    --tips ANGLE,DEGREES                  the last eight cells (of --cell) at both ends of the fracture
+                                          point to ANGLE
+    --least COLUMN=SHARE                  of the fracture's last file: not below minus SHARE of its greatest
+    --ends STATUS [--says TEXT]           the run ends with one of these statuses, and says why
+    --checked                             --check finds it: status 1, or a warning with status 0 if --ends 0
+"""
+import argparse
+import math
+import os
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "..", "contrib", "plot")]
+from run_case import MPIRUN, OPERATORS, Failure, Runner  # noqa: E402
+from results import read_statistics  # noqa: E402
+
+
+def late_mean(times, values, end):
+    """The average over [end/2, end] of what is linear between the steps."""
+    total, begin = 0., 0.5 * end
+    for t0, t1, a, b in zip(times, times[1:], values, values[1:]):
+        low, high = max(t0, begin), min(t1, end)
+        if high > low:
+            def at(t):
+                return a + (b - a) * (t - t0) / (t1 - t0)
+            total += 0.5 * (at(low) + at(high)) * (high - low)
+    return total / (end - begin)
+
+
+def check_beside(runner, options):
+    one, two = (read_statistics(runner.output(name)) for name in ("run", "beside"))
+    end = min(one["time"][-1], two["time"][-1])
+    failed = []
+    for text in options.within:
+        column, bound = text.split("=")
+        found, wanted = (late_mean(t["time"], t[column], end) for t in (one, two))
+        off = found / wanted - 1
+        print(f"  {column}: {found:.5g} beside {wanted:.5g}, {100 * off:+.2f} %")
+        if not abs(off) <= float(bound):
+            failed.append(f"{column} is {100 * off:+.2f} % off the run beside it up to {end:g} s")
+    return failed
+
+
+def check_rows(table, texts):
+    failed = []
+    for text in texts:
+        column, sign, value = text.split()
+        wrong = [(t, x) for t, x in zip(table["time"], table[column])
+                 if not (isinstance(x, float) and OPERATORS[sign](x, float(value)))]
+        print(f"  {text}: {len(wrong)} of {len(table['time'])} rows break it")
+        if wrong:
+            failed.append(f"{text}: {column} is {wrong[0][1]} at {wrong[0][0]:g} s")
+    return failed
+
+
+def last_fracture(directory):
+    import vtu
+    fracture = vtu.read(vtu.at_time(vtu.series(directory, "fracture"))[1])
+    ends, cells = fracture.cells(vtu.LINE)
+    return fracture, ends, cells
+
+
+def check_least(directory, texts):
+    failed = []
+    for text in texts:
+        name, share = text.split("=")
+        fracture, ends, cells = last_fracture(directory)
+        values = (fracture.cell_data[name][cells] if name in fracture.cell_data
+                  else fracture.point_data[name][ends])
+        print(f"  {name}: from {values.min():.4g} to {values.max():.4g}")
+        if not values.min() >= -float(share) * values.max():
+            failed.append(f"{name} goes down to {values.min():.4g} where the greatest is {values.max():.4g}")
+    return failed
+
+
+def check_tips(directory, angle, bound, cell):
+    import numpy as np
+    fracture, ends, _ = last_fracture(directory)
+    points = fracture.points[ends][:, :, :2].reshape(-1, 2)
+    t = np.array([math.cos(math.radians(angle)), math.sin(math.radians(angle))])
+    failed = []
+    for sign in (-1, 1):
+        tip = points[np.argmax(sign * (points @ t))]
+        near = points[np.linalg.norm(points - tip, axis=1) < 8 * cell]
+        chord = tip - near[np.argmax(np.linalg.norm(near - tip, axis=1))]
+        off = math.degrees(math.atan2(chord[1], chord[0])) - angle
+        off = (off + 90.) % 180. - 90.
+        print(f"  tip at {tip}: {off:+.1f} degrees off")
+        if not abs(off) <= bound:
+            failed.append(f"the tip at {tip} is {off:+.1f} degrees off")
+    return failed
+
+
+def run(runner, options):
+    if options.checked:
+        command = runner.command("check", options.deck, options.set, extra=["--check"])
+        status = runner.wait(runner.start("check", command), command)
+        said = " ".join((runner.text("check", "stdout") + runner.text("check", "stderr")).split())
+        return judge_end(runner, "check", status, said, options)
+    command = runner.command("run", options.deck, options.set)
+    status = runner.wait(runner.start("run", command), command)
+    said = " ".join((runner.text("run", "stdout") + runner.text("run", "stderr")).split())
+    failed = judge_end(runner, "run", status, said, options)
+    if options.every:
+        failed += check_rows(read_statistics(runner.output("run")), options.every)
+    if failed:
+        return failed
+    if options.beside:
+        runner.run("beside", options.beside, options.beside_set)
+        failed += check_beside(runner, options)
+    failed += check_least(runner.output("run"), options.least)
+    if options.tips:
+        angle, bound = (float(x) for x in options.tips.split(","))
+        failed += check_tips(runner.output("run"), angle, bound, options.cell)
+    return failed
+
+
+def judge_end(runner, name, status, said, options):
+    failed = []
+    if str(status) not in options.ends.split("|"):
+        failed.append(f"exit status {status}, should be {options.ends}\n{runner.tail(name)}")
+    failed += [f"it does not say '{text}'\n{runner.tail(name)}" for text in options.says if text not in said]
+    return failed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--scratch", required=True)
+    parser.add_argument("--timeout", type=float, default=600.)
+    parser.add_argument("--deck", required=True)
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--beside")
+    parser.add_argument("--beside-set", action="append", default=[])
+    parser.add_argument("--within", action="append", default=[])
+    parser.add_argument("--every", action="append", default=[])
+    parser.add_argument("--least", action="append", default=[])
+    parser.add_argument("--tips")
+    parser.add_argument("--cell", type=float, default=1.)
+    parser.add_argument("--ends", default="0")
+    parser.add_argument("--says", action="append", default=[])
+    parser.add_argument("--checked", action="store_true")
+    options = parser.parse_args()
+    options.mpirun = MPIRUN
+    try:
+        failed = run(Runner(options), options)
+    except (Failure, OSError, ValueError, KeyError, ZeroDivisionError, subprocess.SubprocessError) as error:
+        failed = [repr(error)]
+    for text in failed:
+        print(f"FAILED: {text}")
+    print("failed" if failed else "passed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
