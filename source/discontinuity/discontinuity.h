@@ -190,22 +190,4 @@ private:
   std::vector<Entry> entries;
   std::vector<int> entry_of_cell; ///< by active cell index
 };
-
-/// Ask for cells of a size along the cracks, and for some rings of them around each tip.
-/// @param size [m]; zero: that of the cut cells
-/// @param sizes by active cell index [m], lowered where need be
-template <int dim>
-void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                       const Discontinuity<dim> &discontinuity,
-                       const double size,
-                       const unsigned int rings_ahead,
-                       std::vector<float> &sizes);
-
-/// The same for a crack that has not been cut into the mesh yet: so many rings all around.
-template <int dim>
-void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                       const std::vector<dealii::Point<dim>> &corners,
-                       const double size,
-                       const unsigned int rings,
-                       std::vector<float> &sizes);
 } // namespace stockwork

@@ -1,5 +1,7 @@
 #include "fracture/cohesive_xfem/cohesive_xfem.h"
 
+#include "discontinuity/cell_size_request.h"
+
 #include <deal.II/dofs/dof_accessor.h>
 
 #include <boost/serialization/array.hpp>
@@ -70,10 +72,11 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
   discontinuity.cut(scene.cracks, collectives);
 
   messages.clear();
-  double size = 0.;
+  largest_cell = 0.;
   for (const auto &path : discontinuity.paths())
     for (const auto &piece : path.pieces)
-      size = std::max(size, piece.cell_size());
+      largest_cell = std::max(largest_cell, piece.cell_size());
+  const double size = largest_cell;
 
   const RockProperties &rock = scene.rock.main();
   double strength = rock.tensile_strength;
@@ -120,6 +123,10 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
     }
   }
   committed_paths = discontinuity.paths();
+  committed_limits = limits = GrowthLimits();
+  committed_limits.has_grown.assign(committed_paths.size(), false);
+  committed_limits.volume.assign(committed_paths.size(), 0.);
+  limits = committed_limits;
   bare_tips = committed_bare_tips;
 }
 
@@ -199,6 +206,25 @@ NormalShear CohesiveXFEM<dim>::separation(const CrackPiece<dim> &piece,
 {
   const Tensor<1, dim> jump = shapes.jump(point, columns, a);
   return {jump * piece.normal(), jump * piece.along};
+}
+
+
+template <int dim>
+double CohesiveXFEM<dim>::volume(const unsigned int crack,
+                                 const CrackSpan &pieces,
+                                 const Unknowns &unknowns) const
+{
+  double sum = 0.;
+  for (unsigned int i = pieces.first; i <= pieces.last; ++i)
+  {
+    const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[i];
+    const auto &columns = discontinuity.enrichment().columns(crack, i);
+    const JumpShapes<dim> shapes(piece);
+    for (unsigned int q = 0; q < n_points; ++q)
+      sum +=
+        separation(piece, shapes, q, columns, unknowns.extra).normal * piece.length() / n_points;
+  }
+  return sum;
 }
 
 
@@ -300,6 +326,10 @@ void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
     }
   committed_reach.swap(reach);
   bare_tips = committed_bare_tips;
+  for (unsigned int c = 0; c < limits.volume.size(); ++c)
+    limits.volume[c] = volume(
+      c, {0, static_cast<unsigned int>(committed_paths[c].pieces.size()) - 1}, state.current);
+  committed_limits = limits;
 }
 
 
@@ -309,6 +339,7 @@ void CohesiveXFEM<dim>::rollback()
   bare_tips = committed_bare_tips;
   discontinuity.restore(committed_paths);
   messages.resize(n_messages_before);
+  limits = committed_limits;
   begin_step({});
   refresh_segments();
 }
@@ -327,8 +358,7 @@ void CohesiveXFEM<dim>::wanted_cell_size(
                           sizes);
     return;
   }
-  request_cell_size(triangulation, discontinuity, parameters.cell_size, parameters.rings_ahead,
-                    sizes);
+  request_cell_size(triangulation, discontinuity, parameters.rings_ahead, sizes);
 }
 
 
@@ -348,7 +378,8 @@ template <int dim>
 void CohesiveXFEM<dim>::save(boost::archive::binary_oarchive &archive) const
 {
   archive << committed_paths << committed_damage << committed_reach << committed_bare_tips
-          << dissipated << started << law.strength << contact;
+          << dissipated << started << law.strength << contact << largest_cell
+          << committed_limits;
 }
 
 
@@ -357,7 +388,8 @@ void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
 {
   double strength;
   archive >> committed_paths >> committed_damage >> committed_reach >> committed_bare_tips >>
-    dissipated >> started >> strength >> contact;
+    dissipated >> started >> strength >> contact >> largest_cell >> committed_limits;
+  limits = committed_limits;
   law = make_law(parameters, scene.rock.main(), strength);
   initial_pressure.clear();
   bare_tips = committed_bare_tips;

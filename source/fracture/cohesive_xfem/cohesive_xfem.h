@@ -2,6 +2,7 @@
 
 #include "discontinuity/contact.h"
 #include "discontinuity/discontinuity.h"
+#include "fracture/cohesive_xfem/growth_limits.h"
 #include "fracture/cohesive_xfem/law.h"
 #include "fracture/cohesive_xfem/parameters.h"
 #include "stockwork/fracture/model.h"
@@ -84,6 +85,9 @@ private:
                          const std::vector<EnrichedColumn> &columns,
                          const std::vector<double> &a) const;
 
+  /// What a part of a crack holds [m^2].
+  double volume(unsigned int crack, const CrackSpan &pieces, const Unknowns &) const;
+
   /// In-situ compression across a piece [Pa].
   double closing_stress(const CrackPiece<dim> &piece) const;
 
@@ -98,6 +102,14 @@ private:
   /// there is suction in it, as in viscous fluid, and the tip is bare. Then from its volume and
   /// that of the span before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).
   double reached_length(unsigned int crack, CrackEnd end, const State &) const;
+
+  /// Why the run has to end although the step has converged: every crack that has grown is blocked
+  /// and takes more fluid all the same. Empty if it need not.
+  std::string reason_to_stop(const State &) const;
+
+  /// Warn, once, of a tip that is held although the rock ahead of it should have parted.
+  /// @param drive tension ahead plus pressure [Pa]
+  void warn_of_held_tip(unsigned int crack, CrackEnd end, double drive, const std::string &cause);
 
   Parameters parameters;
   const Scene<dim> &scene;
@@ -115,13 +127,16 @@ private:
   /// fluid alone makes the shape of such a tip.
   std::unordered_set<std::uint64_t> committed_bare_tips;
   std::vector<CrackPath<dim>> committed_paths;
-  double dissipated = 0.; ///< [J/m]
-  bool started = false;   ///< a step has been accepted
+  GrowthLimits committed_limits;
+  double dissipated = 0.;   ///< [J/m]
+  double largest_cell = 0.; ///< of those along the initial cracks [m]
+  bool started = false;     ///< a step has been accepted
 
   // Of the current step.
   std::size_t n_messages_before = 0;                 ///< messages that a rollback leaves
   std::vector<std::array<unsigned int, 2>> advances; ///< spans, by crack and end
   std::unordered_map<std::uint64_t, double> initial_pressure;
   std::unordered_set<std::uint64_t> bare_tips;
+  GrowthLimits limits;
 };
 } // namespace stockwork::cohesive_xfem

@@ -95,26 +95,54 @@ double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
       state.segment_pressure(key) >= closing_stress(pieces[last.first]))
     return length;
 
-  const auto volume = [&](const CrackSpan &span)
-  {
-    double sum = 0.;
-    for (unsigned int i = span.first; i <= span.last; ++i)
-    {
-      const auto &columns = discontinuity.enrichment().columns(crack, i);
-      const JumpShapes<dim> shapes(pieces[i]);
-      for (unsigned int q = 0; q < n_points; ++q)
-        sum += separation(pieces[i], shapes, q, columns, state.current.extra).normal *
-               pieces[i].length() / n_points;
-    }
-    return std::max(sum, 0.);
-  };
   const CrackSpan &next = spans[end == CrackEnd::first ? 1 : spans.size() - 2];
-  const double in_last = volume(last), in_next = volume(next);
+  const double in_last = std::max(volume(crack, last, state.current), 0.),
+               in_next = std::max(volume(crack, next, state.current), 0.);
   if (in_last == 0. || in_next == 0.)
     return 0.;
   // With w ~ x^(2/3) at the distance x from the front, V ~ x^(5/3) is beyond any place.
   const double ratio = std::pow(in_last / (in_last + in_next), 0.6);
   return std::min(length, discontinuity.length(crack, next) * ratio / (1. - ratio));
+}
+
+
+template <int dim>
+std::string CohesiveXFEM<dim>::reason_to_stop(const State &state) const
+{
+  bool swells = false;
+  for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+    if (limits.has_grown[c])
+    {
+      const CrackPath<dim> &path = discontinuity.paths()[c];
+      if (path.is_tip[0] || path.is_tip[1])
+        return "";
+      const unsigned int n = path.pieces.size();
+      swells |= volume(c, {0, n - 1}, state.current) > limits.volume[c] * (1. + 1e-9);
+    }
+  return swells
+           ? "no fracture that the fluid drives can grow any more, and more is pumped into it. " +
+               limits.blocked_by
+           : "";
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::warn_of_held_tip(const unsigned int crack,
+                                         const CrackEnd end,
+                                         const double drive,
+                                         const std::string &cause)
+{
+  // A tip that waits for its turn is driven by the strength or a little more.
+  constexpr double clearly = 2.;
+  if (drive < clearly * law.strength ||
+      !limits.told_of_holding.insert({crack, static_cast<unsigned int>(end)}).second)
+    return;
+  std::ostringstream text;
+  text << "Crack " << crack + 1 << " at (" << discontinuity.paths()[crack].tip(end)
+       << ") is held: pressure and tension ahead come to " << drive << " Pa, the strength is "
+       << law.strength << " Pa. " << cause << " What follows may be too short and its pressure too "
+       << "high.";
+  messages.push_back(text.str());
 }
 
 
@@ -131,6 +159,12 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     rock.plane_modulus() * rock.energy_release_rate / (law.strength * law.strength);
 
   Verdict verdict;
+  if (const std::string reason = reason_to_stop(state); !reason.empty())
+  {
+    verdict.kind = Verdict::Kind::stop;
+    verdict.reason = reason;
+    return verdict;
+  }
   std::vector<Advance> tips;
   std::vector<HalfDisc<dim>> discs; // for the growth of each tip, and for its direction
   bool held_back = false;
@@ -170,16 +204,20 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     // would never end. Where it does so by far, there is no cohesive zone worth the name: spans
     // open by less than the fluid's aperture would be cut one after another.
     const bool broken_here = distance_to_damage(c, end, 1., state) <= 0.5 * span * (1. + 1e-9);
+    const double drive = pressure + (parameters.straight ? across * (stress * across)
+                                                         : dealii::eigenvalues(stress)[0]);
     // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
-    if ((pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9)) ||
-        (!broken_here && fluid_overpowers(c, end, state)))
+    if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
+    {
+      warn_of_held_tip(c, end, drive, "The cell behind it is cut, but has not begun to break.");
+      continue;
+    }
+    if (!broken_here && fluid_overpowers(c, end, state))
       continue;
     // Suction at the tip and the tension ahead, both many times the strength, leave a difference
     // that tells nothing: there the fluid has to have arrived.
     if (reached_length(c, end, state) < 0.8 * span)
       continue;
-    const double drive = pressure + (parameters.straight ? across * (stress * across)
-                                                         : dealii::eigenvalues(stress)[0]);
     if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
       continue;
     if (advances[c][static_cast<int>(end)] >= parameters.most_advances)
@@ -204,10 +242,20 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
   bool grown = false, needs_mesh = false;
   if (!growing.empty())
   {
+    // A process zone of fewer cells is not resolved, unless it was not from the start.
+    const double largest = std::max(0.25 * cohesive_length, largest_cell) * (1. + 1e-6);
+    const char *remedy = " Make the cells alike as far as the fracture shall run (Mesh/Box/X "
+                         "spacing and Y spacing, 'size from place to place').";
+    const auto stop = [&verdict](const std::string &reason)
+    {
+      verdict.kind = Verdict::Kind::stop;
+      verdict.reason = reason;
+    };
     const auto outcomes = discontinuity.grow(growing, collectives);
     for (unsigned int i = 0; i < growing.size(); ++i)
     {
       const unsigned int crack = growing[i].crack, end = static_cast<unsigned int>(growing[i].end);
+      const GrowthLimits::Tip tip{crack, end};
       const auto &path = discontinuity.paths()[crack];
       std::ostringstream where;
       where << "Crack " << crack + 1 << " at (" << path.tip(growing[i].end) << ") ";
@@ -215,21 +263,46 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
       {
         grown = true;
         ++advances[crack][end];
-        const std::uint64_t key =
-          discontinuity.key(crack, discontinuity.span_at(crack, growing[i].end));
+        limits.has_grown[crack] = true;
+        limits.wait_for_mesh.erase(tip);
+        limits.told_of_holding.erase(tip);
+        const CrackSpan &span = discontinuity.span_at(crack, growing[i].end);
+        const std::uint64_t key = discontinuity.key(crack, span);
         initial_pressure[key] = pressures[i];
         if (broken[i])
           bare_tips.insert(key);
+        for (unsigned int k = span.first; k <= span.last; ++k)
+          if (const double size = path.pieces[k].cell_size(); size > largest)
+          {
+            where << "has come to cells of " << size << " m. Larger ones than " << largest
+                  << " m do not resolve the process zone." << remedy;
+            stop(where.str());
+            return verdict;
+          }
       }
       if (outcomes[i] == Outcome::reached_boundary)
-        messages.push_back(where.str() + "has reached the boundary of the domain.");
+        limits.blocked_by = where.str() + "has reached the boundary of the domain.";
       if (outcomes[i] == Outcome::reached_crack)
       {
         discontinuity.stop(crack, growing[i].end);
-        messages.push_back(where.str() + "has met another crack and stops: crossing and "
-                                         "branching cracks are not supported.");
+        limits.blocked_by = where.str() + "has met another crack and stops: crossing and "
+                                          "branching cracks are not supported.";
       }
-      needs_mesh |= outcomes[i] == Outcome::needs_mesh;
+      if (outcomes[i] == Outcome::reached_boundary || outcomes[i] == Outcome::reached_crack)
+        messages.push_back(limits.blocked_by);
+      if (outcomes[i] == Outcome::needs_mesh)
+      {
+        needs_mesh = true;
+        limits.wait_for_mesh.insert(tip);
+        if (committed_limits.wait_for_mesh.count(tip) != 0)
+        {
+          stop(where.str() +
+               "cannot go on: the cells ahead have another size than those along it, "
+               "and refining the mesh has not changed that." +
+               remedy);
+          return verdict;
+        }
+      }
     }
     refresh_segments();
   }
@@ -258,6 +331,9 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
 
 template double
 CohesiveXFEM<2>::distance_to_damage(unsigned int, CrackEnd, double, const State &) const;
+template std::string CohesiveXFEM<2>::reason_to_stop(const State &) const;
+template void
+CohesiveXFEM<2>::warn_of_held_tip(unsigned int, CrackEnd, double, const std::string &);
 template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);

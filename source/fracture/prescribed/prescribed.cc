@@ -1,5 +1,6 @@
 #include <deal.II/dofs/dof_accessor.h>
 
+#include "discontinuity/cell_size_request.h"
 #include "discontinuity/contact.h"
 #include "discontinuity/discontinuity.h"
 #include "discontinuity/interaction_integral.h"
@@ -138,7 +139,7 @@ public:
                         std::vector<float> &sizes) const override
   {
     if (discretization)
-      request_cell_size(triangulation, discontinuity, cell_size, 4, sizes);
+      request_cell_size(triangulation, discontinuity, 4, sizes);
     else if (cell_size > 0.)
       for (const auto &crack : scene.cracks)
         request_cell_size(triangulation, crack.points, cell_size, 4, sizes);

@@ -1,0 +1,115 @@
+#include "discontinuity/cell_size_request.h"
+
+#include "mesh/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork
+{
+using dealii::Point;
+
+namespace
+{
+/// Distance of a point from the line between two others.
+template <int dim>
+double distance_from_line(const Point<dim> &x, const Point<dim> &from, const Point<dim> &to)
+{
+  const dealii::Tensor<1, dim> edge = to - from;
+  const double square = edge.norm_square();
+  return x.distance(square > 0. ? from + std::clamp((x - from) * edge / square, 0., 1.) * edge
+                                : from);
+}
+
+template <int dim>
+double longest_edge(const CrackPiece<dim> &piece)
+{
+  double longest = 0.;
+  for (const auto &edge : face_vertices)
+    longest = std::max(longest, piece.corners[edge[0]].distance(piece.corners[edge[1]]));
+  return longest;
+}
+
+/// How often the cell of a piece has been split.
+template <int dim>
+int level(const CrackPiece<dim> &piece)
+{
+  return piece.cell.get_child_indices().size();
+}
+} // namespace
+
+template <int dim>
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                       const Discontinuity<dim> &discontinuity,
+                       const unsigned int rings_ahead,
+                       std::vector<float> &sizes)
+{
+  // What is asked for ahead of a tip reaches as far at the next few advances: a change of the mesh
+  // costs all that has been computed with the old one.
+  constexpr unsigned int stride = 16;
+  struct Line
+  {
+    Point<dim> from, to;
+    double margin;
+    int level;
+  };
+  std::vector<Line> lines;
+  for (const auto &path : discontinuity.paths())
+  {
+    const unsigned int n = path.pieces.size();
+    for (const CrackPiece<dim> &piece : path.pieces)
+      lines.push_back({piece.centre(), piece.centre(),
+                       1.5 * longest_edge(piece) + 0.5 * piece.length(), level(piece)});
+    for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+      if (path.is_tip[static_cast<int>(end)])
+      {
+        const Point<dim> tip = path.tip(end);
+        const double h = longest_edge(path.piece_at(end));
+        lines.push_back({tip, tip + (stride - n % stride) * h * path.direction(end),
+                         rings_ahead * h, level(path.piece_at(end))});
+      }
+  }
+
+  // A crack passes cells of one level only, so it is the level that is asked for: on a mesh whose
+  // cells grow, the size would differ from cell to cell and leave hanging nodes on the way.
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const Point<dim> centre = cell->center();
+      const double reach = 0.5 * cell->diameter(), own_size = cell_size(cell);
+      float &size = sizes[cell->active_cell_index()];
+      for (const Line &line : lines)
+        if (const double wanted = std::ldexp(own_size, cell->level() - line.level);
+            wanted < size && distance_from_line(centre, line.from, line.to) < line.margin + reach)
+          size = static_cast<float>(wanted);
+    }
+}
+
+template <int dim>
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                       const std::vector<Point<dim>> &corners,
+                       const double wanted,
+                       const unsigned int rings,
+                       std::vector<float> &sizes)
+{
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const double reach = 0.5 * cell->diameter() + rings * wanted;
+      float &size = sizes[cell->active_cell_index()];
+      for (unsigned int i = 0; i + 1 < corners.size(); ++i)
+        if (distance_from_line(cell->center(), corners[i], corners[i + 1]) < reach)
+          size = std::min(size, static_cast<float>(wanted));
+    }
+}
+
+template void request_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
+                                const std::vector<Point<2>> &,
+                                const double,
+                                const unsigned int,
+                                std::vector<float> &);
+template void request_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
+                                const Discontinuity<2> &,
+                                const unsigned int,
+                                std::vector<float> &);
+} // namespace stockwork

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <deal.II/distributed/tria.h>
+
+#include "discontinuity/discontinuity.h"
+
+#include <vector>
+
+namespace stockwork
+{
+/// Ask that the cells beside a crack, and some rings of them around the way ahead of each tip, be
+/// split as often as those it cuts.
+/// @param sizes by active cell index [m], lowered where need be
+template <int dim>
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                       const Discontinuity<dim> &discontinuity,
+                       const unsigned int rings_ahead,
+                       std::vector<float> &sizes);
+
+/// Ask for cells of a size [m] around a crack that has not been cut into the mesh yet: so many
+/// rings all around.
+template <int dim>
+void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                       const std::vector<dealii::Point<dim>> &corners,
+                       const double size,
+                       const unsigned int rings,
+                       std::vector<float> &sizes);
+} // namespace stockwork

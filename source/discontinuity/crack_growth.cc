@@ -1,0 +1,178 @@
+#include "discontinuity/discontinuity.h"
+
+#include <deal.II/dofs/dof_accessor.h>
+
+#include <algorithm>
+
+namespace stockwork
+{
+namespace
+{
+/// What the owner of a tip's cell found out about the next one.
+template <int dim>
+struct Finding
+{
+  unsigned int advance;
+  unsigned char outcome;
+  unsigned int owner = dealii::numbers::invalid_unsigned_int; ///< of the next cell
+  CrackPiece<dim> piece;                                      ///< first end at the old tip
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &advance &outcome &owner &piece;
+  }
+};
+} // namespace
+
+template <int dim>
+std::vector<typename Discontinuity<dim>::Outcome>
+Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives &collectives)
+{
+  std::vector<Outcome> outcomes(advances.size());
+  std::vector<unsigned int> n_new(advances.size(), 0); // pieces
+  std::vector<unsigned int> moving;
+  for (unsigned int a = 0; a < advances.size(); ++a)
+    moving.push_back(a);
+
+  const auto last_piece = [&](const unsigned int a) -> CrackPiece<dim> &
+  {
+    auto &pieces = cracks[advances[a].crack].pieces;
+    return advances[a].end == CrackEnd::first ? pieces.front() : pieces.back();
+  };
+  bool undone = false;
+  while (!moving.empty())
+  {
+    std::vector<Advance> tried;
+    for (const unsigned int a : moving)
+      tried.push_back(advances[a]);
+    const std::vector<Outcome> reached = grow_by_a_cell(tried, collectives);
+
+    std::vector<unsigned int> going_on;
+    for (unsigned int i = 0; i < moving.size(); ++i)
+    {
+      const unsigned int a = moving[i], end = static_cast<unsigned int>(advances[a].end);
+      outcomes[a] = reached[i];
+      if (reached[i] == Outcome::grown || reached[i] == Outcome::reached_boundary)
+      {
+        ++n_new[a];
+        CrackPiece<dim> &piece = last_piece(a);
+        piece.joined[1 - end] = n_new[a] > 1;
+        piece.joined[end] = reached[i] == Outcome::grown && !piece.crosses_transverse_face(end);
+        if (piece.joined[end])
+          going_on.push_back(a);
+      }
+      else if (n_new[a] > 0)
+      {
+        // Half a span is no place to rest.
+        auto &pieces = cracks[advances[a].crack].pieces;
+        if (advances[a].end == CrackEnd::first)
+          pieces.erase(pieces.begin(), pieces.begin() + n_new[a]);
+        else
+          pieces.resize(pieces.size() - n_new[a]);
+        undone = true;
+      }
+    }
+    moving = going_on;
+  }
+  if (undone)
+    restore(cracks);
+  else
+    renumber(); // the spans
+  return outcomes;
+}
+
+
+/// One more cell for each.
+template <int dim>
+std::vector<typename Discontinuity<dim>::Outcome>
+Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
+                                   const Collectives &collectives)
+{
+  const auto &triangulation = discretization->triangulation;
+
+  std::vector<Finding<dim>> findings;
+  for (unsigned int a = 0; a < advances.size(); ++a)
+  {
+    const Advance &advance = advances[a];
+    const unsigned int end = static_cast<unsigned int>(advance.end);
+    const CrackPath<dim> &crack = cracks[advance.crack];
+    const CrackPiece<dim> &last = crack.piece_at(advance.end);
+    for (const Entry &entry : entries)
+      if (entry.cell->id() == last.cell)
+      {
+        Finding<dim> finding;
+        const unsigned int face = last.faces[end];
+        const auto set = [&](const Outcome outcome)
+        {
+          finding.advance = a;
+          finding.outcome = static_cast<unsigned char>(outcome);
+        };
+        Assert(!entry.cell->at_boundary(face), dealii::ExcInternalError());
+        const auto next = entry.cell->neighbor(face);
+        if (next->has_children() || entry.cell->neighbor_is_coarser(face))
+          set(Outcome::needs_mesh);
+        else if (is_cut(next->id()))
+          set(Outcome::reached_crack);
+        else
+        {
+          const CellIterator active(&triangulation, next->level(), next->index(),
+                                    &discretization->dof_handler);
+          set(Outcome::grown);
+          finding.owner = active->subdomain_id();
+          finding.piece = continue_into<dim>(active, entry.cell->neighbor_of_neighbor(face),
+                                             crack.tip(advance.end), advance.direction);
+          finding.piece.held = held_components(*discretization, active);
+        }
+        findings.push_back(finding);
+      }
+  }
+  findings = collectives.gather(findings);
+  std::sort(findings.begin(), findings.end(),
+            [](const Finding<dim> &a, const Finding<dim> &b) { return a.advance < b.advance; });
+
+  std::vector<Outcome> outcomes(advances.size());
+  std::vector<std::pair<unsigned int, dealii::CellId>> new_cells; // owner, cell
+  for (const Finding<dim> &finding : findings)
+  {
+    Outcome outcome = static_cast<Outcome>(finding.outcome);
+    if (outcome == Outcome::grown && is_cut(finding.piece.cell))
+      outcome = Outcome::reached_crack; // two tips met in this very pass
+    if (outcome == Outcome::grown)
+    {
+      const Advance &advance = advances[finding.advance];
+      auto &pieces = cracks[advance.crack].pieces;
+      if (advance.end == CrackEnd::last)
+        pieces.push_back(finding.piece);
+      else
+        pieces.insert(pieces.begin(), reversed(finding.piece));
+      piece_of_cell[finding.piece.cell] = {advance.crack, 0}; // until renumber()
+      new_cells.emplace_back(finding.owner, finding.piece.cell);
+      if (finding.piece.at_boundary[1])
+      {
+        outcome = Outcome::reached_boundary;
+        stop(advance.crack, advance.end);
+      }
+    }
+    outcomes[finding.advance] = outcome;
+  }
+  renumber();
+  for (const auto &[owner, id] : new_cells)
+    if (owner == collectives.rank())
+    {
+      const auto cell = triangulation.create_cell_iterator(id);
+      const auto &place = piece_of_cell.at(id);
+      add_entry(
+        CellIterator(&triangulation, cell->level(), cell->index(), &discretization->dof_handler),
+        &cracks[place.first].pieces[place.second], place.first);
+    }
+  if (!new_cells.empty())
+    renumber();
+  return outcomes;
+}
+
+template std::vector<Discontinuity<2>::Outcome> Discontinuity<2>::grow(const std::vector<Advance> &,
+                                                                       const Collectives &);
+template std::vector<Discontinuity<2>::Outcome>
+Discontinuity<2>::grow_by_a_cell(const std::vector<Advance> &, const Collectives &);
+} // namespace stockwork
