@@ -135,6 +135,64 @@ TEST_CASE("split quadrature: area and moments of both parts, down to slivers")
     }
 }
 
+TEST_CASE("spans are about as long as a cell, and point along the crack, wherever it lies")
+{
+  Square square(20);
+  const double h = 0.1;
+  for (const double angle : {0., 10., 27., 45., 63., 80., 90.})
+    for (const double shift : {0., 1e-9, 1e-4, 0.013, 0.05, 1. / 30.})
+    {
+      CAPTURE(angle);
+      CAPTURE(shift);
+      const double a = angle * dealii::numbers::PI / 180., c = std::cos(a), s = std::sin(a);
+      const Point<2> centre(shift, -shift);
+      const Tensor<1, 2> half({0.53 * c, 0.53 * s});
+      auto discontinuity = cut(square, {{centre - half, centre + half}});
+      const double longest = h / std::max(std::abs(c), std::abs(s));
+      const auto check = [&]()
+      {
+        const auto &path = discontinuity.paths()[0];
+        double length = 0.;
+        for (const CrackSpan &span : discontinuity.spans(0))
+        {
+          const double own = discontinuity.length(0, span);
+          CHECK(own == doctest::Approx(longest).epsilon(5e-3)); // crossings keep clear of vertices
+          length += own;
+          for (unsigned int i = span.first; i <= span.last; ++i)
+          {
+            CHECK(path.pieces[i].along * half / half.norm() == doctest::Approx(1.).epsilon(1e-12));
+            CHECK(discontinuity.segment_key(0, i) == discontinuity.key(0, span));
+          }
+        }
+        CHECK(length == doctest::Approx(path.length()));
+        for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+          CHECK(path.piece_at(end).crosses_transverse_face(static_cast<unsigned int>(end)));
+        return length;
+      };
+      const double length = check();
+      CHECK(std::abs(length - 1.06) < longest * 1.01);
+
+      // A segment for each span, as long as it.
+      const auto segments = discontinuity.segments([](const Point<2> &) { return 0.; });
+      double area = 0.;
+      for (const auto &segment : segments)
+        area += segment.area;
+      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+      {
+        CHECK(segments.size() == discontinuity.spans(0).size());
+        CHECK(area == doctest::Approx(length));
+      }
+
+      // Each end advances by a span.
+      const auto direction = half / half.norm();
+      const auto outcomes = discontinuity.grow(
+        {{0, CrackEnd::first, -direction}, {0, CrackEnd::last, direction}}, square.collectives);
+      for (const auto outcome : outcomes)
+        CHECK(outcome == Discontinuity<2>::Outcome::grown);
+      CHECK(check() == doctest::Approx(length + 2. * longest).epsilon(1e-3));
+    }
+}
+
 TEST_CASE("weights of cut cells sum to their area on a distorted mesh")
 {
   Square square(9, true);
