@@ -22,7 +22,6 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <algorithm>
 #include <sstream>
 
 namespace stockwork
@@ -50,29 +49,6 @@ double smallest_cell_size(const parallel::distributed::Triangulation<dim> &trian
     if (cell->is_locally_owned())
       size = std::min(size, cell_size(cell));
   return Utilities::MPI::min(size, triangulation.get_communicator());
-}
-
-
-/// A segment that ends on the bounding box of the domain, away from where the cracks of the deck
-/// end: the fracture has run into a side. Null: none.
-template <int dim>
-const NetworkSegment<dim> *segment_at_side(const Case<dim> &the_case)
-{
-  const double small = 1e-6 * the_case.geometry.diameter();
-  const auto lower = the_case.geometry.lower(), upper = the_case.geometry.upper();
-  for (const auto &segment : the_case.network.segments())
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double along = std::sqrt(std::max(0., 1. - segment.normal[d] * segment.normal[d]));
-      const double reach = 0.5 * segment.size() * along + small;
-      if (along > 0.1 &&
-          std::min(segment.centre[d] - lower[d], upper[d] - segment.centre[d]) < reach &&
-          std::none_of(the_case.scene.cracks.begin(), the_case.scene.cracks.end(),
-                       [&](const auto &crack)
-                       { return crack.distance(segment.centre) < 0.5 * segment.size(); }))
-        return &segment;
-    }
-  return nullptr;
 }
 
 
@@ -312,16 +288,6 @@ void Simulation<dim>::march()
       const auto scope = run.timers.scope("output");
       fields.write(clock.time, system.discretization(), the_case.scene, *the_case.model,
                    stepper.last_state());
-    }
-    if (const auto *segment = the_case.network.has_wells() ? segment_at_side(the_case) : nullptr)
-    {
-      save();
-      report.finish(triangulation.n_global_active_cells());
-      std::ostringstream text;
-      text << "At t = " << clock.time << " s the fracture has reached the side of the domain at ("
-           << segment->centre << "). What is beyond is not in the model, and the fluid would have "
-           << "nowhere to go. Enlarge the domain, or end the run earlier (Time/End time).";
-      throw SolveError(text.str());
     }
     if (!finished())
       adaptation.adapt(system, stepper);
