@@ -13,6 +13,13 @@ namespace stockwork
 {
 using namespace dealii;
 
+namespace
+{
+/// For a comparison of speeds alone [kg/m^3].
+constexpr double density_of_common_rock = 2500.;
+} // namespace
+
+
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case)
 {
@@ -35,7 +42,8 @@ double distance_to_walls(const Case<dim> &the_case)
 
 double rayleigh_speed(const RockProperties &rock)
 {
-  const double shear_speed = std::sqrt(rock.shear_modulus() / rock.density);
+  const double density = rock.density > 0. ? rock.density : density_of_common_rock;
+  const double shear_speed = std::sqrt(rock.shear_modulus() / density);
   return shear_speed * (0.87 + 1.12 * rock.poisson_ratio) / (1. + rock.poisson_ratio);
 }
 
@@ -158,6 +166,8 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const double 
          << std::setprecision(3) << number.value << "  " << number.consequence;
     run.out << line.str() << '\n';
   }
+  for (const ChosenValue &chosen : the_case.chosen)
+    run.out << "  " << chosen.entry << " = " << chosen.value << ": " << chosen.why << '\n';
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
     run.out << "  left out: inertia (Time/Inertia = off)\n";
   run.out << "  left out: plasticity (the rock is elastic)\n" << std::flush;

@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace stockwork
 {
@@ -151,6 +152,10 @@ private:
                               const dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                               const std::vector<double> &dx_extra);
 
+  /// That an iteration may make, of a pressure in the fracture [Pa].
+  double greatest_pressure_change(const std::vector<double> &now,
+                                  const std::vector<double> &at_start) const;
+
   struct Norms
   {
     double momentum = 0., mass = 0., extra = 0., fracture_fluid = 0.;
@@ -171,7 +176,8 @@ private:
   Discretisation discretisation;
   Collectives communication;
 
-  double tolerance, pressure_limit;
+  double tolerance;
+  std::optional<double> pressure_limit; ///< as the deck gives it
   unsigned int max_iterations;
   bool show_iterations;
 
