@@ -293,8 +293,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
     require(prm, "Rock", "Permeability",
             "a permeability > 0 m^2, such as '1 md', for the pore pressure is solved for; or 'Bulk "
             "model = elastic'");
-  if (discretisation.has_pore_pressure ||
-      (solves_for_flow && !model->requirements().bulk_alone))
+  if (discretisation.has_pore_pressure || (solves_for_flow && !model->requirements().bulk_alone))
     require(prm, "Fluid", "Viscosity",
             "a viscosity > 0 Pa s, such as '1 cP', for there is flow in pores or fractures; or, "
             "where a fracture is dry, 'Cracks/Fluid pressure = 0'");

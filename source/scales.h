@@ -22,11 +22,11 @@ struct ChosenValue
 
 /// How large the pressures and apertures of a fracture are that sets out from the first crack of a
 /// scene. No limit or tolerance of the program has a dimension of its own: it is a share of these,
-/// so that a block of 20 cm and a field of 2 km run alike. They do not depend on the end time, which
-/// a restart may change.
+/// so that a block of 20 cm and a field of 2 km run alike. They do not depend on the end time,
+/// which a restart may change.
 struct Scales
 {
-  double length;      ///< half length or radius of the first crack; without one, size of the domain [m]
+  double length; ///< half length or radius of the first crack; without one, size of the domain [m]
   double pressure;    ///< net of what closes the crack [Pa]
   std::string source; ///< where the pressure comes from
   double aperture;    ///< of the crack under this pressure, 4 p a/E' [m]

@@ -88,10 +88,10 @@ void add_hydraulic_numbers(const Case<dim> &the_case,
 
   // A zone a fifth as long as the wing makes the fracture longer by 1 % (kgd/toughness), and in
   // proportion; less where viscosity dominates.
-  const double zone = std::isnan(rock.tensile_strength)
-                        ? cells_of_process_zone * smallest_cell
-                        : rock.plane_modulus() * rock.energy_release_rate /
-                            std::pow(rock.tensile_strength, 2);
+  const double zone =
+    std::isnan(rock.tensile_strength)
+      ? cells_of_process_zone * smallest_cell
+      : rock.plane_modulus() * rock.energy_release_rate / std::pow(rock.tensile_strength, 2);
   std::ostringstream effect;
   effect << std::setprecision(2);
   if (K_m < 0.5)
@@ -100,7 +100,8 @@ void add_hydraulic_numbers(const Case<dim> &the_case,
     effect << "short: it makes the fracture about " << 5. * zone / length << " % longer";
   else
   {
-    effect << "long: it makes the fracture about " << 5. * zone / length << " % longer, earlier more; ";
+    effect << "long: it makes the fracture about " << 5. * zone / length
+           << " % longer, earlier more; ";
     if (std::isnan(rock.tensile_strength))
       effect << "cells of " << 0.2 * length / cells_of_process_zone << " m would do for 1 %";
     else

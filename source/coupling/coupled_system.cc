@@ -421,21 +421,6 @@ CoupledSystem<dim>::rounding_errors(const TrilinosWrappers::MPI::BlockVector &va
 }
 
 
-/// A fracture that is pumped open at once takes, for a moment, many times the pressure that drives
-/// it later: the limit must let it come, and only keep it from a single leap.
-template <int dim>
-double CoupledSystem<dim>::greatest_pressure_change(const std::vector<double> &now,
-                                                    const std::vector<double> &at_start) const
-{
-  if (pressure_limit)
-    return *pressure_limit;
-  double greatest = network.typical_pressure();
-  for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
-    greatest = std::max(greatest, std::abs(now[i] - at_start[i]));
-  return 4. * greatest;
-}
-
-
 template <int dim>
 NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
                                           Unknowns &current,
@@ -540,8 +525,12 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       report.reason = error.what();
       return report;
     }
-    const double limit = greatest_pressure_change(current.extra, extra_at_start);
-    double factor = 1.;
+    // A fracture that is pumped open at once takes, for a moment, many times the pressure that
+    // drives it later: the limit must let it come, and only keep it from a single leap.
+    double greatest_change = network.typical_pressure(), factor = 1.;
+    for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
+      greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
+    const double limit = pressure_limit.value_or(4. * greatest_change);
     for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
       if (const double change = std::abs(dx_extra[i]); factor * change > limit)
         factor = limit / change;

@@ -152,10 +152,6 @@ private:
                               const dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                               const std::vector<double> &dx_extra);
 
-  /// That an iteration may make, of a pressure in the fracture [Pa].
-  double greatest_pressure_change(const std::vector<double> &now,
-                                  const std::vector<double> &at_start) const;
-
   struct Norms
   {
     double momentum = 0., mass = 0., extra = 0., fracture_fluid = 0.;
