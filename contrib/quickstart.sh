@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a hydraulic fracture:
+# From a bare Debian 12 or 13 (whose packages have the same names) to a hydraulic fracture:
 #   contrib/quickstart.sh          install what is missing, build, run the demo, show the result
 #   contrib/quickstart.sh --test   the same build, then the test suite instead of the demo
 #   contrib/quickstart.sh --install-only | --build-only

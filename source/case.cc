@@ -117,6 +117,34 @@ double greatest_rate(const Network<dim> &network, const StepControl &control)
 }
 
 
+/// What has no scale of its own must be in the deck where it counts.
+void require(ParameterHandler &prm,
+             const std::string &section,
+             const std::string &entry,
+             const std::string &allowed)
+{
+  prm.enter_subsection(section);
+  const bool missing = prm.get(entry).empty();
+  prm.leave_subsection();
+  if (missing)
+    throw EntryError(section + "/" + entry, "", allowed);
+}
+
+
+/// The scales of the case, handed to the flow in fractures, and the entries that follow from them.
+template <int dim>
+std::vector<ChosenValue> set_flow_scales(ParameterHandler &prm, Case<dim> &the_case)
+{
+  const Scales scales = scales_of(the_case.scene, the_case.network, the_case.boundary_conditions);
+  const std::vector<ChosenValue> chosen = fill_in_flow(prm, scales);
+  prm.enter_subsection("Fracture flow");
+  const double minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
+  prm.leave_subsection();
+  the_case.network.set_scales(minimum_aperture, scales.pressure, scales.aperture, scales.length);
+  return chosen;
+}
+
+
 template <int dim>
 const auto &create_function(const FractureModelEntry &entry)
 {
@@ -251,6 +279,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
   prm.leave_subsection();
+  const bool solves_for_flow = model_name != "none" && std::isnan(scene.crack_pressure);
+  const std::vector<ChosenValue> chosen_for_flow = set_flow_scales(prm, *this);
+  if (solves_for_flow)
+    chosen = chosen_for_flow;
   model = make_model<dim>(prm, registry, scene);
   if (model->requirements().uniform_rock)
     refuse_regions(prm, model_name);
@@ -258,10 +290,20 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
     parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = discretisation.has_pore_pressure;
   if (discretisation.has_pore_pressure)
+    require(prm, "Rock", "Permeability",
+            "a permeability > 0 m^2, such as '1 md', for the pore pressure is solved for; or 'Bulk "
+            "model = elastic'");
+  if (discretisation.has_pore_pressure || (solves_for_flow && !model->requirements().bulk_alone))
+    require(prm, "Fluid", "Viscosity",
+            "a viscosity > 0 Pa s, such as '1 cP', for there is flow in pores or fractures; or, "
+            "where a fracture is dry, 'Cracks/Fluid pressure = 0'");
+  if (discretisation.has_pore_pressure)
     refuse_incompressible(prm, rock, geometry, boundary_conditions);
 
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
 
+  if (scheme.kind() == TimeScheme::Kind::newmark)
+    require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
   if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Least pressure'");

@@ -12,6 +12,7 @@
 #include "coupling/time_scheme.h"
 #include "flow/network.h"
 #include "mesh/geometry.h"
+#include "scales.h"
 #include "verification/reference_solution.h"
 
 #include <memory>
@@ -43,6 +44,9 @@ struct Case
   TimeScheme scheme;
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
   bool starts_from_reference;
+
+  /// What the scene's scales give where the deck leaves an entry empty.
+  std::vector<ChosenValue> chosen;
 
   /// The walls move as the reference says, so they are not felt.
   bool walls_follow_reference = false;

@@ -13,6 +13,16 @@ namespace stockwork
 {
 using namespace dealii;
 
+namespace
+{
+/// For a comparison of speeds alone [kg/m^3].
+constexpr double density_of_common_rock = 2500.;
+
+/// As long as cohesive cracks make their process zone where the deck gives no strength.
+constexpr double cells_of_process_zone = 8.;
+} // namespace
+
+
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case)
 {
@@ -35,7 +45,8 @@ double distance_to_walls(const Case<dim> &the_case)
 
 double rayleigh_speed(const RockProperties &rock)
 {
-  const double shear_speed = std::sqrt(rock.shear_modulus() / rock.density);
+  const double density = rock.density > 0. ? rock.density : density_of_common_rock;
+  const double shear_speed = std::sqrt(rock.shear_modulus() / density);
   return shear_speed * (0.87 + 1.12 * rock.poisson_ratio) / (1. + rock.poisson_ratio);
 }
 
@@ -45,6 +56,7 @@ namespace
 template <int dim>
 void add_hydraulic_numbers(const Case<dim> &the_case,
                            const double rate,
+                           const double smallest_cell,
                            std::vector<SceneNumber> &numbers)
 {
   const RockProperties &rock = the_case.rock.main();
@@ -73,6 +85,29 @@ void add_hydraulic_numbers(const Case<dim> &the_case,
                         : "the walls govern the answer: enlarge the domain, or compare with a "
                           "solution that has them");
   numbers.push_back({"distance to walls / final length", walls, text.str()});
+
+  // A zone a fifth as long as the wing makes the fracture longer by 1 % (kgd/toughness), and in
+  // proportion; less where viscosity dominates.
+  const double zone =
+    std::isnan(rock.tensile_strength)
+      ? cells_of_process_zone * smallest_cell
+      : rock.plane_modulus() * rock.energy_release_rate / std::pow(rock.tensile_strength, 2);
+  std::ostringstream effect;
+  effect << std::setprecision(2);
+  if (K_m < 0.5)
+    effect << "viscosity dominates: the zone matters little";
+  else if (zone <= 0.2 * length)
+    effect << "short: it makes the fracture about " << 5. * zone / length << " % longer";
+  else
+  {
+    effect << "long: it makes the fracture about " << 5. * zone / length
+           << " % longer, earlier more; ";
+    if (std::isnan(rock.tensile_strength))
+      effect << "cells of " << 0.2 * length / cells_of_process_zone << " m would do for 1 %";
+    else
+      effect << "that is the rock's strength, not the mesh's";
+  }
+  numbers.push_back({"process zone / final length", zone / length, effect.str()});
 }
 } // namespace
 
@@ -136,7 +171,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
     }
     const double rate = the_case.network.rate_of_first_well(the_case.control.end_time);
     if (dim == 2 && rate > 0.)
-      add_hydraulic_numbers(the_case, rate, numbers);
+      add_hydraulic_numbers(the_case, rate, smallest_cell, numbers);
     if (rate > 0. && the_case.scheme.kind() == TimeScheme::Kind::newmark &&
         !the_case.scheme.damps())
       numbers.push_back({"Newmark gamma", 0.5,
@@ -158,6 +193,8 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const double 
          << std::setprecision(3) << number.value << "  " << number.consequence;
     run.out << line.str() << '\n';
   }
+  for (const ChosenValue &chosen : the_case.chosen)
+    run.out << "  " << chosen.entry << " = " << chosen.value << ": " << chosen.why << '\n';
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
     run.out << "  left out: inertia (Time/Inertia = off)\n";
   run.out << "  left out: plasticity (the rock is elastic)\n" << std::flush;

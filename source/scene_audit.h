@@ -22,7 +22,8 @@ struct SceneNumber
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case);
 
-/// To 1 %: Viktorov's fit to the shear wave speed [m/s].
+/// To 1 %: Viktorov's fit to the shear wave speed [m/s]. Where the deck gives no density, of rock
+/// as heavy as most.
 double rayleigh_speed(const RockProperties &rock);
 
 /// The numbers of a case, computed before the first step. Lengths and speeds of a fracture that is

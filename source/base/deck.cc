@@ -332,7 +332,15 @@ Origin Deck::origin(const std::string &path) const
 
 std::string Deck::located(const EntryError &error) const
 {
-  return origin(error.path()).text() + ": " + error.what();
+  // An entry that is missing: where its section begins, or the deck.
+  Origin place = origin(error.path());
+  for (std::string path = section_of(error.path());
+       place.file.empty() && !place.command_line && !path.empty(); path = section_of(path))
+    if (const auto section = sections.find(path); section != sections.end())
+      place = section->second;
+  if (place.file.empty() && !place.command_line)
+    place = {file_name, 1, false};
+  return place.text() + ": " + error.what();
 }
 
 std::string Deck::name() const

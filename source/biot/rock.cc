@@ -29,6 +29,8 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
     if (is_region)
       prm.declare_entry(name, "", Quantity(dimension, range, ""),
                         "As Rock/" + name + ", in this region only; empty: as there.");
+    else if (value.empty())
+      prm.declare_entry(name, "", Quantity(dimension, range, ""), text);
     else
       prm.declare_entry(name, value, Quantity(dimension, range), text);
   };
@@ -36,7 +38,7 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
                             const std::string &text)
   { prm.declare_entry(name, "", Quantity(dimension, range, ""), text); };
 
-  declare("Young modulus", "10 GPa", dimension::stress, Range::positive(), "Drained.");
+  declare("Young modulus", "", dimension::stress, Range::positive(), "Drained. Required.");
   declare("Poisson ratio", "0.25", dimension::number, Range::open(-1., 0.5), "Drained.");
   optional("Biot coefficient", dimension::number, Range::closed(0., 1.),
            "Empty: 1 - K/K_s if the solid's bulk modulus is given, else 1.");
@@ -46,10 +48,11 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
            "K_s of the grains; empty: incompressible grains.");
   declare("Porosity", "0.1", dimension::number, Range::closed(0., 1.),
           "Pore volume over bulk volume, n.");
-  declare("Permeability", "1 md", dimension::permeability, Range::positive(),
-          "Intrinsic, isotropic. Impermeable rock is Bulk model = elastic.");
-  declare("Density", "2500 kg/m^3", dimension::density, Range::positive(),
-          "Of the saturated rock; used with inertia only.");
+  declare("Permeability", "", dimension::permeability, Range::positive(),
+          "Intrinsic, isotropic; required in poroelastic rock. Impermeable rock is Bulk model = "
+          "elastic.");
+  declare("Density", "", dimension::density, Range::positive(),
+          "Of the saturated rock; required with inertia, not used without.");
   optional("Fracture toughness", dimension::toughness, Range::positive(),
            "K_Ic. This or the critical energy release rate.");
   optional("Critical energy release rate", dimension::energy_release_rate, Range::positive(),
@@ -78,8 +81,8 @@ RockProperties parse_properties(const ParameterHandler &prm,
     get("Poisson ratio", dimension::number, inherited ? rock.poisson_ratio : nan);
   rock.porosity = get("Porosity", dimension::number, inherited ? rock.porosity : nan);
   rock.permeability =
-    get("Permeability", dimension::permeability, inherited ? rock.permeability : nan);
-  rock.density = get("Density", dimension::density, inherited ? rock.density : nan);
+    get("Permeability", dimension::permeability, inherited ? rock.permeability : 0.);
+  rock.density = get("Density", dimension::density, inherited ? rock.density : 0.);
   rock.tensile_strength = get("Tensile strength", dimension::stress, rock.tensile_strength);
 
   // Biot's constants, from either pair. K is the three-dimensional drained bulk modulus.
@@ -162,12 +165,11 @@ void Rock::declare_parameters(ParameterHandler &prm)
   prm.leave_subsection();
 
   prm.enter_subsection("Fluid");
-  prm.declare_entry("Viscosity", "1 cP", Quantity(dimension::viscosity, Range::positive()),
-                    "Of the fluid in pores and fractures.");
+  prm.declare_entry("Viscosity", "", Quantity(dimension::viscosity, Range::positive(), ""),
+                    "Of the fluid in pores and fractures; required where there is flow in either.");
   prm.declare_entry("Bulk modulus", "inf",
                     Quantity(dimension::stress, Range{0., INFINITY, true, false}),
                     "K_f; 'inf' for an incompressible fluid.");
-  prm.declare_entry("Density", "1000 kg/m^3", Quantity(dimension::density, Range::positive()), "");
   prm.leave_subsection();
 }
 
@@ -176,13 +178,16 @@ void Rock::parse_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Fluid");
   const double fluid_modulus = get_quantity(prm, "Bulk modulus", dimension::stress);
-  pore_fluid = {get_quantity(prm, "Viscosity", dimension::viscosity), 1. / fluid_modulus,
-                get_quantity(prm, "Density", dimension::density)};
+  pore_fluid = {get_optional_quantity(prm, "Viscosity", dimension::viscosity)
+                  .value_or(std::numeric_limits<double>::infinity()),
+                1. / fluid_modulus};
   prm.leave_subsection();
 
   prm.enter_subsection("Rock");
   model = prm.get("Bulk model");
   default_region.plane_stress = prm.get("Plane state") == "plane stress";
+  if (prm.get("Young modulus").empty())
+    throw EntryError("Rock/Young modulus", "", "a stress > 0 Pa, such as '20 GPa'");
   RockProperties blank = parse_properties(prm, "Rock", nullptr, fluid_modulus);
   const bool plane_stress = default_region.plane_stress;
   if (plane_stress)

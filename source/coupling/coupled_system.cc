@@ -50,9 +50,12 @@ void CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
                     "Reduction of the residual of each field against its greatest in the solve.");
   prm.declare_entry("Maximum iterations", "25", Patterns::Integer(1),
                     "A solve that takes more has failed, and the step is cut.");
-  prm.declare_entry("Maximum pressure change", "5 MPa",
-                    Quantity(dimension::pressure, Range::positive()),
-                    "An iteration that would change a fracture pressure by more is shortened.");
+  prm.declare_entry("Maximum pressure change", "",
+                    Quantity(dimension::pressure, Range::positive(), ""),
+                    "An iteration that would change a fracture pressure by more is shortened. "
+                    "Empty: four times the net pressure with which the first crack sets out, by "
+                    "toughness or viscosity, or what pressures have changed by so far in the "
+                    "solve, if that is more.");
   prm.declare_entry("Show iterations", "false", Patterns::Bool(),
                     "Print the residuals of every iteration: forces of the bulk and of the "
                     "fracture, mass in pores and in the fracture.");
@@ -87,7 +90,7 @@ CoupledSystem<dim>::CoupledSystem(RunContext &run,
   prm.enter_subsection("Nonlinear solver");
   tolerance = get_quantity(prm, "Tolerance", dimension::number);
   max_iterations = prm.get_integer("Maximum iterations");
-  pressure_limit = get_quantity(prm, "Maximum pressure change", dimension::pressure);
+  pressure_limit = get_optional_quantity(prm, "Maximum pressure change", dimension::pressure);
   show_iterations = prm.get_bool("Show iterations");
   prm.leave_subsection();
 }
@@ -451,6 +454,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
 
   auto dx_bulk = owned_vector();
   std::vector<double> dx_extra;
+  const std::vector<double> extra_at_start = current.extra;
   for (unsigned int iteration = 0;; ++iteration)
   {
     for (const auto &[now, most] :
@@ -521,9 +525,15 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       report.reason = error.what();
       return report;
     }
-    double factor = 1.;
+    // A fracture that is pumped open at once takes, for a moment, many times the pressure that
+    // drives it later: the limit must let it come, and only keep it from a single leap.
+    double greatest_change = network.typical_pressure(), factor = 1.;
     for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
-      factor = std::min(factor, pressure_limit / std::max(std::abs(dx_extra[i]), 1e-300));
+      greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
+    const double limit = pressure_limit.value_or(4. * greatest_change);
+    for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
+      if (const double change = std::abs(dx_extra[i]); factor * change > limit)
+        factor = limit / change;
     const auto move = [&](const double step)
     {
       values.add(step, dx_bulk);

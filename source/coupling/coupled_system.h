@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace stockwork
 {
@@ -171,7 +172,8 @@ private:
   Discretisation discretisation;
   Collectives communication;
 
-  double tolerance, pressure_limit;
+  double tolerance;
+  std::optional<double> pressure_limit; ///< as the deck gives it
   unsigned int max_iterations;
   bool show_iterations;
 

@@ -14,7 +14,8 @@ void StepControl::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Time");
   prm.declare_entry("Start time", "0 s", Quantity(dimension::time), "");
-  prm.declare_entry("End time", "1 s", Quantity(dimension::time), "After the start time.");
+  prm.declare_entry("End time", "", Quantity(dimension::time, Range::finite(), ""),
+                    "After the start time. Required.");
   prm.declare_entry("Initial step", "", Patterns::Anything(),
                     "Length of the first step [s]; empty: a hundredth of the run.");
   prm.declare_entry("Minimum step", "", Patterns::Anything(),
@@ -52,6 +53,8 @@ void StepControl::parse_parameters(ParameterHandler &prm)
   };
   prm.enter_subsection("Time");
   start_time = get_quantity(prm, "Start time", dimension::time);
+  if (prm.get("End time").empty())
+    throw EntryError("Time/End time", "", "a time after the start time, such as '10 min'");
   end_time = get_quantity(prm, "End time", dimension::time);
   if (!(end_time > start_time))
     throw EntryError("Time/End time", prm.get("End time"),

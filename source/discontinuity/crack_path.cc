@@ -318,10 +318,11 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
       for (unsigned int i = 0; i + 1 < crossings.size(); i += 2)
       {
         const std::array<double, 2> arcs = {{crossings[i].arc, crossings[i + 1].arc}};
-        // A tip this close to an edge is taken to be on it. Whole spans are chosen below, from what
+        // A tip this close to an edge is taken to be on it: of the stress intensity, pressure on a
+        // part e of the half length a makes sqrt(2 e/a). Whole spans are chosen below, from what
         // lies a few cells beyond the ends as well.
         const double sliver =
-          exact_ends ? 0.02 * (arcs[1] - arcs[0]) : -3. * cell->vertex(0).distance(cell->vertex(3));
+          exact_ends ? 1e-7 * (arcs[1] - arcs[0]) : -3. * cell->vertex(0).distance(cell->vertex(3));
         if (arcs[1] < sliver || arcs[0] > line.length - sliver ||
             crossings[i].face == crossings[i + 1].face)
           continue;

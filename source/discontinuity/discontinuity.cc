@@ -22,14 +22,17 @@ bool reaches(const CrackTip<dim> &tip, const CellIterator &cell)
   return tip.point.distance(cell->center()) < tip.radius + 0.5 * cell->diameter();
 }
 
-/// Which end of a piece lies at a point of the unit cell; -1: none.
+/// Distance from a tip, in unit cells, within which its singular functions need points that gather
+/// around it, inside the cell or out.
+constexpr double near_tip = 0.1;
+
+/// Which end of a piece lies beside a point of the unit cell, the nearer one; -1: none.
 template <int dim>
 int end_at(const CrackPiece<dim> &piece, const Point<dim> &unit_point)
 {
-  for (int e = 0; e < 2; ++e)
-    if (piece.unit_ends[e].distance(unit_point) < 0.03)
-      return e;
-  return -1;
+  const double first = piece.unit_ends[0].distance(unit_point),
+               last = piece.unit_ends[1].distance(unit_point);
+  return std::min(first, last) > 1.5 * near_tip ? -1 : first < last ? 0 : 1;
 }
 } // namespace
 
@@ -193,22 +196,23 @@ void Discontinuity<dim>::add_entry(const CellIterator &cell,
   const unsigned int degree = cell->get_fe().base_element(0).degree;
   Entry entry;
   entry.cell = cell;
-  std::optional<Point<dim>> tip_in_cell;
+  std::optional<Point<dim>> tip_beside; // or in the cell: the nearest point of the unit cell
   for (unsigned int t = 0; t < tips.size(); ++t)
     if (reaches(tips[t], cell))
     {
       entry.tips.push_back(t);
       if (tips[t].point.distance(cell->center()) < cell->diameter())
         if (const auto unit = mapping.transform_real_to_unit_cell(cell, tips[t].point);
-            dealii::GeometryInfo<dim>::is_inside_unit_cell(unit, 1e-8))
-          tip_in_cell = dealii::GeometryInfo<dim>::project_to_unit_cell(unit);
+            dealii::GeometryInfo<dim>::is_inside_unit_cell(unit, near_tip))
+          tip_beside = dealii::GeometryInfo<dim>::project_to_unit_cell(unit);
     }
 
-  if (tip_in_cell && piece == nullptr)
+  if (tip_beside && piece == nullptr)
     entry.geometry =
-      make_cut_geometry<dim>(mapping, cell, nullptr, fan_quadrature(*tip_in_cell, {}, degree + 4));
-  else if (const int end = tip_in_cell ? end_at(*piece, *tip_in_cell) : -1; end >= 0)
-    // Around the piece's own end, which may be moved off a corner by a hair.
+      make_cut_geometry<dim>(mapping, cell, nullptr, fan_quadrature(*tip_beside, {}, degree + 4));
+  else if (const int end = tip_beside ? end_at(*piece, *tip_beside) : -1; end >= 0)
+    // Around the piece's own end, which may be moved off a corner by a hair, or be where the crack
+    // leaves the cell for the one with the tip.
     entry.geometry = make_cut_geometry<dim>(
       mapping, cell, piece,
       fan_quadrature(piece->unit_ends[end],

@@ -21,10 +21,11 @@ void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
   namespace Patterns = dealii::Patterns;
   prm.enter_subsection("Fracture flow");
   prm.declare_entry(
-    "Minimum aperture", "10 um", Quantity(dimension::length, Range::positive()),
+    "Minimum aperture", "", Quantity(dimension::length, Range::positive(), ""),
     "w_min in the hydraulic aperture (w^4 + w_min^4)^(1/4). Enters the conductivity "
     "only, never the volume. Small beside the aperture near the tip: a larger "
-    "value lets viscous fluid run ahead.");
+    "value lets viscous fluid run ahead. Empty: a hundredth of the aperture that the first crack "
+    "has when it sets out, by toughness or viscosity, which is printed.");
   prm.declare_entry("Least pressure", "-inf",
                     Quantity(dimension::pressure, Range{-INFINITY, INFINITY, false, true}),
                     "At which the fluid boils. A segment that it cannot fill keeps this pressure, "
@@ -51,7 +52,6 @@ template <int dim>
 void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
 {
   prm.enter_subsection("Fracture flow");
-  minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
   least_pressure = get_quantity(prm, "Least pressure", dimension::pressure);
   const std::string least_text = prm.get("Least pressure");
   carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
@@ -84,6 +84,19 @@ void Network<dim>::set_fluid(const double viscosity,
   this->compressibility = compressibility;
   this->rock_mobility = rock_mobility;
   all_wells.set_compressibility(compressibility);
+}
+
+
+template <int dim>
+void Network<dim>::set_scales(const double minimum_aperture,
+                              const double pressure,
+                              const double aperture,
+                              const double length)
+{
+  this->minimum_aperture = minimum_aperture;
+  pressure_scale = pressure;
+  const double conductance = aperture * aperture * aperture / (12. * viscosity * length);
+  all_wells.set_scales(pressure, pressure * conductance * (dim == 2 ? 1. : length));
 }
 
 
@@ -180,7 +193,7 @@ std::vector<ExtraUnknown> Network<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> result;
   const auto add = [&](const std::uint64_t key, const double initial) {
-    result.push_back({key, initial, std::max(std::abs(initial), 1e6)});
+    result.push_back({key, initial, std::max(std::abs(initial), pressure_scale)});
   };
   for (const auto &segment : network)
     if (!segment.has_given_pressure())

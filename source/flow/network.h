@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "flow/fluid_balance.h"
@@ -56,6 +57,12 @@ public:
   /// @param compressibility c_f [1/Pa]
   /// @param rock_mobility k/mu of the rock, for leak-off that is resolved [m^2/(Pa s)]
   void set_fluid(double viscosity, double compressibility, double rock_mobility);
+
+  /// After the fluid.
+  /// @param minimum_aperture [m]
+  /// @param pressure, aperture, length of a fracture of this scene [Pa, m, m]: of these sizes are
+  /// the factors that make all unknowns of the flow pressures and all its equations volumes
+  void set_scales(double minimum_aperture, double pressure, double aperture, double length);
 
   /// The fractures or the numbering of the unknowns are new. Collective. Segments that appear
   /// within a step were exposed within it: those of the first of two calls in its first half.
@@ -129,6 +136,12 @@ public:
     return std::isfinite(least_pressure);
   }
 
+  /// Net, of a fracture of this scene [Pa]; see set_scales.
+  double typical_pressure() const
+  {
+    return pressure_scale;
+  }
+
   bool has_wells() const
   {
     return !all_wells.empty();
@@ -138,6 +151,17 @@ public:
   std::vector<std::pair<std::string, double>> least_well_pressures() const
   {
     return all_wells.least_pressures();
+  }
+
+  /// See Wells.
+  double greatest_rate() const
+  {
+    return all_wells.greatest_rate();
+  }
+
+  std::optional<double> greatest_pressure() const
+  {
+    return all_wells.greatest_pressure();
   }
 
   double rate_of_first_well(double t) const
@@ -194,7 +218,7 @@ private:
   /// What a segment's row is divided by where it says p = p_least, to be a volume [m^3/Pa].
   double vapour_scale(unsigned int segment) const
   {
-    return network[segment].area * minimum_aperture / 1e6;
+    return network[segment].area * minimum_aperture / pressure_scale;
   }
 
   /// The time of exposure of a segment's faces before and after a step.
@@ -229,12 +253,13 @@ private:
                         const Values &,
                         LocalSystem &) const;
 
-  double minimum_aperture = 10e-6;
+  double minimum_aperture = std::numeric_limits<double>::quiet_NaN();
+  double pressure_scale = std::numeric_limits<double>::quiet_NaN();
   double least_pressure = -std::numeric_limits<double>::infinity();
   LeakOff leak_off = LeakOff::none;
   double carter_coefficient = 0.;
   double filter_cake_coefficient = 0.;
-  double viscosity = 1e-3;
+  double viscosity = std::numeric_limits<double>::quiet_NaN();
   double compressibility = 0.;
   double rock_mobility = 0.;
 

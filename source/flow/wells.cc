@@ -159,10 +159,6 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double bo
                       (well.fraction * well.fraction);
       well.volume = non_negative("Borehole volume", volume_dimension<dim>) * well.fraction;
 
-      // What is typical where the rate is not given: 1e-4 m^2/s, 10 l/s.
-      const double rate = well.pressure_control ? 0. : well.value.magnitude() * well.fraction;
-      well.conductance = (rate > 0. ? rate : dim == 2 ? 1e-4 : 1e-2) / 1e6;
-
       try
       {
         for (std::size_t begin = 0; begin < points.size();)
@@ -251,7 +247,7 @@ std::vector<ExtraUnknown> Wells<dim>::unknowns() const
     {
       ExtraUnknown unknown;
       unknown.key = flow_key(std::uint64_t(well.number) << 32 | k, 2);
-      unknown.scale = std::max(std::abs(well.initial_pressure), 1e6);
+      unknown.scale = std::max(std::abs(well.initial_pressure), pressure_scale);
       if (k == well.perforations.size())
         unknown.initial = well.initial_pressure;
       result.push_back(unknown);
@@ -451,6 +447,40 @@ std::vector<std::pair<std::string, double>> Wells<dim>::least_pressures() const
     if (well.is_bounded())
       result.emplace_back(well.name, well.least_pressure);
   return result;
+}
+
+
+template <int dim>
+void Wells<dim>::set_scales(const double pressure, const double typical_rate)
+{
+  pressure_scale = pressure;
+  for (Well &well : wells)
+  {
+    const double rate = well.pressure_control ? 0. : well.value.magnitude() * well.fraction;
+    well.conductance = (rate > 0. ? rate : typical_rate) / pressure;
+  }
+}
+
+
+template <int dim>
+double Wells<dim>::greatest_rate() const
+{
+  double greatest = 0.;
+  for (const Well &well : wells)
+    if (!well.pressure_control)
+      greatest = std::max(greatest, well.value.magnitude());
+  return greatest;
+}
+
+
+template <int dim>
+std::optional<double> Wells<dim>::greatest_pressure() const
+{
+  std::optional<double> greatest;
+  for (const Well &well : wells)
+    if (well.pressure_control)
+      greatest = std::max(greatest.value_or(0.), well.value.magnitude());
+  return greatest;
 }
 
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,8 +48,8 @@ struct WellReport
 ///   p_b >= p_least,  V c_f dp_b/dt + sum_i q_i >= Q,  one of the two is an equality.
 ///
 /// The unknown of a rate is y = q/c, and its equation is multiplied by c, with c the well's
-/// conductance at 1 MPa: like all others of the flow it then is a pressure, and its equation a
-/// volume, and one tolerance fits all.
+/// conductance at the scene's pressure: like all others of the flow it then is a pressure, and its
+/// equation a volume, and one tolerance fits all.
 template <int dim>
 class Wells
 {
@@ -64,6 +65,16 @@ public:
   {
     compressibility = fluid_compressibility;
   }
+
+  /// @param pressure of a fracture of this scene [Pa]
+  /// @param typical_rate what it takes at this pressure, where no rate is given [m^3/s]
+  void set_scales(double pressure, double typical_rate);
+
+  /// The greatest rate that is given, of a whole well.
+  double greatest_rate() const;
+
+  /// The greatest magnitude of a pressure that is given, if one is.
+  std::optional<double> greatest_pressure() const;
 
   bool empty() const
   {
@@ -198,5 +209,6 @@ private:
 
   std::vector<Well> wells;
   double compressibility = 0.;
+  double pressure_scale = 1.;
 };
 } // namespace stockwork

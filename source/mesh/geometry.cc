@@ -120,7 +120,7 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
   prm.declare_entry("Lower corner", "", Quantities(dimension::length, Range::finite(), 0, 3),
                     "Corner with the least coordinates [m]; empty: the origin.");
   prm.declare_entry("Upper corner", "", Quantities(dimension::length, Range::finite(), 0, 3),
-                    "Corner with the greatest coordinates [m]; empty: 1 m in every direction.");
+                    "Corner with the greatest coordinates [m]. Required for a box.");
   for (const char *entry : spacing_entry)
     prm.declare_entry(entry, "8 cells", Patterns::Anything(),
                       "Cells along the axis, before they are halved: '16 cells'; '0.5 m'; "
@@ -131,8 +131,8 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
   prm.leave_subsection();
 
   prm.enter_subsection("Ball");
-  prm.declare_entry("Radius", "1 m", Quantity(dimension::length, Range::positive()),
-                    "Radius of the quarter disc or octant of a ball [m].");
+  prm.declare_entry("Radius", "", Quantity(dimension::length, Range::positive(), ""),
+                    "Radius of the quarter disc or octant of a ball [m]. Required for these.");
   prm.leave_subsection();
 
   prm.enter_subsection("Gmsh");
@@ -183,17 +183,17 @@ template <int dim>
 void Geometry<dim>::make_box(ParameterHandler &prm)
 {
   prm.enter_subsection("Box");
-  const auto corner = [&prm](const std::string &entry, const double otherwise)
+  const auto corner = [&prm](const std::string &entry)
   {
     auto coordinates = get_quantities(prm, entry, dimension::length);
-    if (coordinates.empty())
-      coordinates.assign(dim, otherwise);
+    if (coordinates.empty() && entry == "Lower corner")
+      coordinates.assign(dim, 0.);
     if (coordinates.size() != dim)
       throw EntryError("Mesh/Box/" + entry, prm.get(entry),
                        std::to_string(dim) + " coordinates, as many as the case has dimensions");
     return coordinates;
   };
-  const auto lower = corner("Lower corner", 0.), upper = corner("Upper corner", 1.);
+  const auto lower = corner("Lower corner"), upper = corner("Upper corner");
   for (unsigned int d = 0; d < dim; ++d)
     if (!(lower[d] < upper[d]))
       throw EntryError("Mesh/Box/Upper corner", prm.get("Upper corner"),
@@ -267,6 +267,8 @@ template <int dim>
 void Geometry<dim>::make_ball(ParameterHandler &prm)
 {
   prm.enter_subsection("Ball");
+  if (prm.get("Radius").empty())
+    throw EntryError("Mesh/Ball/Radius", "", "a length > 0 m, such as '5 cm'");
   const double radius = get_quantity(prm, "Radius", dimension::length);
   prm.leave_subsection();
 

@@ -130,7 +130,7 @@ void FieldOutput<dim>::write(const double time,
 
   DataOutBase::VtkFlags flags;
   flags.print_date_and_time = false;
-  flags.compression_level = DataOutBase::VtkFlags::best_speed;
+  flags.compression_level = decltype(flags.compression_level)::best_speed;
   flags.write_higher_order_cells = higher_order_cells && degree > 1;
   output.set_flags(flags);
   output.build_patches(discretization.mapping, degree, DataOut<dim>::curved_boundary);

@@ -85,7 +85,7 @@ std::string file_of(const std::vector<FracturePiece<dim>> &pieces, MPI_Comm comm
     bad = output.first_not_finite();
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
-    flags.compression_level = DataOutBase::VtkFlags::best_speed;
+    flags.compression_level = decltype(flags.compression_level)::best_speed;
     output.set_flags(flags);
     std::ostringstream stream;
     output.write_vtu(stream);

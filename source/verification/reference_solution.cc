@@ -79,13 +79,13 @@ void declare_reference_parameters(ParameterHandler &prm)
                     "Take displacement and pore pressure at the start time from the reference.");
   prm.declare_entry("Compare", "every step", Patterns::Selection("every step|at the end"),
                     "When errors are formed. Their mean over time needs every step.");
-  prm.declare_entry("Load", "1 N/m", Quantity(dimension::force_per_length),
-                    "mandel: force on the half width of the plate.");
+  prm.declare_entry("Load", "", Quantity(dimension::force_per_length, Range::finite(), ""),
+                    "mandel: force on the half width of the plate. Required there.");
   prm.declare_entry("Elastic share", "0.01", Quantity(dimension::number, Range::open(0., 1.)),
                     "double cantilever: opening of the layer at its strength over the opening "
                     "without traction; the fracture model's.");
-  prm.declare_entry("Rise time", "1 s", Quantity(dimension::time, Range::positive()),
-                    "bar wave, porous wave: duration of the rise of the load.");
+  prm.declare_entry("Rise time", "", Quantity(dimension::time, Range::positive(), ""),
+                    "bar wave, porous wave: duration of the rise of the load. Required there.");
   prm.leave_subsection();
 }
 

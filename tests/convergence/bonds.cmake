@@ -36,6 +36,7 @@ stockwork_order_test(NAME convergence/order/bar_wave/peridynamics DECK prm/bar_w
 # A crack in porous rock. Where pores and crack have the same pressure and nothing can move outwards, it
 # stays closed; with half the pressure in the crack its faces would overlap, and the run ends.
 set(steady "Rock/Bulk model=poroelastic" "Rock/Biot coefficient=1" "Rock/Biot modulus=10 GPa"
+  "Rock/Permeability=1 md" "Fluid/Viscosity=1 cP"
   "Boundary conditions/Displacement x=" "Boundary conditions/Displacement y="
   "Boundary conditions/Fixed=left, right, bottom, top"
   "Boundary conditions/Pore pressure=left: 1 MPa"
@@ -49,6 +50,7 @@ stockwork_stop_test(NAME convergence/sneddon/peridynamics/overlapping LABELS qui
 # Slowly loaded, it is a crack in the drained rock; at once, in the undrained one: K + alpha^2 M = 13.07
 # GPa with G = 4 GPa, where `prescribed`, with an error of 0.2 %, has the volume 4.633e-4 m^2.
 set(porous "Rock/Bulk model=poroelastic" "Rock/Biot coefficient=0.8" "Rock/Biot modulus=10 GPa"
+  "Rock/Permeability=1 md" "Fluid/Viscosity=1 cP"
   "Boundary conditions/Drained=left, right, bottom, top" "Output/Fields=false")
 stockwork_case_test(NAME convergence/sneddon/peridynamics/drained LABELS quick NEGATIVE
   DECK prm/sneddon/box/peridynamics.prm

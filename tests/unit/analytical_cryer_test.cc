@@ -91,7 +91,8 @@ TEST_CASE("the field that errors are formed with is that of the series, at early
   Rock::declare_parameters(prm);
   prm.parse_input_from_string("subsection Rock\n set Young modulus = 100 MPa\n"
                               " set Poisson ratio = 0\n set Biot coefficient = 1\n"
-                              " set Biot modulus = inf\n set Permeability = 1e-12\nend");
+                              " set Biot modulus = inf\n set Permeability = 1e-12\nend\n"
+                              "subsection Fluid\n set Viscosity = 1 cP\nend");
   Rock rock;
   rock.parse_parameters(prm);
   ReferenceInput<3> input{rock, {}, {2., 2., 2.}};

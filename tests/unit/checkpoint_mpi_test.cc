@@ -64,7 +64,8 @@ struct Bulk
     prm.parse_input_from_string("subsection Mesh\n set Region boxes = coal: (0, 0" +
                                 std::string(dim == 3 ? ", 0" : "") + ") to (0.3, 1" +
                                 std::string(dim == 3 ? ", 1" : "") + ")\n" + "subsection Box\n" +
-                                "set X spacing = 3 cells\nset Y spacing = 4 cells\nend\nend\n");
+                                "set Upper corner = 1, 1" + std::string(dim == 3 ? ", 1" : "") +
+                                "\nset X spacing = 3 cells\nset Y spacing = 4 cells\nend\nend\n");
     geometry.parse_parameters(prm);
   }
 

@@ -27,7 +27,10 @@ struct Case
   {
     ParameterHandler prm;
     Geometry<dim>::declare_parameters(prm);
-    prm.parse_input_from_string("subsection Mesh\n" + deck + "\nend\n");
+    // Of unit size where the test does not say otherwise.
+    prm.parse_input_from_string("subsection Mesh\nsubsection Box\nset Upper corner = 1, 1" +
+                                std::string(dim == 3 ? ", 1" : "") +
+                                "\nend\nsubsection Ball\nset Radius = 1\nend\n" + deck + "\nend\n");
     geometry.parse_parameters(prm, STOCKWORK_TEST_DATA);
     geometry.create(triangulation);
   }

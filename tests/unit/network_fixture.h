@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flow/network.h"
+#include "stockwork/base/quantity.h"
 
 /// A fracture in rock so simple that much is known exactly: n segments of length h in a row, on a
 /// Winkler foundation, w_i = u_i with stiffness k [Pa/m], and one dof of pore pressure for each
@@ -98,6 +99,12 @@ public:
     }
     network.parse_parameters(prm);
     network.set_fluid(viscosity, compressibility, mobility);
+    prm.enter_subsection("Fracture flow");
+    network.set_scales(
+      stockwork::get_optional_quantity(prm, "Minimum aperture", stockwork::dimension::length)
+        .value_or(1e-5),
+      1e6, 1e-4, 1.);
+    prm.leave_subsection();
     update_segments();
     bulk.resize(n_bulk());
     bulk_reference = bulk;

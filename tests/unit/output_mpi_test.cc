@@ -72,7 +72,8 @@ struct Setting
     Geometry<2>::declare_parameters(prm);
     Rock::declare_parameters(prm);
     FieldOutput<2>::declare_parameters(prm);
-    prm.parse_input_from_string("subsection Rock\n"
+    prm.parse_input_from_string("subsection Mesh\nsubsection Box\nset Upper corner = 1, 1\n"
+                                "end\nend\nsubsection Rock\n"
                                 "set Young modulus = 10 GPa\nset Poisson ratio = 0.25\n"
                                 "set Biot coefficient = 0.8\nset Permeability = 1e-15 m^2\nend\n"
                                 "subsection Fluid\nset Viscosity = 1 cP\nend\n"

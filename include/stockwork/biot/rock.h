@@ -17,9 +17,9 @@ struct RockProperties
   double poisson_ratio = 0.;
   double biot_coefficient = 1.;
   double inverse_biot_modulus = 0.; ///< 1/M = (alpha-n)/K_s + n/K_f [1/Pa]
-  double permeability = 0.;         ///< [m^2]
+  double permeability = 0.;         ///< [m^2]; zero where the deck gives none
   double porosity = 0.;
-  double density = 0.; ///< of the saturated mixture [kg/m^3]
+  double density = 0.; ///< of the saturated mixture [kg/m^3]; zero where the deck gives none
   double energy_release_rate = std::numeric_limits<double>::quiet_NaN();       ///< G_c [J/m^2]
   double shear_energy_release_rate = std::numeric_limits<double>::quiet_NaN(); ///< G_IIc [J/m^2]
   double tensile_strength = std::numeric_limits<double>::quiet_NaN();          ///< [Pa]
@@ -51,9 +51,9 @@ struct RockProperties
 /// The pore and fracture fluid.
 struct Fluid
 {
-  double viscosity = 1e-3;     ///< [Pa s]
+  /// [Pa s]; infinite where the deck gives none
+  double viscosity = std::numeric_limits<double>::infinity();
   double compressibility = 0.; ///< 1/K_f, in the fracture [1/Pa]
-  double density = 1000.;
 };
 
 /// All kinds of rock in the scene, by region (material id of the mesh).

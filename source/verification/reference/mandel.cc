@@ -1,6 +1,7 @@
 // Mandel's problem in the quarter x, y >= 0 of the block.
 #include "verification/analytical/mandel.h"
 
+#include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
 #include "verification/reference/problems.h"
@@ -73,6 +74,8 @@ private:
 
 Made<2> make_mandel(const ParameterHandler &prm, const ReferenceInput<2> &input)
 {
+  if (prm.get("Load").empty())
+    throw EntryError("Verification/Load", "", "a force per length, such as '1 MN/m'");
   return std::make_unique<MandelReference>(analytical::MandelParameters{
     medium(input.rock), input.upper[0] - input.lower[0], input.upper[1] - input.lower[1],
     get_quantity(prm, "Load", dimension::force_per_length)});

@@ -17,6 +17,14 @@ using namespace dealii;
 
 namespace
 {
+double required_rise_time(const ParameterHandler &prm)
+{
+  if (prm.get("Rise time").empty())
+    throw EntryError("Verification/Rise time", "", "a time > 0 s, such as '2 s'");
+  return get_quantity(prm, "Rise time", dimension::time);
+}
+
+
 /// The final load on the top, after a look whether the deck applies it as the solution assumes.
 template <int dim>
 double load_on_top(const ReferenceInput<dim> &input,
@@ -24,7 +32,7 @@ double load_on_top(const ReferenceInput<dim> &input,
                    const std::function<double(double)> &history,
                    const std::string &formula)
 {
-  const double load = -input.normal_traction("top", 1e3 * rise_time + 1.);
+  const double load = -input.normal_traction("top", 1e3 * rise_time);
   for (const double s : {0.1, 0.3, 0.5, 0.8, 1.5, 4.})
     if (std::abs(-input.normal_traction("top", s * rise_time) - load * history(s)) >
         1e-6 * std::abs(load))
@@ -66,6 +74,7 @@ class PorousWaveField : public Field<dim>
 public:
   PorousWaveField(const analytical::PorousWaveParameters &parameters, const double top)
     : Field<dim>(true)
+    , length(parameters.length)
     , wave(parameters)
     , now(wave.at(parameters.rise_time))
     , top(top)
@@ -90,7 +99,7 @@ protected:
       return;
     // A value is expensive, and many points are at the same depth.
     const double depth = top - point[dim - 1];
-    const auto key = std::lround(1e9 * depth);
+    const auto key = std::lround(depth / (1e-9 * length));
     auto found = known.find(key);
     if (found == known.end())
       found =
@@ -100,10 +109,11 @@ protected:
   }
 
 private:
+  double length;
   analytical::PorousWave wave;
   analytical::PorousWaveAtTime now;
   double top;
-  mutable std::map<long, std::pair<double, double>> known; ///< by depth in nanometres
+  mutable std::map<long, std::pair<double, double>> known; ///< by depth, to 1e-9 of the length
 };
 
 
@@ -137,7 +147,7 @@ private:
 template <int dim>
 Made<dim> make_bar_wave(const ParameterHandler &prm, const ReferenceInput<dim> &input)
 {
-  const double ramp_time = get_quantity(prm, "Rise time", dimension::time);
+  const double ramp_time = required_rise_time(prm);
   const double load = load_on_top<dim>(
     input, ramp_time,
     [](const double s) { return s < 1. ? std::pow(std::sin(0.5 * numbers::PI * s), 2) : 1.; },
@@ -155,7 +165,7 @@ Made<dim> make_bar_wave(const ParameterHandler &prm, const ReferenceInput<dim> &
 template <int dim>
 Made<dim> make_porous_wave(const ParameterHandler &prm, const ReferenceInput<dim> &input)
 {
-  const double rise_time = get_quantity(prm, "Rise time", dimension::time);
+  const double rise_time = required_rise_time(prm);
   const double load = load_on_top<dim>(
     input, rise_time, [](const double s) { return 1. - std::exp(-s) * (1. + s + 0.5 * s * s); },
     "1 - exp(-s) (1 + s + s^2/2)");
