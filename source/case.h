@@ -42,6 +42,10 @@ struct Case
   StepControl control;
   TimeScheme scheme;
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
+
+  /// What is accepted and yet unusual, for the user.
+  std::vector<std::string> warnings;
+
   bool starts_from_reference;
 
   /// The walls move as the reference says, so they are not felt.

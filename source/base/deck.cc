@@ -332,7 +332,9 @@ Origin Deck::origin(const std::string &path) const
 
 std::string Deck::located(const EntryError &error) const
 {
-  return origin(error.path()).text() + ": " + error.what();
+  const auto entry = entries.find(error.path());
+  return (entry == entries.end() ? file_name + " (default value)" : entry->second.origin.text()) +
+         ": " + error.what();
 }
 
 std::string Deck::name() const

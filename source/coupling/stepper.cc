@@ -60,6 +60,16 @@ void StepControl::parse_parameters(ParameterHandler &prm)
     optional("Initial step", dimension::time, Range::positive(), (end_time - start_time) / 100.);
   minimum_step = optional("Minimum step", dimension::time, Range::positive(), 1e-6 * initial_step);
   maximum_step = get_quantity(prm, "Maximum step", dimension::time);
+  if (!(minimum_step <= initial_step))
+    throw EntryError("Time/Minimum step", prm.get("Minimum step"),
+                     "at most the initial step, " +
+                       to_string(initial_step, dimension::time));
+  if (!(initial_step <= maximum_step))
+    throw EntryError("Time/Initial step", prm.get("Initial step"),
+                     "at most 'Time/Maximum step', " + prm.get("Maximum step") +
+                       (prm.get("Initial step").empty()
+                          ? "; empty, it is " + to_string(initial_step, dimension::time)
+                          : ""));
   error_tolerance = get_quantity(prm, "Error tolerance", dimension::number);
   growth = optional("Step growth", dimension::number, Range{1., 10., false, false},
                     std::isfinite(error_tolerance) ? 2. : -1.);

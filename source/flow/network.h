@@ -134,6 +134,11 @@ public:
     return !all_wells.empty();
   }
 
+  unsigned int n_wells() const
+  {
+    return all_wells.size();
+  }
+
   double rate_of_first_well(double t) const
   {
     return all_wells.first_rate(t);
