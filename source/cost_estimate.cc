@@ -50,7 +50,8 @@ namespace
 std::string two_digits(const double value, const char *unit)
 {
   std::ostringstream out;
-  const double step = std::pow(10., std::max(std::floor(std::log10(std::max(value, 0.1))) - 1, -1.));
+  const double step =
+    std::pow(10., std::max(std::floor(std::log10(std::max(value, 0.1))) - 1, -1.));
   out << step * std::round(value / step) << ' ' << unit;
   return out.str();
 }
@@ -65,9 +66,9 @@ std::string in_bytes(const double bytes)
 
 std::string in_time(const double seconds)
 {
-  return seconds < 120.     ? two_digits(seconds, "s")
-         : seconds < 7200.  ? two_digits(seconds / 60., "min")
+  return seconds < 120.      ? two_digits(seconds, "s")
+         : seconds < 7200.   ? two_digits(seconds / 60., "min")
          : seconds < 172800. ? two_digits(seconds / 3600., "h")
-                            : two_digits(seconds / 86400., "days");
+                             : two_digits(seconds / 86400., "days");
 }
 } // namespace stockwork

@@ -228,12 +228,11 @@ void Simulation<dim>::refuse_too_large() const
       .memory;
   const double available = physical_memory(run.communicator);
   if (needed > available)
-    throw EntryError("Mesh/Maximum number of cells",
-                     std::to_string(the_case.geometry.maximum_number_of_cells()),
-                     "a mesh that fits into memory: this one has " +
-                       std::to_string(triangulation.n_global_active_cells()) +
-                       " cells and would take about " + in_bytes(needed) + ", there are " +
-                       in_bytes(available));
+    throw EntryError(
+      "Mesh/Maximum number of cells", std::to_string(the_case.geometry.maximum_number_of_cells()),
+      "a mesh that fits into memory: this one has " +
+        std::to_string(triangulation.n_global_active_cells()) + " cells and would take about " +
+        in_bytes(needed) + ", there are " + in_bytes(available));
 }
 
 
@@ -251,8 +250,7 @@ void Simulation<dim>::announce()
   const double steps = std::ceil((the_case.control.end_time - clock.time) / clock.dt);
   run.out << "  roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
           << " per step; " << steps << " steps of " << clock.dt << " s would take "
-          << in_time(steps * cost.step) << " on one core"
-          << std::endl;
+          << in_time(steps * cost.step) << " on one core" << std::endl;
 }
 
 
@@ -316,7 +314,6 @@ void Simulation<dim>::resume()
   }
   run.out << "Restarted at t = " << clock.time << " s, after step " << clock.step << "."
           << std::endl;
-  report.open(true, clock.time);
 }
 
 

@@ -284,9 +284,7 @@ std::string name_of_motion(const Vector<double> &motion)
     if (std::abs(motion[i]) > 0.1 * greatest)
     {
       std::string &words = i < dim ? translation : rotation;
-      words += (words.empty() ? "" : " and ") + axis_names[i < dim    ? i
-                                                          : dim == 2 ? 2
-                                                                     : i - dim];
+      words += (words.empty() ? "" : " and ") + axis_names[i < dim ? i : dim == 2 ? 2 : i - dim];
     }
   return (translation.empty() ? "" : "shift along " + translation) +
          (translation.empty() || rotation.empty() ? "" : " with a ") +

@@ -62,8 +62,7 @@ void StepControl::parse_parameters(ParameterHandler &prm)
   maximum_step = get_quantity(prm, "Maximum step", dimension::time);
   if (!(minimum_step <= initial_step))
     throw EntryError("Time/Minimum step", prm.get("Minimum step"),
-                     "at most the initial step, " +
-                       to_string(initial_step, dimension::time));
+                     "at most the initial step, " + to_string(initial_step, dimension::time));
   if (!(initial_step <= maximum_step))
     throw EntryError("Time/Initial step", prm.get("Initial step"),
                      "at most 'Time/Maximum step', " + prm.get("Maximum step") +

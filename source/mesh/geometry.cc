@@ -183,8 +183,7 @@ void Geometry<dim>::refuse_cells(const double n_coarse, const unsigned int refin
   const double n = std::ldexp(n_coarse, dim * refinements);
   std::ostringstream text;
   text.precision(9);
-  text << "at least " << n
-       << ", the cells of the initial mesh, unless their spacing is a mistake";
+  text << "at least " << n << ", the cells of the initial mesh, unless their spacing is a mistake";
   if (n > max_cells)
     throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells), text.str());
 }

@@ -71,14 +71,12 @@ void refuse_too_many_cells(const dealii::parallel::distributed::Triangulation<di
                        " times; this one asks for more. Start from smaller cells, " + unless);
 }
 
-template void
-refuse_too_many_cells<2>(const dealii::parallel::distributed::Triangulation<2> &,
-                         unsigned int,
-                         const std::string &);
-template void
-refuse_too_many_cells<3>(const dealii::parallel::distributed::Triangulation<3> &,
-                         unsigned int,
-                         const std::string &);
+template void refuse_too_many_cells<2>(const dealii::parallel::distributed::Triangulation<2> &,
+                                       unsigned int,
+                                       const std::string &);
+template void refuse_too_many_cells<3>(const dealii::parallel::distributed::Triangulation<3> &,
+                                       unsigned int,
+                                       const std::string &);
 
 template bool flag_cells<2>(dealii::parallel::distributed::Triangulation<2> &,
                             const Geometry<2> &,

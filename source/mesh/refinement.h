@@ -34,8 +34,7 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
 /// @throws EntryError if it would have more than `most` cells, or cells smaller than p4est can
 /// number; @p unless ends the sentence "allowed is more, ..."
 template <int dim>
-void refuse_too_many_cells(
-  const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-  unsigned int most,
-  const std::string &unless);
+void refuse_too_many_cells(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                           unsigned int most,
+                           const std::string &unless);
 } // namespace stockwork

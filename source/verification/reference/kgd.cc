@@ -24,7 +24,8 @@ analytical::KgdParameters kgd_parameters(const ReferenceInput<2> &input)
       "The reference solution of the KGD fracture needs 'Rock/Fracture toughness' or "
       "'Rock/Critical energy release rate'.");
   if (input.n_wells > 1 || !input.rate_is_constant)
-    throw InputError("The reference solution of the KGD fracture is for one well of constant rate.");
+    throw InputError(
+      "The reference solution of the KGD fracture is for one well of constant rate.");
   if (input.layered)
     throw InputError("The reference solution of the KGD fracture is for rock without regions.");
   if (input.has_stress_gradient)
