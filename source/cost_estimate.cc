@@ -45,6 +45,14 @@ double physical_memory(MPI_Comm communicator)
 }
 
 
+double resident_memory()
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024. * usage.ru_maxrss;
+}
+
+
 namespace
 {
 std::string two_digits(const double value, const char *unit)

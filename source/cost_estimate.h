@@ -23,6 +23,9 @@ estimate_cost(unsigned int dim, double n_unknowns, bool has_pore_pressure, bool 
 /// Collective.
 double physical_memory(MPI_Comm communicator);
 
+/// Greatest so far, of this rank [bytes].
+double resident_memory();
+
 /// "3.2 GB", "20 min": two digits.
 std::string in_bytes(double bytes);
 std::string in_time(double seconds);

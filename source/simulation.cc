@@ -25,6 +25,8 @@
 #include <boost/serialization/vector.hpp>
 
 #include <cmath>
+#include <iostream>
+#include <new>
 #include <sstream>
 
 namespace stockwork
@@ -53,6 +55,11 @@ double smallest_cell_size(const parallel::distributed::Triangulation<dim> &trian
       size = std::min(size, cell_size(cell));
   return Utilities::MPI::min(size, triangulation.get_communicator());
 }
+
+
+/// Entries that a restart may give another value.
+const std::vector<std::string> may_change = {"Time/End time", "Output directory", "Output",
+                                             "Checkpoint"};
 
 
 /// Where a run stands between two steps.
@@ -118,7 +125,9 @@ private:
   FieldOutput<dim> fields;
   Checkpoint checkpoint;
   CheckpointSchedule schedule;
+  std::string comparable_deck;
   std::uint64_t deck_fingerprint;
+  std::unique_ptr<DirectoryLock> lock;
   Clock clock;
 };
 
@@ -159,8 +168,8 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.control,
            options.output_directory)
   , checkpoint(options.output_directory + "/checkpoint", run.communicator)
-  , deck_fingerprint(
-      fingerprint(prm, {"Time/End time", "Output directory", "Output", "Checkpoint"}))
+  , comparable_deck(comparable_text(prm, may_change))
+  , deck_fingerprint(fingerprint(prm, may_change))
 {
   system.is_interrupted = [&run]() { return stop_requested(run.communicator); };
   report.case_name = the_case.name;
@@ -178,6 +187,8 @@ template <int dim>
 void Simulation<dim>::open_output(ParameterHandler &prm)
 {
   prepare_output_directory(options.output_directory, run.communicator);
+  if (!lock)
+    lock = std::make_unique<DirectoryLock>(options.output_directory, run.communicator);
   fields.open(options.output_directory, run.communicator);
   on_root(run.communicator,
           [&]() { write_effective_deck(prm, options.output_directory + "/effective.prm"); });
@@ -272,14 +283,20 @@ void Simulation<dim>::save()
   std::vector<const TrilinosWrappers::MPI::BlockVector *> vectors;
   for (const auto *vector : stepper.bulk_vectors())
     vectors.push_back(vector);
-  checkpoint.save(triangulation, system.bulk_dofs(), vectors, bytes.str(), deck_fingerprint);
+  checkpoint.save(triangulation, system.bulk_dofs(), vectors, bytes.str(), deck_fingerprint,
+                  comparable_deck);
 }
 
 
 template <int dim>
 void Simulation<dim>::resume()
 {
-  std::istringstream bytes(checkpoint.read(deck_fingerprint));
+  if (!options.check_only)
+    lock = std::make_unique<DirectoryLock>(options.output_directory, run.communicator);
+  std::istringstream bytes(checkpoint.read(deck_fingerprint, comparable_deck));
+  if (!checkpoint.why_not_newest().empty())
+    run.warn("The newest checkpoint cannot be used; the one before it is taken. " +
+             checkpoint.why_not_newest());
   the_case.geometry.create_coarse(triangulation);
   checkpoint.load_mesh(triangulation);
 
@@ -335,6 +352,7 @@ void Simulation<dim>::march()
     catch (const SolveError &error)
     {
       save();
+      report.fail(triangulation.n_global_active_cells(), error.what());
       throw SolveError(error.what() + std::string("\nThe state at t = ") +
                        std::to_string(clock.time) + " s is in the checkpoint in '" +
                        options.output_directory + "'; --restart goes on from there.");
@@ -358,6 +376,7 @@ void Simulation<dim>::march()
     if (stop_requested(run.communicator))
     {
       save();
+      report.fail(triangulation.n_global_active_cells(), "stopped by a signal");
       throw SolveError("Stopped by a signal at t = " + std::to_string(clock.time) +
                        " s; --restart goes on from there.");
     }
@@ -370,8 +389,10 @@ void Simulation<dim>::march()
 } // namespace
 
 
+namespace
+{
 template <int dim>
-void simulate(RunContext &run,
+void run_case(RunContext &run,
               const Deck &deck,
               ParameterHandler &prm,
               const FractureModelRegistry &registry,
@@ -402,6 +423,34 @@ void simulate(RunContext &run,
   }
   simulation.open_output(prm);
   simulation.march();
+}
+} // namespace
+
+
+template <int dim>
+void simulate(RunContext &run,
+              const Deck &deck,
+              ParameterHandler &prm,
+              const FractureModelRegistry &registry,
+              const SimulationOptions &options)
+{
+  try
+  {
+    run_case<dim>(run, deck, prm, registry, options);
+  }
+  catch (const std::bad_alloc &)
+  {
+    const std::string sentence =
+      "There is not enough memory: the run has taken " + in_bytes(resident_memory()) +
+      " on rank " + std::to_string(run.rank) + " of " + std::to_string(run.n_ranks) +
+      " and needs more; 'stockwork --check' estimates how much. Use larger cells, more machines or "
+      "'Linear solver/Type = iterative'.";
+    if (run.n_ranks == 1)
+      throw SolveError(sentence);
+    // The other ranks wait for this one.
+    std::cerr << sentence << std::endl;
+    MPI_Abort(run.communicator, 2);
+  }
 }
 
 

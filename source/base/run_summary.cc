@@ -22,6 +22,9 @@ void write_summary(std::ostream &out, const RunSummary &summary)
   json.begin_object();
   json.member("case", summary.case_name);
   json.member("fracture_model", summary.fracture_model);
+  json.member("status", summary.status);
+  if (!summary.reason.empty())
+    json.member("reason", summary.reason);
   json.member("version", version());
   json.member("dealii_version", dealii_version());
   json.member("ranks", summary.ranks);

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 namespace stockwork
 {
@@ -448,6 +450,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
   const double injected = network.balance(context, state, communication).step.injected;
   Norms norms = residual_norms(), greatest = norms;
   double model_change = 0.;
+  unsigned int n_limited = 0, n_halved = 0;
 
   auto dx_bulk = owned_vector();
   std::vector<double> dx_extra;
@@ -473,12 +476,14 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       rock_on_fracture += linear_residual_extra[i] * linear_residual_extra[i];
     const double force = std::max({greatest.momentum, greatest.extra, std::sqrt(rock_on_fracture)});
     const Norms rounding = rounding_errors(values);
-    const bool small = model_change <= tolerance &&
-                       norms.momentum <= std::max(tolerance * force, rounding.momentum) &&
-                       norms.extra <= std::max(tolerance * force, rounding.momentum) &&
-                       norms.mass <= std::max(tolerance * greatest.mass, rounding.mass) &&
-                       norms.fracture_fluid <=
-                         (injected > 0. ? 1e-9 * injected : tolerance * greatest.fracture_fluid);
+    Norms allowed;
+    allowed.momentum = allowed.extra = std::max(tolerance * force, rounding.momentum);
+    allowed.mass = std::max(tolerance * greatest.mass, rounding.mass);
+    allowed.fracture_fluid =
+      injected > 0. ? 1e-9 * injected : tolerance * greatest.fracture_fluid;
+    const bool small = model_change <= tolerance && norms.momentum <= allowed.momentum &&
+                       norms.extra <= allowed.extra && norms.mass <= allowed.mass &&
+                       norms.fracture_fluid <= allowed.fracture_fluid;
     if (iteration > 0 && (small || linear))
     {
       report.converged = true;
@@ -494,6 +499,9 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     {
       report.iterations = iteration;
       report.reason = "no convergence in " + std::to_string(max_iterations) + " iterations";
+      if (model_change > tolerance)
+        report.reason += "; the fracture model still changes by " + std::to_string(model_change);
+      explain(report, norms, allowed, n_limited, n_halved);
       return report;
     }
 
@@ -513,6 +521,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       if (!linear_report.is_good_enough())
       {
         report.reason = "the linear solver has not converged";
+        report.advice = "Try 'Linear solver/Type = direct', or more of its iterations.";
         return report;
       }
     }
@@ -524,6 +533,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     double factor = 1.;
     for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
       factor = std::min(factor, pressure_limit / std::max(std::abs(dx_extra[i]), 1e-300));
+    n_limited += factor < 1.;
     const auto move = [&](const double step)
     {
       values.add(step, dx_bulk);
@@ -555,10 +565,96 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       for (unsigned int halving = 0;
            halving < 4 && !(imbalance(norms) < (iteration < 6 ? 3. : 1.) * before); ++halving)
       {
+        n_halved += halving == 0;
         factor *= 0.5;
         move(-factor);
       }
   }
+}
+
+
+template <int dim>
+Point<dim> CoupledSystem<dim>::place_in_bulk(const unsigned int block) const
+{
+  const auto &residual = system.residual_bulk.block(block);
+  const types::global_dof_index first = block == 0 ? 0 : system.residual_bulk.block(0).size();
+  double greatest = -1.;
+  types::global_dof_index worst = 0;
+  for (const auto i : owned[block])
+    if (std::abs(residual(i)) > greatest)
+    {
+      greatest = std::abs(residual(i));
+      worst = first + i;
+    }
+  Point<dim> place;
+  if (greatest == communication.max(greatest))
+  {
+    std::map<types::global_dof_index, Point<dim>> points;
+    DoFTools::map_dofs_to_support_points(mapping, dof_handler, points);
+    place = points.at(worst);
+  }
+  // Of ranks that share the greatest, which is rare, the place with the greatest coordinates.
+  for (unsigned int d = 0; d < dim; ++d)
+    place[d] = communication.max(greatest == communication.max(greatest) ? place[d] : -1e300);
+  return place;
+}
+
+
+template <int dim>
+void CoupledSystem<dim>::explain(NonlinearReport &report,
+                                 const Norms &norms,
+                                 const Norms &tolerances,
+                                 const unsigned int n_limited,
+                                 const unsigned int n_halved) const
+{
+  struct Equation
+  {
+    const char *name;
+    double share; ///< of its tolerance
+  };
+  const auto share = [](const double norm, const double tolerance)
+  { return norm / std::max(tolerance, 1e-300); };
+  const Equation equations[] = {
+    {"the balance of forces in the rock", share(norms.momentum, tolerances.momentum)},
+    {"the balance of fluid in the pores", share(norms.mass, tolerances.mass)},
+    {"the balance of forces on the fracture's faces", share(norms.extra, tolerances.extra)},
+    {"the balance of fluid in the fracture",
+     share(norms.fracture_fluid, tolerances.fracture_fluid)}};
+  const unsigned int worst =
+    std::max_element(std::begin(equations), std::end(equations),
+                     [](const Equation &a, const Equation &b) { return a.share < b.share; }) -
+    std::begin(equations);
+  std::ostringstream text;
+  text.precision(3);
+  text << "; " << equations[worst].name << " is left with " << equations[worst].share
+       << " times its tolerance";
+  if (worst < 2)
+    text << ", most of it at (" << place_in_bulk(worst) << ") m";
+  else if (worst == 3 && numbering.size() > n_model_extra)
+  {
+    const auto &segments = network.segments();
+    const auto greater = [](const double a, const double b) { return std::abs(a) < std::abs(b); };
+    const unsigned int i = std::max_element(system.residual_extra.begin() + n_model_extra,
+                                            system.residual_extra.end(), greater) -
+                           system.residual_extra.begin() - n_model_extra;
+    if (i < segments.size() && !segments[i].has_given_pressure())
+      text << ", most of it at (" << segments[i].centre << ") m";
+  }
+  if (n_limited > 0)
+    text << "; 'Nonlinear solver/Maximum pressure change' ("
+         << to_string(pressure_limit, dimension::pressure) << ") shortened " << n_limited << " of "
+         << report.iterations << " iterations";
+  if (n_halved > 0)
+    text << "; " << n_halved << " were shortened because the residual grew";
+  report.reason += text.str();
+  report.advice =
+    2 * n_limited > report.iterations
+      ? "Try a greater 'Nonlinear solver/Maximum pressure change': the pressure has farther to go."
+    : worst == 3 ? "Try a greater 'Fracture flow/Minimum aperture' or a smaller 'Time/Minimum step'."
+    : worst == 2
+      ? "Try smaller cells where the fracture is, so that the part of it that still holds is "
+        "resolved, or a smaller 'Time/Minimum step'."
+      : "Try a smaller 'Time/Minimum step', or more 'Nonlinear solver/Maximum iterations'.";
 }
 
 
