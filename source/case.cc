@@ -276,6 +276,9 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   scene.crack_pressure = given_crack_pressure(prm);
   control.parse_parameters(prm);
   scene.injection_rate = greatest_rate(network, control);
+  in_situ.check(prm, rock.main().density, rock.fluid().density,
+                std::isnan(scene.crack_pressure) ? scene.cracks : std::vector<InitialCrack<dim>>(),
+                warnings);
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
   prm.leave_subsection();
@@ -326,7 +329,12 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
       input.discs.push_back(*crack.disc);
   }
   input.injection_rate = network.rate_of_first_well(control.end_time);
+  input.rate_is_constant = std::isinf(network.next_jump(control.start_time));
+  input.n_wells = network.n_wells();
+  input.layered = !geometry.region_names().empty();
+  input.has_stress_gradient = in_situ.has_gradient();
   prm.enter_subsection("Fracture flow");
+  input.leaks = prm.get("Leak-off") != "none";
   if (prm.get("Leak-off") == "carter")
     input.carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
   prm.leave_subsection();

@@ -43,6 +43,10 @@ struct Case
   StepControl control;
   TimeScheme scheme;
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
+
+  /// What is accepted and yet unusual, for the user.
+  std::vector<std::string> warnings;
+
   bool starts_from_reference;
 
   /// What the scene's scales give where the deck leaves an entry empty.

@@ -6,6 +6,7 @@
 #include "stockwork/base/version.h"
 #include "stockwork/fracture/registry.h"
 
+#include "base/catalogue.h"
 #include "case.h"
 #include "fracture/plug_ins.h"
 #include "simulation.h"
@@ -13,6 +14,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 
 namespace stockwork
@@ -35,6 +37,16 @@ int run_program(const CommandLine &command_line, RunContext &run)
     return 0;
   case CommandLine::Action::version:
     run.out << version_report();
+    return 0;
+  case CommandLine::Action::list:
+    if (run.rank == 0)
+    {
+      std::cout << "Fracture models\n";
+      for (const auto &[name, entry] : registry.all())
+        std::cout << "  " << std::left << std::setw(32) << name << ' ' << entry.description << '\n';
+      std::cout << '\n';
+      print_cases(std::cout);
+    }
     return 0;
   case CommandLine::Action::print_parameters:
     if (command_line.deck.empty())

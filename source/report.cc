@@ -4,8 +4,10 @@
 #include "flow/segment_graph.h"
 
 #include "stockwork/base/progress.h"
+#include "stockwork/base/quantity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 
@@ -153,6 +155,7 @@ std::map<std::string, double> Report<dim>::observe()
     const auto &inlet = network.segments()[wells[0].inlet_segment];
     values["net_inlet_pressure"] =
       wells[0].inlet_pressure + inlet.normal * (in_situ.stress(inlet.centre) * inlet.normal);
+    watch(wells[0], values["net_inlet_pressure"]);
   }
   for (unsigned int w = 0; w < wells.size(); ++w)
   {
@@ -176,6 +179,40 @@ std::map<std::string, double> Report<dim>::observe()
     }
   }
   return values;
+}
+
+
+template <int dim>
+void Report<dim>::watch(const WellReport &well, const double net_pressure)
+{
+  const std::string now = " at t = " + std::to_string(stepper.last_context().time) + " s.";
+  if (well.inlet_aperture < 0. && !warned_of_aperture)
+  {
+    warned_of_aperture = true;
+    run.warn("The aperture at the inlet is negative (" +
+             to_string(well.inlet_aperture, dimension::length) +
+             "): the faces of the fracture overlap there" + now);
+  }
+  const RockProperties &main = rock.main();
+  const double wing = shown.length / std::max(shown.n_tips, 1u);
+  if (warned_of_pressure || dim != 2 || !(wing > 0.) || std::isnan(main.energy_release_rate))
+    return;
+  // What opens a crack of this length against toughness, what the flow along it takes, and what a
+  // short one needs besides to part the rock; three times that is far above all of them.
+  const double volume = stepper.fluid_balance().fracture_volume;
+  const double aperture = std::max({well.inlet_aperture, volume / shown.length, 1e-12});
+  const double flow =
+    12. * rock.fluid().viscosity * std::abs(well.rate) * wing / std::pow(aperture, 3);
+  const double strength = std::isnan(main.tensile_strength) ? 0. : main.tensile_strength;
+  const double needed = main.toughness() / std::sqrt(numbers::PI * wing) + flow + strength;
+  if (net_pressure > 3. * needed)
+  {
+    warned_of_pressure = true;
+    run.warn("The pressure at the inlet is " + to_string(net_pressure, dimension::pressure) +
+             " above the in-situ stress, where toughness, strength and flow of a fracture of this "
+             "length account for " +
+             to_string(needed, dimension::pressure) + now);
+  }
 }
 
 
@@ -258,7 +295,16 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
 
 
 template <int dim>
-void Report<dim>::finish(const unsigned long n_cells)
+void Report<dim>::fail(const unsigned long n_cells, const std::string &reason)
+{
+  summary.status = "failed";
+  summary.reason = reason;
+  summarise(n_cells);
+}
+
+
+template <int dim>
+void Report<dim>::summarise(const unsigned long n_cells)
 {
   for (const auto &[name, value] : statistics.final_values())
     summary.final_values[name] = value;
@@ -287,6 +333,13 @@ void Report<dim>::finish(const unsigned long n_cells)
   summary.warnings = run.warnings;
   if (run.rank == 0)
     write_summary(directory + "/summary.json", summary);
+}
+
+
+template <int dim>
+void Report<dim>::finish(const unsigned long n_cells)
+{
+  summarise(n_cells);
   if (const std::string cost = model.cost(); !cost.empty())
     run.out << '\n' << cost << ".\n";
   run.timers.print(run.out.get_stream(), run.communicator);

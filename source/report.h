@@ -58,6 +58,9 @@ public:
   /// Write summary.json and the table of times. Collective.
   void finish(unsigned long n_cells);
 
+  /// Write summary.json of a run that ends before its time. Collective.
+  void fail(unsigned long n_cells, const std::string &reason);
+
   /// Sums and error averages, for checkpoints.
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
@@ -70,6 +73,12 @@ public:
   }
 
 private:
+  /// Warn of results that cannot be, once for each kind.
+  void watch(const WellReport &well, double net_pressure);
+
+  /// Fill in and write summary.json.
+  void summarise(unsigned long n_cells);
+
   /// Scalars of the last step by column name.
   std::map<std::string, double> observe();
 
@@ -90,6 +99,7 @@ private:
   StatisticsTable statistics;
   Outcome shown;
   std::set<unsigned int> dry_wells; ///< of which this has been said
+  bool warned_of_aperture = false, warned_of_pressure = false;
   RunSummary summary;
   double start_of_run;
   std::unique_ptr<ErrorRecord<dim>> errors;

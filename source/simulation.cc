@@ -2,9 +2,11 @@
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/parameters.h"
+#include "stockwork/base/quantity.h"
 #include "stockwork/base/version.h"
 
 #include "case.h"
+#include "cost_estimate.h"
 #include "coupling/mesh_adaptation.h"
 #include "output/checkpoint.h"
 #include "output/directory.h"
@@ -22,6 +24,9 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <cmath>
+#include <iostream>
+#include <new>
 #include <sstream>
 
 namespace stockwork
@@ -50,6 +55,11 @@ double smallest_cell_size(const parallel::distributed::Triangulation<dim> &trian
       size = std::min(size, cell_size(cell));
   return Utilities::MPI::min(size, triangulation.get_communicator());
 }
+
+
+/// Entries that a restart may give another value.
+const std::vector<std::string> may_change = {"Time/End time", "Output directory", "Output",
+                                             "Checkpoint"};
 
 
 /// Where a run stands between two steps.
@@ -82,10 +92,20 @@ public:
   /// From the last checkpoint.
   void resume();
 
+  /// What can be said before the first step.
+  void announce();
+
+  /// Nothing is written before this, so that a refused deck leaves nothing behind.
+  void open_output(ParameterHandler &prm);
+
   void march();
 
 private:
   void save();
+
+  /// Before memory is taken for the unknowns of a mesh.
+  void refuse_too_large() const;
+  double unknowns_per_cell() const;
 
   bool finished() const
   {
@@ -105,7 +125,9 @@ private:
   FieldOutput<dim> fields;
   Checkpoint checkpoint;
   CheckpointSchedule schedule;
+  std::string comparable_deck;
   std::uint64_t deck_fingerprint;
+  std::unique_ptr<DirectoryLock> lock;
   Clock clock;
 };
 
@@ -146,8 +168,8 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.control,
            options.output_directory)
   , checkpoint(options.output_directory + "/checkpoint", run.communicator)
-  , deck_fingerprint(
-      fingerprint(prm, {"Time/End time", "Output directory", "Output", "Checkpoint"}))
+  , comparable_deck(comparable_text(prm, may_change))
+  , deck_fingerprint(fingerprint(prm, may_change))
 {
   system.is_interrupted = [&run]() { return stop_requested(run.communicator); };
   report.case_name = the_case.name;
@@ -159,10 +181,19 @@ Simulation<dim>::Simulation(RunContext &run,
     throw InputError("There is no checkpoint in '" + options.output_directory +
                      "' to restart from. Run without --restart first, or name the directory of "
                      "that run with --output.");
+}
+
+
+template <int dim>
+void Simulation<dim>::open_output(ParameterHandler &prm)
+{
   prepare_output_directory(options.output_directory, run.communicator);
+  if (!lock)
+    lock = std::make_unique<DirectoryLock>(options.output_directory, run.communicator);
   fields.open(options.output_directory, run.communicator);
   on_root(run.communicator,
           [&]() { write_effective_deck(prm, options.output_directory + "/effective.prm"); });
+  report.open(options.restart, clock.time);
   catch_stop_signals();
 }
 
@@ -172,7 +203,11 @@ void Simulation<dim>::start()
 {
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
   the_case.geometry.create(triangulation);
-  adaptation.prepare(system, clock.time);
+  adaptation.refine_initial_mesh();
+  refuse_too_large();
+  the_case.boundary_conditions.check(triangulation,
+                                     the_case.scheme.kind() == TimeScheme::Kind::newmark);
+  system.setup_mesh(clock.time);
   stepper.committed.bulk = system.ghosted_vector();
   system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
   if (the_case.reference && the_case.starts_from_reference)
@@ -184,7 +219,50 @@ void Simulation<dim>::start()
     stepper.committed.bulk = values;
   }
   the_case.scheme.initialise(stepper.committed);
-  report.open(false, clock.time);
+}
+
+
+template <int dim>
+double Simulation<dim>::unknowns_per_cell() const
+{
+  const auto &d = the_case.discretisation;
+  return dim * std::pow(d.displacement_degree, dim) + d.has_pore_pressure;
+}
+
+
+template <int dim>
+void Simulation<dim>::refuse_too_large() const
+{
+  const double n_cells = triangulation.n_global_active_cells();
+  const double needed =
+    estimate_cost(dim, n_cells * unknowns_per_cell(), the_case.discretisation.has_pore_pressure,
+                  !the_case.scene.cracks.empty())
+      .memory;
+  const double available = physical_memory(run.communicator);
+  if (needed > available)
+    throw EntryError(
+      "Mesh/Maximum number of cells", std::to_string(the_case.geometry.maximum_number_of_cells()),
+      "a mesh that fits into memory: this one has " +
+        std::to_string(triangulation.n_global_active_cells()) + " cells and would take about " +
+        in_bytes(needed) + ", there are " + in_bytes(available));
+}
+
+
+template <int dim>
+void Simulation<dim>::announce()
+{
+  print_scene_audit(run, the_case, smallest_cell_size(triangulation));
+  for (const std::string &message : the_case.model->take_messages())
+    run.warn(message);
+  run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
+          << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
+  const CostEstimate cost =
+    estimate_cost(dim, system.n_unknowns(), the_case.discretisation.has_pore_pressure,
+                  !the_case.scene.cracks.empty());
+  const double steps = std::ceil((the_case.control.end_time - clock.time) / clock.dt);
+  run.out << "  roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
+          << " per step; " << steps << " steps of " << clock.dt << " s would take "
+          << in_time(steps * cost.step) << " on one core" << std::endl;
 }
 
 
@@ -206,20 +284,30 @@ void Simulation<dim>::save()
   std::vector<const TrilinosWrappers::MPI::BlockVector *> vectors;
   for (const auto *vector : stepper.bulk_vectors())
     vectors.push_back(vector);
-  checkpoint.save(triangulation, system.bulk_dofs(), vectors, bytes.str(), deck_fingerprint);
+  checkpoint.save(triangulation, system.bulk_dofs(), vectors, bytes.str(), deck_fingerprint,
+                  comparable_deck);
 }
 
 
 template <int dim>
 void Simulation<dim>::resume()
 {
-  std::istringstream bytes(checkpoint.read(deck_fingerprint));
+  if (!options.check_only)
+    lock = std::make_unique<DirectoryLock>(options.output_directory, run.communicator);
+  std::istringstream bytes(checkpoint.read(deck_fingerprint, comparable_deck));
+  if (!checkpoint.why_not_newest().empty())
+    run.warn("The newest checkpoint cannot be used; the one before it is taken. " +
+             checkpoint.why_not_newest());
   the_case.geometry.create_coarse(triangulation);
   checkpoint.load_mesh(triangulation);
 
   boost::archive::binary_iarchive archive(bytes);
   std::vector<std::uint64_t> keys;
   archive >> clock >> the_case.scheme >> keys;
+  if (finished())
+    throw EntryError("Time/End time", to_string(the_case.control.end_time, dimension::time),
+                     "a time after that of the checkpoint, " +
+                       to_string(clock.time, dimension::time) + ", where a restart goes on");
   std::vector<ExtraUnknown> unknowns;
   for (const std::uint64_t key : keys)
     unknowns.push_back({key});
@@ -244,18 +332,12 @@ void Simulation<dim>::resume()
   }
   run.out << "Restarted at t = " << clock.time << " s, after step " << clock.step << "."
           << std::endl;
-  report.open(true, clock.time);
 }
 
 
 template <int dim>
 void Simulation<dim>::march()
 {
-  print_scene_audit(run, the_case, smallest_cell_size(triangulation));
-  run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
-          << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
-  for (const std::string &message : the_case.model->take_messages())
-    run.warn(message);
   report.header();
   while (!finished())
   {
@@ -271,6 +353,7 @@ void Simulation<dim>::march()
     catch (const SolveError &error)
     {
       save();
+      report.fail(triangulation.n_global_active_cells(), error.what());
       throw SolveError(error.what() + std::string("\nThe state at t = ") +
                        std::to_string(clock.time) + " s is in the checkpoint in '" +
                        options.output_directory + "'; --restart goes on from there.");
@@ -294,6 +377,7 @@ void Simulation<dim>::march()
     if (stop_requested(run.communicator))
     {
       save();
+      report.fail(triangulation.n_global_active_cells(), "stopped by a signal");
       throw SolveError("Stopped by a signal at t = " + std::to_string(clock.time) +
                        " s; --restart goes on from there.");
     }
@@ -306,8 +390,10 @@ void Simulation<dim>::march()
 } // namespace
 
 
+namespace
+{
 template <int dim>
-void simulate(RunContext &run,
+void run_case(RunContext &run,
               const Deck &deck,
               ParameterHandler &prm,
               const FractureModelRegistry &registry,
@@ -316,17 +402,56 @@ void simulate(RunContext &run,
   Case<dim> the_case(deck, prm, registry);
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
+  for (const std::string &warning : the_case.warnings)
+    run.warn(warning);
+  Simulation<dim> simulation(run, the_case, prm, options);
+  try
+  {
+    if (options.restart)
+      simulation.resume();
+    else
+      simulation.start();
+  }
+  catch (const SolveError &error)
+  {
+    throw InputError(error.what()); // nothing has been computed
+  }
+  simulation.announce();
   if (options.check_only)
   {
     run.out << "The deck is in order." << std::endl;
     return;
   }
-  Simulation<dim> simulation(run, the_case, prm, options);
-  if (options.restart)
-    simulation.resume();
-  else
-    simulation.start();
+  simulation.open_output(prm);
   simulation.march();
+}
+} // namespace
+
+
+template <int dim>
+void simulate(RunContext &run,
+              const Deck &deck,
+              ParameterHandler &prm,
+              const FractureModelRegistry &registry,
+              const SimulationOptions &options)
+{
+  try
+  {
+    run_case<dim>(run, deck, prm, registry, options);
+  }
+  catch (const std::bad_alloc &)
+  {
+    const std::string sentence =
+      "There is not enough memory: the run has taken " + in_bytes(resident_memory()) + " on rank " +
+      std::to_string(run.rank) + " of " + std::to_string(run.n_ranks) +
+      " and needs more; 'stockwork --check' estimates how much. Use larger cells, more machines or "
+      "'Linear solver/Type = iterative'.";
+    if (run.n_ranks == 1)
+      throw SolveError(sentence);
+    // The other ranks wait for this one.
+    std::cerr << sentence << std::endl;
+    MPI_Abort(run.communicator, 2);
+  }
 }
 
 

@@ -429,8 +429,6 @@ def run_error(runner, options):
         ways = [("run", [])]
         with open(runner.output("run"), "w", encoding="utf-8"):
             pass
-    if options.needs_mesh:
-        ways = [("run", [])]
     for name, extra in ways:
         command = runner.command(name, options.deck, options.set, options.ranks, extra)
         status = runner.wait(runner.start(name, command), command)
@@ -442,7 +440,7 @@ def run_error(runner, options):
                 raise Failure(f"stderr does not say\n  {sentence}\nbut\n{runner.tail(name)}")
         if not re.search(r"(\.prm:\d+|command line): ", said):
             raise Failure(f"the message does not say where the mistake was read:\n{said}")
-        if os.path.isdir(runner.output(name)) and not options.needs_mesh:
+        if os.path.isdir(runner.output(name)):
             raise Failure("a refused deck left an output directory behind")
     print(f"  refused with {len(sentences)} expected sentence(s)")
 
@@ -465,8 +463,6 @@ def parse(arguments):
     parser.add_argument("--expect", action="append", default=[])
     parser.add_argument("--no-directory", action="store_true",
                         help="error: a file is where the output directory should be")
-    parser.add_argument("--needs-mesh", action="store_true",
-                        help="error: not seen before there is a mesh")
     parser.add_argument("--warns", action="append", default=[],
                         help="case: part of one of the run's warnings")
     parser.add_argument("--negative", action="store_true")

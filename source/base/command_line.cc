@@ -17,7 +17,7 @@ const char *const see_help = " (stockwork --help lists the options)";
 
 const std::vector<std::string> &parameter_formats()
 {
-  static const std::vector<std::string> formats = {"prm", "json", "markdown"};
+  static const std::vector<std::string> formats = {"prm", "json", "json-schema", "markdown"};
   return formats;
 }
 
@@ -30,10 +30,12 @@ po::options_description visible_options()
        "write results there instead of where the deck says; made if missing")
     ("set,s", po::value<std::vector<std::string>>()->value_name("'Section/Entry=value'"),
        "override an entry of the deck; may be given several times")
-    ("check,c", "read the deck and report everything wrong with it, but compute nothing")
+    ("check,c", "do all that does not solve: read the deck, make the mesh, set the model up, estimate "
+       "memory and time, and report what is wrong; nothing is written")
     ("restart,r", "continue from the last checkpoint in the output directory")
-    ("print-parameters", po::value<std::string>()->value_name("prm|json|markdown"),
+    ("print-parameters", po::value<std::string>()->value_name("prm|json|json-schema|markdown"),
        "print all entries with default, allowed values and meaning; with a deck, its values")
+    ("list,l", "print the fracture models and the cases that ship, a line each")
     ("help,h", "print this text")
     ("version,v", "print the versions of Stockwork and of the libraries it runs with");
   // clang-format on
@@ -90,6 +92,12 @@ CommandLine parse_command_line(const int argc, const char *const *const argv)
     return result;
   }
 
+  if (given.count("list") > 0)
+  {
+    result.action = CommandLine::Action::list;
+    return result;
+  }
+
   if (given.count("deck") > 0)
   {
     const auto &decks = given["deck"].as<std::vector<std::string>>();
@@ -133,8 +141,8 @@ std::string help_text()
     << visible_options()
     << "\n"
        "Examples\n"
-       "  stockwork prm/kgd/cohesive_xfem.prm\n"
-       "  stockwork prm/kgd/cohesive_xfem.prm --set Resolution=fine --output fine\n"
+       "  stockwork prm/kgd/toughness/cohesive_xfem.prm\n"
+       "  stockwork prm/kgd/toughness/cohesive_xfem.prm --set Resolution=fine --output fine\n"
        "  stockwork my.prm --check --set 'Rock/Young modulus=20 GPa'\n"
        "  stockwork my.prm --restart --set 'Time/End time=2 h'\n"
        "  stockwork --print-parameters markdown > parameters.md\n\n"

@@ -193,6 +193,12 @@ void Deck::read_overrides(const std::vector<std::string> &overrides,
 {
   for (const std::string &text : overrides)
   {
+    if (const std::string why = why_not_text(text); !why.empty() || text.size() > 10000)
+    {
+      errors.push_back("command line: --set '" + text.substr(0, 40) +
+                       "': " + (why.empty() ? "the value is longer than 10000 characters" : why));
+      continue;
+    }
     const auto equal = text.find('=');
     const auto trim = [](std::string part)
     {
@@ -361,15 +367,9 @@ std::string Deck::name() const
   return found ? name.string() : path.filename().string();
 }
 
-std::uint64_t fingerprint(const dealii::ParameterHandler &prm,
-                          const std::vector<std::string> &excluded)
+std::string comparable_text(const dealii::ParameterHandler &prm,
+                            const std::vector<std::string> &excluded)
 {
-  std::uint64_t hash = 14695981039346656037ull; // FNV-1a, 64 bit
-  const auto add = [&](const std::string &text)
-  {
-    for (const unsigned char c : text + '\n')
-      hash = (hash ^ c) * 1099511628211ull;
-  };
   std::vector<std::string> lines;
   for (const DeclaredEntry &entry : declared_entries(prm))
   {
@@ -391,8 +391,47 @@ std::uint64_t fingerprint(const dealii::ParameterHandler &prm,
     lines.push_back(path + "=" + value.str());
   }
   std::sort(lines.begin(), lines.end());
+  std::string text;
   for (const std::string &line : lines)
-    add(line);
+    text += line + '\n';
+  return text;
+}
+
+std::uint64_t fingerprint(const dealii::ParameterHandler &prm,
+                          const std::vector<std::string> &excluded)
+{
+  std::uint64_t hash = 14695981039346656037ull; // FNV-1a, 64 bit
+  for (const unsigned char c : comparable_text(prm, excluded))
+    hash = (hash ^ c) * 1099511628211ull;
   return hash;
+}
+
+std::string difference(const std::string &before, const std::string &now)
+{
+  const auto entries = [](const std::string &text)
+  {
+    std::map<std::string, std::string> values;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+      values[line.substr(0, line.find('='))] = line.substr(line.find('=') + 1);
+    return values;
+  };
+  const auto shown = [](const std::map<std::string, std::string> &values, const std::string &path)
+  {
+    const auto value = values.find(path);
+    return value == values.end()   ? std::string("not there")
+           : value->second.empty() ? std::string("empty")
+                                   : "'" + value->second.substr(0, 60) + "'";
+  };
+  const auto old = entries(before), young = entries(now);
+  std::map<std::string, std::string> all = old;
+  all.insert(young.begin(), young.end());
+  std::string text;
+  unsigned int n = 0;
+  for (const auto &[path, value] : all)
+    if (shown(old, path) != shown(young, path) && ++n <= 5)
+      text += (n > 1 ? "; '" : "'") + path + "' was " + shown(old, path) + " and is now " +
+              shown(young, path);
+  return n > 5 ? text + "; and " + std::to_string(n - 5) + " more" : text;
 }
 } // namespace stockwork

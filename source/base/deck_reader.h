@@ -22,6 +22,9 @@ struct DeckLine
   Origin origin;
 };
 
+/// What is wrong with a line that is not text in UTF-8; empty: nothing.
+std::string why_not_text(const std::string &text);
+
 /// Reads the lines of a deck and of its includes: subsection/end, set, include, # comments and a
 /// backslash that continues a line. Errors are collected, so that one run shows them all.
 class DeckReader
@@ -40,7 +43,11 @@ private:
   void include(const std::string &name, const Origin &origin);
   void error(const Origin &origin, const std::string &message);
 
-  std::vector<std::string> sections;   ///< the subsections entered
+  /// Whether a deck can be read from there; if not, an error says why.
+  bool is_file(const std::string &name, const std::string &shown, const std::string &prefix);
+
+  std::vector<std::string> sections; ///< the subsections entered
+  unsigned int n_files = 0, n_lines = 0;
   std::vector<std::string> open_files; ///< the chain of includes, canonical paths
 };
 } // namespace stockwork

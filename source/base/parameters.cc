@@ -2,12 +2,16 @@
 
 #include "base/parameter_tree.h"
 #include "stockwork/base/error.h"
+#include "stockwork/base/json.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -105,6 +109,98 @@ void print_markdown(const dealii::ParameterHandler &prm, std::ostream &out)
     first = last + 1;
   }
 }
+/// "type" and what limits the value, of a pattern's machine-style description.
+void schema_of_pattern(JsonWriter &json, const std::string &pattern)
+{
+  std::smatch match;
+  static const std::regex selection("\\[Selection (.*)\\]"),
+    number("\\[(Double|Integer)(?: range)? ?(\\S*?)\\.\\.\\.(\\S*) .*\\]"),
+    unit("\\[Quantity (.*) in ([(\\[])([^,]*), ([^)\\]]*)([)\\]])(?: (?!or \")(.+?))?(?: or "
+         "\".*\")?\\]");
+  if (pattern == "[Bool]")
+    json.member("type", "boolean");
+  else if (std::regex_match(pattern, match, selection))
+  {
+    json.member("type", "string");
+    json.begin_array("enum");
+    std::istringstream in(match[1]);
+    for (std::string name; std::getline(in, name, '|');)
+      json.element(name);
+    json.end_array();
+  }
+  else if (std::regex_match(pattern, match, number))
+  {
+    json.member("type", match[1] == "Integer" ? "integer" : "number");
+    for (const auto &[key, text] :
+         {std::make_pair("minimum", match[2].str()), std::make_pair("maximum", match[3].str())})
+      if (!text.empty() && text.find("MAX_") == std::string::npos && text.size() < 9)
+        json.member(key, std::stod(text));
+  }
+  else
+  {
+    // A number with a unit is a text.
+    json.begin_array("type");
+    json.element("string");
+    json.element("number");
+    json.end_array();
+    if (std::regex_match(pattern, match, unit))
+    {
+      json.member("x-quantity", match[1].str());
+      json.member("x-unit", match[6].str());
+      json.member("x-range",
+                  match[2].str() + match[3].str() + ", " + match[4].str() + match[5].str());
+    }
+  }
+}
+
+void print_json_schema(const dealii::ParameterHandler &prm, std::ostream &out)
+{
+  std::map<std::string, std::vector<DeclaredEntry>> entries;       // by section
+  std::map<std::string, std::vector<std::string>> sections_within; // by section
+  for (const Section &section : sections_of(prm))
+  {
+    entries[section.name] = section.entries;
+    for (std::string path = section.name; !path.empty();)
+    {
+      const auto slash = path.rfind('/');
+      const std::string parent = slash == std::string::npos ? "" : path.substr(0, slash);
+      auto &siblings = sections_within[parent];
+      if (std::find(siblings.begin(), siblings.end(), path) == siblings.end())
+        siblings.push_back(path);
+      path = parent;
+    }
+  }
+  JsonWriter json(out);
+  const std::function<void(const std::string &)> print_section = [&](const std::string &path)
+  {
+    json.member("type", "object");
+    json.member("additionalProperties", false);
+    json.begin_object("properties");
+    for (const DeclaredEntry &entry : entries[path])
+    {
+      json.begin_object(entry.name);
+      json.member("description", capitalised(entry.documentation) +
+                                   (entry.documentation.empty() ? "" : " ") +
+                                   "Allowed: " + allowed_text(entry.pattern) + ".");
+      json.member("default", entry.default_value);
+      schema_of_pattern(json, entry.pattern);
+      json.end_object();
+    }
+    for (const std::string &below : sections_within[path])
+    {
+      json.begin_object(below.substr(below.rfind('/') + 1));
+      print_section(below);
+      json.end_object();
+    }
+    json.end_object();
+  };
+  json.begin_object();
+  json.member("$schema", "https://json-schema.org/draft/2020-12/schema");
+  json.member("title", "Stockwork deck");
+  print_section("");
+  json.end_object();
+  out << '\n';
+}
 } // namespace
 
 void print_parameters(const dealii::ParameterHandler &prm,
@@ -118,12 +214,14 @@ void print_parameters(const dealii::ParameterHandler &prm,
     prm.print_parameters(out, style(Handler::PRM));
   else if (format == "json")
     prm.print_parameters(out, style(Handler::JSON));
+  else if (format == "json-schema")
+    print_json_schema(prm, out);
   else if (format == "markdown")
     print_markdown(prm, out);
   else
     throw InputError("'" + format +
                      "' is not a format of parameters; allowed is one of 'prm', "
-                     "'json' or 'markdown'");
+                     "'json', 'json-schema' or 'markdown'");
 }
 
 void write_effective_deck(const dealii::ParameterHandler &prm, const std::string &file)

@@ -28,6 +28,9 @@ void write_summary(std::ostream &out, const RunSummary &summary)
   json.member("deck", summary.deck);
   json.member("date", summary.date);
   json.member("machine", summary.machine);
+  json.member("status", summary.status);
+  if (!summary.reason.empty())
+    json.member("reason", summary.reason);
   json.member("version", version());
   json.member("dealii_version", dealii_version());
   json.member("ranks", summary.ranks);

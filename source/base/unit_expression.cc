@@ -148,7 +148,8 @@ public:
 private:
   [[noreturn]] void fail(const std::string &reason) const
   {
-    throw InputError("\"" + given + "\" is not understood: " + reason);
+    throw InputError("\"" + (given.size() > 200 ? given.substr(0, 200) + "..." : given) +
+                     "\" is not understood: " + reason);
   }
 
   /// The next character that is not blank.
@@ -233,6 +234,16 @@ private:
   }
 
   UnitValue power()
+  {
+    // Each level of parentheses, signs and powers passes here; none needs many.
+    if (++depth > 200)
+      fail("it is nested too deeply");
+    const UnitValue result = signed_power();
+    --depth;
+    return result;
+  }
+
+  UnitValue signed_power()
   {
     if (accept('-'))
     {
@@ -349,6 +360,7 @@ private:
 
   const std::string given, text;
   std::size_t position = 0;
+  unsigned int depth = 0;
 };
 
 const std::vector<Dimension> &named_dimensions()

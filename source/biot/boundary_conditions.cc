@@ -7,7 +7,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/numerics/vector_tools.h>
 
 #include <array>
@@ -117,8 +120,8 @@ unsigned int normal_axis(const Triangulation<dim> &triangulation, const types::b
   for (unsigned int d = 0; d < dim; ++d)
     if (extent[d] < 1e-10)
       return d;
-  throw InputError("A roller or symmetry condition was set on a side that is not a plane normal to "
-                   "a coordinate axis. Give displacement components there instead.");
+  throw InputError("a side that is a plane normal to a coordinate axis; give displacement "
+                   "components on others");
 }
 } // namespace
 
@@ -163,7 +166,9 @@ void BoundaryConditions<dim>::parse_parameters(
   {
     try
     {
-      return side_of(name);
+      const types::boundary_id id = side_of(name);
+      mentions.push_back({id, entry_in_hand, name});
+      return id;
     }
     catch (const InputError &error)
     {
@@ -179,19 +184,19 @@ void BoundaryConditions<dim>::parse_parameters(
   const PrescribedValue<dim> zero = {[](const Point<dim> &, double) { return 0.; }, true};
   prm.enter_subsection("Boundary conditions");
   for (const std::string &name : Utilities::split_string_list(get("Roller")))
-    dirichlet.push_back({side(name), normal_component, zero});
+    dirichlet.push_back({side(name), normal_component, zero, false, "Roller", name, true});
   for (const std::string &name : Utilities::split_string_list(get("Fixed")))
     for (unsigned int d = 0; d < dim; ++d)
-      dirichlet.push_back({side(name), d, zero});
+      dirichlet.push_back({side(name), d, zero, false, "Fixed", name, true});
   for (const std::string &name : Utilities::split_string_list(get("Drained")))
-    dirichlet.push_back({side(name), dim, zero});
+    dirichlet.push_back({side(name), dim, zero, false, "Drained", name, true});
 
   const auto add_dirichlet =
     [&](const std::string &entry, const unsigned int component, const Dimension &dimension)
   {
     for (const auto &[name, value] : split_by_side(entry, get(entry)))
     {
-      Dirichlet condition{side(name), component, zero};
+      Dirichlet condition{side(name), component, zero, false, entry, name};
       if (value == "reference")
       {
         condition.from_reference = true;
@@ -199,6 +204,8 @@ void BoundaryConditions<dim>::parse_parameters(
       }
       else
         condition.prescribed = parse_value<dim>(entry, value, dimension);
+      condition.is_zero = !condition.from_reference && condition.prescribed.constant_in_time &&
+                          condition.prescribed.value(Point<dim>(), 0.) == 0.;
       dirichlet.push_back(condition);
     }
   };
@@ -227,7 +234,166 @@ void BoundaryConditions<dim>::parse_parameters(
       position->second[d] = parse_value<dim>(entry, value, dimension::pressure);
     }
   }
+  rollers = prm.get("Roller");
+  refuse_contradictions(prm);
   prm.leave_subsection();
+}
+
+
+template <int dim>
+void BoundaryConditions<dim>::refuse_contradictions(ParameterHandler &prm) const
+{
+  const auto refuse = [&prm](const std::string &entry, const std::string &why)
+  { throw EntryError("Boundary conditions/" + entry, prm.get(entry), why); };
+  for (unsigned int i = 0; i < dirichlet.size(); ++i)
+    for (unsigned int j = 0; j < i; ++j)
+      if (const Dirichlet &a = dirichlet[i], &b = dirichlet[j];
+          a.side == b.side && a.component == b.component && !(a.is_zero && b.is_zero))
+        refuse(a.entry, "one condition for each component of a side; '" + a.side_name +
+                          "' has one by 'Boundary conditions/" + b.entry + "' already");
+  for (const Dirichlet &condition : dirichlet)
+  {
+    const std::string also = "other sides than those of 'Boundary conditions/" + condition.entry +
+                             "', where '" + condition.side_name + "' ";
+    if (condition.component == dim && prescribed_loads.flux.count(condition.side) > 0)
+      refuse("Flux", also + "is given a pressure");
+    // The axis of a roller is known with the mesh only; its normal traction is another name for it.
+    if ((condition.component == normal_component || condition.entry == "Fixed") &&
+        prescribed_loads.normal_traction.count(condition.side) > 0)
+      refuse("Normal traction", also + "does not move along its normal");
+    if (condition.component < dim)
+    {
+      const std::string entry = "Traction " + axis_names[condition.component];
+      for (const auto &[name, value] : split_by_side(entry, prm.get(entry)))
+        if (name == condition.side_name)
+          refuse(entry, also + "has a given displacement");
+    }
+  }
+}
+
+
+namespace
+{
+/// What is left of the motions of a rigid body, as words; empty: nothing.
+template <int dim>
+std::string name_of_motion(const Vector<double> &motion)
+{
+  std::string translation, rotation;
+  const double greatest = motion.linfty_norm();
+  for (unsigned int i = 0; i < motion.size(); ++i)
+    if (std::abs(motion[i]) > 0.1 * greatest)
+    {
+      std::string &words = i < dim ? translation : rotation;
+      words += (words.empty() ? "" : " and ") + axis_names[i < dim ? i : dim == 2 ? 2 : i - dim];
+    }
+  return (translation.empty() ? "" : "shift along " + translation) +
+         (translation.empty() || rotation.empty() ? "" : " with a ") +
+         (rotation.empty() ? "" : "rotation about " + rotation);
+}
+} // namespace
+
+
+template <int dim>
+void BoundaryConditions<dim>::check_hold(const Triangulation<dim> &triangulation) const
+{
+  // A rigid motion is a shift and a rotation; each condition takes away what moves its side's
+  // vertices. What the normal matrix of all conditions does not see is left.
+  constexpr unsigned int n = dim == 2 ? 3 : 6;
+  const auto box = GridTools::compute_bounding_box(triangulation).get_boundary_points();
+  const auto communicator = triangulation.get_communicator();
+  Point<dim> centre;
+  double size = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    const double lower = Utilities::MPI::min(box.first[d], communicator),
+                 upper = Utilities::MPI::max(box.second[d], communicator);
+    centre[d] = 0.5 * (lower + upper);
+    size = std::max(size, upper - lower);
+  }
+
+  FullMatrix<double> normal_matrix(n);
+  for (const Dirichlet &condition : dirichlet)
+  {
+    const unsigned int component = condition.component == normal_component
+                                     ? normal_axis(triangulation, condition.side)
+                                     : condition.component;
+    if (component >= dim)
+      continue;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == condition.side)
+            for (unsigned int v = 0; v < cell->face(f)->n_vertices(); ++v)
+            {
+              const Tensor<1, dim> x = (cell->face(f)->vertex(v) - centre) / size;
+              Vector<double> row(n); // the component of the motion at this vertex
+              row[component] = 1.;
+              if (dim == 2)
+                row[2] = component == 0 ? -x[1] : x[0];
+              else
+              {
+                row[dim + (component + 1) % dim] = x[(component + 2) % dim];
+                row[dim + (component + 2) % dim] = -x[(component + 1) % dim];
+              }
+              for (unsigned int i = 0; i < n; ++i)
+                for (unsigned int j = 0; j < n; ++j)
+                  normal_matrix(i, j) += row[i] * row[j];
+            }
+  }
+  Utilities::MPI::sum(normal_matrix, communicator, normal_matrix);
+
+  LAPACKFullMatrix<double> matrix(n);
+  matrix = normal_matrix;
+  Vector<double> values(n);
+  FullMatrix<double> vectors(n, n);
+  const double greatest = std::max(1., normal_matrix.linfty_norm());
+  matrix.compute_eigenvalues_symmetric(-1., 1e-10 * greatest, 1e-14, values, vectors);
+  if (values.size() == 0)
+    return;
+  std::string left;
+  for (unsigned int k = 0; k < values.size(); ++k)
+  {
+    Vector<double> motion(n);
+    for (unsigned int i = 0; i < n; ++i)
+      motion[i] = vectors(i, k);
+    left += (left.empty() ? "a " : ", a ") + name_of_motion<dim>(motion);
+  }
+  throw EntryError("Boundary conditions/Roller", rollers,
+                   "sides that hold the body, here, in 'Fixed' or by a given displacement: nothing "
+                   "holds it against " +
+                     left);
+}
+
+
+template <int dim>
+void BoundaryConditions<dim>::check(const Triangulation<dim> &triangulation,
+                                    const bool inertia) const
+{
+  std::set<types::boundary_id> there;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->at_boundary())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          there.insert(cell->face(f)->boundary_id());
+  for (const Mention &mention : mentions)
+    if (Utilities::MPI::max(there.count(mention.side) > 0 ? 1 : 0,
+                            triangulation.get_communicator()) == 0)
+      throw EntryError("Boundary conditions/" + mention.entry, mention.name,
+                       "a side with faces; no face of the mesh belongs to this one (a box of "
+                       "'Mesh/Side boxes' must hold their centres)");
+  for (const Dirichlet &condition : dirichlet)
+    if (condition.component == normal_component)
+      try
+      {
+        normal_axis(triangulation, condition.side);
+      }
+      catch (const InputError &error)
+      {
+        throw EntryError("Boundary conditions/" + condition.entry, condition.side_name,
+                         error.what());
+      }
+  if (!inertia)
+    check_hold(triangulation);
 }
 
 

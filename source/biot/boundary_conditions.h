@@ -94,6 +94,11 @@ public:
                  dealii::AffineConstraints<double> &values,
                  dealii::AffineConstraints<double> &increment) const;
 
+  /// Whether each side with a condition is there on the mesh and, unless inertia resists, no rigid
+  /// motion of the body is left. Collective.
+  /// @throws EntryError naming the side, or the motion that is left
+  void check(const dealii::Triangulation<dim> &triangulation, bool inertia) const;
+
   const Loads<dim> &loads() const
   {
     return prescribed_loads;
@@ -106,9 +111,26 @@ private:
     unsigned int component; ///< `normal_component`: found from the side's normal
     PrescribedValue<dim> prescribed;
     bool from_reference = false;
+    std::string entry = {}; ///< of the deck, for messages
+    std::string side_name = {};
+    bool is_zero = false;
   };
   static constexpr unsigned int normal_component = 100;
 
+  /// @throws EntryError where two conditions contradict one another and one would be dropped
+  void refuse_contradictions(dealii::ParameterHandler &prm) const;
+
+  /// A side that the deck names.
+  struct Mention
+  {
+    dealii::types::boundary_id side;
+    std::string entry, name;
+  };
+
+  void check_hold(const dealii::Triangulation<dim> &triangulation) const;
+
+  std::vector<Mention> mentions;
+  std::string rollers; ///< as the deck gives them
   std::vector<Dirichlet> dirichlet;
   Loads<dim> prescribed_loads;
   std::shared_ptr<dealii::Function<dim>> reference;

@@ -3,6 +3,8 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
+#include <cmath>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -70,6 +72,100 @@ template <int dim>
 double InSitu<dim>::pore_pressure(const Point<dim> &point) const
 {
   return pressure_0 + (point[dim - 1] - datum) * pressure_gradient;
+}
+
+
+namespace
+{
+/// Places where the traction across a crack is looked at, with the normal there.
+template <int dim>
+std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_across(const InitialCrack<dim> &crack)
+{
+  std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places;
+  if (crack.disc)
+    for (const double side : {-1., 1.})
+    {
+      // The highest and the lowest point of the rim.
+      Tensor<1, dim> up;
+      up[dim - 1] = 1.;
+      up -= (up * crack.disc->normal) * crack.disc->normal;
+      if (up.norm() > 1e-10)
+        up *= side * crack.disc->radius / up.norm();
+      places.emplace_back(crack.disc->centre + up, crack.disc->normal);
+    }
+  if constexpr (dim == 2)
+    for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
+    {
+      const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i];
+      if (along.norm() > 0.)
+        for (const Point<dim> &end : {crack.points[i], crack.points[i + 1]})
+          places.emplace_back(end, Point<dim>(-along[1], along[0]) / along.norm());
+    }
+  return places;
+}
+} // namespace
+
+
+template <int dim>
+void InSitu<dim>::check(ParameterHandler &prm,
+                        const double rock_density,
+                        const double fluid_density,
+                        const std::vector<InitialCrack<dim>> &fluid_filled,
+                        std::vector<std::string> &warnings) const
+{
+  constexpr double gravity = 9.81;
+  prm.enter_subsection("In situ");
+  const std::string stress_text = prm.get("Stress"), gradient_text = prm.get("Stress gradient"),
+                    pressure_text = prm.get("Pore pressure gradient");
+  prm.leave_subsection();
+
+  // div sigma = rho g upwards, and nothing sideways.
+  for (unsigned int d = 0; d + 1 < dim; ++d)
+    if (stress_gradient[d][dim - 1] != 0.)
+      throw EntryError("In situ/Stress gradient", gradient_text,
+                       "no gradient of a shear component with the vertical: nothing would hold the "
+                       "rock sideways");
+  const double weight = stress_gradient[dim - 1][dim - 1];
+  if (weight < 0. || weight > 2e4 * gravity)
+    throw EntryError("In situ/Stress gradient", gradient_text,
+                     "a vertical component that is in equilibrium with the rock's weight, rho g (" +
+                       to_string(rock_density * gravity, dimension::pressure_gradient) +
+                       " at the deck's density): compression grows downwards");
+  if (pressure_gradient > 0. || pressure_gradient < -2e4 * gravity)
+    throw EntryError("In situ/Pore pressure gradient", pressure_text,
+                     "a value in equilibrium with the fluid's weight, -rho g (" +
+                       to_string(-fluid_density * gravity, dimension::pressure_gradient) +
+                       " at the deck's density): the pressure grows downwards");
+  const auto is_unlike = [](const double value, const double usual)
+  { return value != 0. && std::abs(value - usual) > 0.25 * usual; };
+  if (is_unlike(weight, rock_density * gravity))
+    warnings.push_back("'In situ/Stress gradient': the vertical stress changes by " +
+                       to_string(weight, dimension::pressure_gradient) +
+                       ", the weight of rock of the deck's density is " +
+                       to_string(rock_density * gravity, dimension::pressure_gradient) + ".");
+  if (is_unlike(-pressure_gradient, fluid_density * gravity))
+    warnings.push_back("'In situ/Pore pressure gradient': the pore pressure changes by " +
+                       to_string(pressure_gradient, dimension::pressure_gradient) +
+                       ", the weight of fluid of the deck's density makes " +
+                       to_string(-fluid_density * gravity, dimension::pressure_gradient) +
+                       ": fluid would flow before anything is injected.");
+
+  bool pressed_open = false;
+  for (const InitialCrack<dim> &crack : fluid_filled)
+    for (const auto &[place, normal] : places_across(crack))
+    {
+      const double across = normal * (stress(place) * normal);
+      // What rounding leaves of a stress of zero across a crack is none.
+      if (across > 1e-9 * stress(place).norm())
+        throw EntryError("In situ/Stress", stress_text,
+                         "compression (negative) across cracks that fluid is to fill; across '" +
+                           crack.text + "' there is a tension of " +
+                           to_string(across, dimension::stress));
+      pressed_open = pressed_open || (across < 0. && pore_pressure(place) > -across);
+    }
+  if (pressed_open)
+    warnings.push_back("'In situ/Pore pressure' is greater than the compression across a crack: it "
+                       "would be open before anything is injected.");
 }
 
 

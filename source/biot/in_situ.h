@@ -4,6 +4,11 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include "stockwork/fracture/scene.h"
+
+#include <string>
+#include <vector>
+
 namespace stockwork
 {
 /// In-situ total stress and pore pressure. The unknowns are measured from this state, which is
@@ -23,6 +28,22 @@ public:
 
   /// Pore pressure [Pa].
   double pore_pressure(const dealii::Point<dim> &point) const;
+
+  /// The state must be in equilibrium, and hold cracks that fluid is to fill closed.
+  /// @param rock_density, fluid_density [kg/m^3], of which gradients are the weight
+  /// @param fluid_filled cracks whose fluid pressure is computed
+  /// @param warnings gets what is unusual
+  /// @throws EntryError
+  void check(dealii::ParameterHandler &prm,
+             double rock_density,
+             double fluid_density,
+             const std::vector<InitialCrack<dim>> &fluid_filled,
+             std::vector<std::string> &warnings) const;
+
+  bool has_gradient() const
+  {
+    return stress_gradient.norm() > 0. || pressure_gradient != 0.;
+  }
 
   bool is_zero() const
   {

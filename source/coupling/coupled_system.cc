@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 namespace stockwork
 {
@@ -451,6 +453,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
   const double injected = network.balance(context, state, communication).step.injected;
   Norms norms = residual_norms(), greatest = norms;
   double model_change = 0.;
+  unsigned int n_limited = 0, n_halved = 0;
 
   auto dx_bulk = owned_vector();
   std::vector<double> dx_extra;
@@ -477,12 +480,13 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       rock_on_fracture += linear_residual_extra[i] * linear_residual_extra[i];
     const double force = std::max({greatest.momentum, greatest.extra, std::sqrt(rock_on_fracture)});
     const Norms rounding = rounding_errors(values);
-    const bool small = model_change <= tolerance &&
-                       norms.momentum <= std::max(tolerance * force, rounding.momentum) &&
-                       norms.extra <= std::max(tolerance * force, rounding.momentum) &&
-                       norms.mass <= std::max(tolerance * greatest.mass, rounding.mass) &&
-                       norms.fracture_fluid <=
-                         (injected > 0. ? 1e-9 * injected : tolerance * greatest.fracture_fluid);
+    Norms allowed;
+    allowed.momentum = allowed.extra = std::max(tolerance * force, rounding.momentum);
+    allowed.mass = std::max(tolerance * greatest.mass, rounding.mass);
+    allowed.fracture_fluid = injected > 0. ? 1e-9 * injected : tolerance * greatest.fracture_fluid;
+    const bool small = model_change <= tolerance && norms.momentum <= allowed.momentum &&
+                       norms.extra <= allowed.extra && norms.mass <= allowed.mass &&
+                       norms.fracture_fluid <= allowed.fracture_fluid;
     if (iteration > 0 && (small || linear))
     {
       report.converged = true;
@@ -498,6 +502,9 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     {
       report.iterations = iteration;
       report.reason = "no convergence in " + std::to_string(max_iterations) + " iterations";
+      if (model_change > tolerance)
+        report.reason += "; the fracture model still changes by " + std::to_string(model_change);
+      explain(report, norms, allowed, n_limited, n_halved);
       return report;
     }
 
@@ -517,6 +524,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       if (!linear_report.is_good_enough())
       {
         report.reason = "the linear solver has not converged";
+        report.advice = "Try 'Linear solver/Type = direct', or more of its iterations.";
         return report;
       }
     }
@@ -534,6 +542,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
       if (const double change = std::abs(dx_extra[i]); factor * change > limit)
         factor = limit / change;
+    n_limited += factor < 1.;
     const auto move = [&](const double step)
     {
       values.add(step, dx_bulk);
@@ -565,6 +574,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       for (unsigned int halving = 0;
            halving < 4 && !(imbalance(norms) < (iteration < 6 ? 3. : 1.) * before); ++halving)
       {
+        n_halved += halving == 0;
         factor *= 0.5;
         move(-factor);
       }

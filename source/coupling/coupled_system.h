@@ -34,6 +34,7 @@ struct NonlinearReport
   unsigned int iterations = 0;
   unsigned int linear_iterations = 0;
   std::string reason; ///< why not, for the user
+  std::string advice; ///< what may help against that
 };
 
 /// All unknowns of the run and the one nonlinear system that couples them: bulk, fracture model
@@ -157,6 +158,20 @@ private:
     double momentum = 0., mass = 0., extra = 0., fracture_fluid = 0.;
   };
   Norms residual_norms() const;
+
+  /// Say which equation is left, how much of it and where, and what shortened the iterations.
+  /// Collective.
+  /// @param tolerances by equation
+  /// @param n_limited iterations that 'Maximum pressure change' shortened
+  /// @param n_halved iterations that were shortened because the residual grew
+  void explain(NonlinearReport &report,
+               const Norms &norms,
+               const Norms &tolerances,
+               unsigned int n_limited,
+               unsigned int n_halved) const;
+
+  /// Of the greatest residual of a block of the bulk. Collective.
+  dealii::Point<dim> place_in_bulk(unsigned int block) const;
 
   /// Bounds of what rounding leaves of the bulk's residuals: a solve that starts in equilibrium
   /// gets no further.

@@ -6,7 +6,9 @@
 
 #include <deal.II/distributed/solution_transfer.h>
 
+#include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace stockwork
 {
@@ -34,16 +36,47 @@ bool MeshAdaptation<dim>::flag()
 
 
 template <int dim>
-void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
+void MeshAdaptation<dim>::refine_initial_mesh()
 {
+  refuse_tiny_cells();
   while (flag())
   {
+    refuse_too_many_cells(triangulation, max_cells,
+                          "unless the fracture model's wanted cell size is a mistake");
     triangulation.execute_coarsening_and_refinement();
-    if (triangulation.n_global_active_cells() > max_cells)
-      throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells),
-                       "more, unless the fracture model's wanted cell size is a mistake");
   }
   triangulation.repartition();
+}
+
+
+template <int dim>
+void MeshAdaptation<dim>::refuse_tiny_cells() const
+{
+  std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
+  model.wanted_cell_size(triangulation, wanted);
+  // At least a row of small cells crosses each large one that is to be split; one in four of them
+  // may be touched at a corner only.
+  double n_cells = 0.;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      if (const double ratio = cell_size(cell) / wanted[cell->active_cell_index()]; ratio > 1.)
+        n_cells += 0.25 * std::pow(ratio, dim - 1);
+  n_cells = Utilities::MPI::sum(n_cells, triangulation.get_communicator());
+  if (n_cells > max_cells)
+  {
+    std::ostringstream text;
+    text << "at least " << n_cells
+         << ", the cells that the fracture model wants along its cracks, unless their wanted size "
+            "is a mistake";
+    throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells), text.str());
+  }
+}
+
+
+template <int dim>
+void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
+{
+  refine_initial_mesh();
   system.setup_mesh(time);
 }
 

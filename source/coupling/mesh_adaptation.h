@@ -17,7 +17,11 @@ public:
                  dealii::parallel::distributed::Triangulation<dim> &triangulation,
                  const FractureModel<dim> &model);
 
-  /// Before the first step, when there are no unknowns to move yet: make the mesh ready.
+  /// Before the first step, when there are no unknowns to move yet.
+  /// @throws EntryError if that makes too many cells
+  void refine_initial_mesh();
+
+  /// The same, and make the system ready.
   void prepare(CoupledSystem<dim> &system, double time);
 
   /// Between steps. Returns whether the mesh has changed.
@@ -26,6 +30,9 @@ public:
 private:
   /// Set flags; is there anything to do?
   bool flag();
+
+  /// Before any cell is made: a size that is a slip of the pen.
+  void refuse_tiny_cells() const;
 
   const Geometry<dim> &geometry;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;

@@ -63,6 +63,15 @@ void StepControl::parse_parameters(ParameterHandler &prm)
     optional("Initial step", dimension::time, Range::positive(), (end_time - start_time) / 100.);
   minimum_step = optional("Minimum step", dimension::time, Range::positive(), 1e-6 * initial_step);
   maximum_step = get_quantity(prm, "Maximum step", dimension::time);
+  if (!(minimum_step <= initial_step))
+    throw EntryError("Time/Minimum step", prm.get("Minimum step"),
+                     "at most the initial step, " + to_string(initial_step, dimension::time));
+  if (!(initial_step <= maximum_step))
+    throw EntryError("Time/Initial step", prm.get("Initial step"),
+                     "at most 'Time/Maximum step', " + prm.get("Maximum step") +
+                       (prm.get("Initial step").empty()
+                          ? "; empty, it is " + to_string(initial_step, dimension::time)
+                          : ""));
   error_tolerance = get_quantity(prm, "Error tolerance", dimension::number);
   growth = optional("Step growth", dimension::number, Range{1., 10., false, false},
                     std::isfinite(error_tolerance) ? 2. : -1.);
@@ -89,8 +98,10 @@ Stepper<dim>::Stepper(RunContext &run,
 
 
 template <int dim>
-typename Stepper<dim>::Outcome
-Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_limit)
+typename Stepper<dim>::Outcome Stepper<dim>::attempt(StepReport &report,
+                                                     std::string &reason,
+                                                     std::string &advice,
+                                                     double &dt_limit)
 {
   // More passes than any model's own limit: a model that never stops growing must not hang the run.
   constexpr unsigned int max_passes = 100;
@@ -111,6 +122,7 @@ Stepper<dim>::attempt(StepReport &report, std::string &reason, double &dt_limit)
     if (!solve.converged)
     {
       reason = solve.reason;
+      advice = solve.advice;
       return Outcome::rejected;
     }
     const State state = system.state(current, before, rate_reference, acceleration_reference);
@@ -145,8 +157,8 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
   {
     context = scheme.context(time, dt, step, attempt_number);
     double dt_limit = std::numeric_limits<double>::infinity();
-    std::string reason;
-    const Outcome outcome = attempt(report, reason, dt_limit);
+    std::string reason, advice;
+    const Outcome outcome = attempt(report, reason, advice, dt_limit);
     bool accepted = outcome == Outcome::accepted;
 
     // A smooth run may also be judged by its local error.
@@ -208,9 +220,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     if (dt <= control.minimum_step * (1. + 1e-10))
       throw SolveError("Step " + std::to_string(step) + " at t = " + std::to_string(time) +
                        " s fails even with the shortest step allowed, " + std::to_string(dt) +
-                       " s: " + reason +
-                       ". Try a smaller 'Time/Minimum step', a finer mesh where the fracture is, "
-                       "or a greater 'Fracture flow/Minimum aperture'.");
+                       " s: " + reason + (advice.empty() ? "" : ". " + advice));
     run.out << "  step " << step << ": " << reason << "; dt " << dt << " -> "
             << std::max(0.5 * dt, control.minimum_step) << " s" << std::endl;
     dt = std::max(0.5 * dt, control.minimum_step);

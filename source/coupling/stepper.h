@@ -76,7 +76,7 @@ private:
     rejected,
     hopeless ///< no shorter step does better
   };
-  Outcome attempt(StepReport &report, std::string &reason, double &dt_limit);
+  Outcome attempt(StepReport &report, std::string &reason, std::string &advice, double &dt_limit);
 
   RunContext &run;
   CoupledSystem<dim> &system;

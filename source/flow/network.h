@@ -164,6 +164,11 @@ public:
     return all_wells.greatest_pressure();
   }
 
+  unsigned int n_wells() const
+  {
+    return all_wells.size();
+  }
+
   double rate_of_first_well(double t) const
   {
     return all_wells.first_rate(t);

@@ -31,7 +31,9 @@ TimeHistory::TimeHistory(const std::string &text,
     {
       expression = std::make_shared<dealii::FunctionParser<1>>();
       expression->initialize("t", text.substr(text.find('=') + 1), {});
-      expression->value(dealii::Point<1>(0.)); // muParser finds faults only now
+      // muParser finds faults only now
+      if (!std::isfinite(expression->value(dealii::Point<1>(0.))))
+        throw InputError("it is not finite at the start");
     }
     else if (text.find(':') == std::string::npos)
     {
@@ -47,8 +49,15 @@ TimeHistory::TimeHistory(const std::string &text,
         times.push_back(parse_quantity(trim(piece.substr(0, colon)), dimension::time));
         values.push_back(parse_quantity(trim(piece.substr(colon + 1)), dimension));
         if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
-          throw InputError("times must grow");
+          throw InputError("its times do not grow");
       }
+    for (const double value : values)
+      if (!std::isfinite(value))
+        throw InputError("it is not finite");
+  }
+  catch (const InputError &error)
+  {
+    throw EntryError(path, text, allowed + " (" + error.what() + ")");
   }
   catch (const std::exception &)
   {

@@ -427,14 +427,33 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
 template <int dim>
 void Wells<dim>::check(const std::vector<InitialCrack<dim>> &cracks) const
 {
+  std::vector<dealii::Point<dim>> earlier;
   for (const Well &well : wells)
     for (const Perforation &perforation : well.perforations)
     {
-      bool on_crack = false;
+      const auto complain = [&](const std::string &what)
+      { throw perforation_error(well, perforation, what); };
+      const InitialCrack<dim> *nearest = nullptr;
       for (const InitialCrack<dim> &crack : cracks)
-        on_crack = on_crack || crack.distance(perforation.point) < 0.1 * crack.size();
-      if (!on_crack)
-        throw perforation_error(well, perforation, "none. Give an initial crack there");
+        if (nearest == nullptr ||
+            crack.distance(perforation.point) < nearest->distance(perforation.point))
+          nearest = &crack;
+      if (nearest == nullptr)
+        complain("none. Give an initial crack there");
+      const double distance = nearest->distance(perforation.point), size = nearest->size();
+      if (!(distance <= 0.02 * size))
+        complain("none; '" + nearest->text + "' passes at a distance of " +
+                 to_string(distance, dimension::length) +
+                 ". Give an initial crack there, or move the point onto this one");
+      for (const InitialCrack<dim> &crack : cracks)
+        if (&crack != nearest &&
+            crack.distance(perforation.point) <= distance + 1e-6 * crack.size())
+          complain("two cracks at once, '" + nearest->text + "' and '" + crack.text +
+                   "'; move it onto one of them");
+      for (const auto &other : earlier)
+        if (other.distance(perforation.point) <= 1e-6 * size)
+          complain("one that is perforated at this place already; each perforation is given once");
+      earlier.push_back(perforation.point);
     }
 }
 

@@ -81,6 +81,11 @@ public:
     return wells.empty();
   }
 
+  unsigned int size() const
+  {
+    return wells.size();
+  }
+
   /// Find the segments that the perforations open into.
   /// @throws EntryError naming a point that lies on no segment
   void locate(const std::vector<NetworkSegment<dim>> &segments);
@@ -88,8 +93,8 @@ public:
   /// Whether a perforation opens into a segment.
   bool feeds(unsigned int segment) const;
 
-  /// The same from the cracks of the deck, before there is a mesh: a perforation farther from every
-  /// crack than a tenth of its length cannot lie on one.
+  /// The same from the cracks of the deck, before there is a mesh: a perforation lies on one crack,
+  /// to a fiftieth of its length, and no two are at one place.
   /// @throws EntryError naming the point
   void check(const std::vector<InitialCrack<dim>> &cracks) const;
 

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "mesh/gmsh_file.h"
 #include "mesh/partition.h"
+#include "mesh/refinement.h"
 #include "mesh/spacing.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -151,9 +153,10 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
   coarse = std::make_shared<dealii::Triangulation<dim>>();
   sides.clear();
   regions.clear();
-  uniform_refinements = 0;
 
   prm.enter_subsection("Mesh");
+  uniform_refinements = prm.get_integer("Uniform refinements");
+  max_cells = prm.get_integer("Maximum number of cells");
   const std::string shape = prm.get("Shape");
   if (shape == "box")
     make_box(prm);
@@ -166,17 +169,23 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
                      dim == 2 ? "box, quarter disc or gmsh file in two dimensions"
                               : "box, octant of ball or gmsh file in three dimensions");
   bounds = GridTools::compute_bounding_box(*coarse);
-  uniform_refinements += prm.get_integer("Uniform refinements");
-  max_cells = prm.get_integer("Maximum number of cells");
-  if (const double n = std::ldexp(coarse->n_active_cells(), dim * uniform_refinements);
-      n > max_cells)
-    throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells),
-                     "at least " + std::to_string(static_cast<long long>(n)) +
-                       ", the cells of the initial mesh, unless their spacing is a mistake");
+  if (shape != "box")
+    refuse_cells(coarse->n_active_cells(), uniform_refinements);
   parse_refinement(prm);
   parse_regions(prm);
   parse_sides(prm);
   prm.leave_subsection();
+}
+
+template <int dim>
+void Geometry<dim>::refuse_cells(const double n_coarse, const unsigned int refinements) const
+{
+  const double n = std::ldexp(n_coarse, dim * refinements);
+  std::ostringstream text;
+  text.precision(9);
+  text << "at least " << n << ", the cells of the initial mesh, unless their spacing is a mistake";
+  if (n > max_cells)
+    throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells), text.str());
 }
 
 template <int dim>
@@ -236,10 +245,7 @@ void Geometry<dim>::make_box(ParameterHandler &prm)
     index_of_upper[d] = n_cells[d];
     n_all *= n_cells[d];
   }
-  if (n_all > 2e7)
-    throw EntryError("Mesh/Box/X spacing", prm.get("X spacing"),
-                     "a mesh of up to 20 million cells; all spacings together make " +
-                       std::to_string(static_cast<long long>(n_all)));
+  refuse_cells(n_all, uniform_refinements);
 
   // First a box of unit cells, whose vertices are the indices of the mesh lines: the lines come
   // out exactly where the deck wants them.
@@ -430,10 +436,11 @@ void Geometry<dim>::create(Triangulation &triangulation) const
       }
     changed = Utilities::MPI::max(any ? 1 : 0, triangulation.get_communicator()) == 1;
     if (changed)
+    {
+      refuse_too_many_cells(triangulation, max_cells,
+                            "unless the refinement boxes ask for smaller cells than is meant");
       triangulation.execute_coarsening_and_refinement();
-    if (triangulation.n_global_active_cells() > max_cells)
-      throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells),
-                       "more, unless the refinement boxes ask for smaller cells than is meant");
+    }
   }
   // A triangulation that shares its cells out on request only has not done so yet.
   share_out(triangulation);

@@ -74,6 +74,9 @@ public:
   double diameter() const;
 
 private:
+  /// Before they are made. @throws EntryError if cells, refined so many times, are too many
+  void refuse_cells(double n_coarse, unsigned int refinements) const;
+
   void make_box(dealii::ParameterHandler &prm);
   void make_ball(dealii::ParameterHandler &prm);
   void read_gmsh(dealii::ParameterHandler &prm, const std::string &deck_directory);

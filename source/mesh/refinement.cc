@@ -46,6 +46,38 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
   return change == 1;
 }
 
+template <int dim>
+void refuse_too_many_cells(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                           const unsigned int most,
+                           const std::string &unless)
+{
+  // P4EST_QMAXLEVEL, P8EST_QMAXLEVEL
+  constexpr unsigned int deepest = dim == 2 ? 29 : 18;
+  double n_new = 0.;
+  bool too_deep = false;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->refine_flag_set())
+    {
+      n_new += dealii::GeometryInfo<dim>::max_children_per_cell - 1.;
+      too_deep = too_deep || static_cast<unsigned int>(cell->level()) >= deepest;
+    }
+  const auto communicator = triangulation.get_communicator();
+  n_new = dealii::Utilities::MPI::sum(n_new, communicator);
+  if (triangulation.n_global_active_cells() + n_new > most)
+    throw EntryError("Mesh/Maximum number of cells", std::to_string(most), "more, " + unless);
+  if (dealii::Utilities::MPI::max(too_deep ? 1 : 0, communicator) == 1)
+    throw EntryError("Mesh/Maximum number of cells", std::to_string(most),
+                     "a mesh whose cells are halved up to " + std::to_string(deepest) +
+                       " times; this one asks for more. Start from smaller cells, " + unless);
+}
+
+template void refuse_too_many_cells<2>(const dealii::parallel::distributed::Triangulation<2> &,
+                                       unsigned int,
+                                       const std::string &);
+template void refuse_too_many_cells<3>(const dealii::parallel::distributed::Triangulation<3> &,
+                                       unsigned int,
+                                       const std::string &);
+
 template bool flag_cells<2>(dealii::parallel::distributed::Triangulation<2> &,
                             const Geometry<2> &,
                             const std::vector<float> &,

@@ -2,6 +2,7 @@
 
 #include <deal.II/distributed/tria.h>
 
+#include <string>
 #include <vector>
 
 #include "mesh/geometry.h"
@@ -28,4 +29,12 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
                 const std::vector<float> &wanted_size,
                 const std::vector<bool> &holds_fracture = {},
                 bool coarsen = false);
+
+/// Of a mesh with flags set, before memory is taken for its new cells. Collective.
+/// @throws EntryError if it would have more than `most` cells, or cells smaller than p4est can
+/// number; @p unless ends the sentence "allowed is more, ..."
+template <int dim>
+void refuse_too_many_cells(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                           unsigned int most,
+                           const std::string &unless);
 } // namespace stockwork

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "output/directory.h"
+#include "stockwork/base/deck.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -28,7 +29,7 @@ using namespace dealii;
 namespace
 {
 /// First line of the file "state"; changes with the format.
-const std::string magic = "Stockwork checkpoint, format 1\n";
+const std::string magic = "Stockwork checkpoint, format 2\n";
 
 /// Checksum as four bytes, the same on every machine.
 std::string seal(const std::string &bytes)
@@ -56,7 +57,8 @@ std::string Checkpoint::path(const std::string &name) const
 bool Checkpoint::exists() const
 {
   const bool mine =
-    Utilities::MPI::this_mpi_process(communicator) == 0 && std::filesystem::exists(path("state"));
+    Utilities::MPI::this_mpi_process(communicator) == 0 &&
+    (std::filesystem::exists(path("state")) || std::filesystem::exists(path("state.previous")));
   return Utilities::MPI::max(mine ? 1 : 0, communicator) == 1;
 }
 
@@ -65,7 +67,8 @@ void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangula
                       const DoFHandler<dim> &dof_handler,
                       const std::vector<const Vector *> &vectors,
                       const std::string &bytes,
-                      const std::uint64_t fingerprint)
+                      const std::uint64_t fingerprint,
+                      const std::string &deck)
 {
   std::string set;
   on_root(communicator,
@@ -83,6 +86,7 @@ void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangula
               {
               }
             set = state.set == "a" ? "b" : "a";
+            std::filesystem::remove(path("state.previous")); // its files are about to be replaced
             // Per cell: the values of its unknowns, its status and its place in the tree; besides,
             // a margin for headers.
             const double cell_bytes =
@@ -107,6 +111,7 @@ void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangula
             next.n_dofs = dof_handler.n_dofs();
             next.set = set;
             next.bytes = bytes;
+            next.deck = deck;
             for (const auto &entry : std::filesystem::directory_iterator(directory))
             {
               const std::string name = entry.path().filename().string();
@@ -115,6 +120,7 @@ void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangula
             }
             write_state(next);
             next.bytes.clear();
+            next.deck.clear();
             state = next;
           });
 }
@@ -165,12 +171,15 @@ void Checkpoint::write_state(const State &next) const
     archive << next;
   }
   const std::string body = stream.str();
-  replace_file(path("state"), magic + seal(body) + body);
+  write_file(path("state.new"), magic + seal(body) + body);
+  if (std::filesystem::exists(path("state")))
+    std::filesystem::rename(path("state"), path("state.previous"));
+  std::filesystem::rename(path("state.new"), path("state"));
 }
 
-Checkpoint::State Checkpoint::read_state() const
+Checkpoint::State Checkpoint::read_state(const std::string &name) const
 {
-  std::ifstream file(path("state"), std::ios::binary);
+  std::ifstream file(path(name), std::ios::binary);
   if (!file)
     throw InputError("There is no checkpoint in " + directory +
                      " to restart from. Was the earlier run given the same output directory, and "
@@ -194,9 +203,16 @@ Checkpoint::State Checkpoint::read_state() const
     throw InputError(damaged);
 
   State result;
-  std::istringstream input(body);
-  boost::archive::binary_iarchive archive(input);
-  archive >> result;
+  try
+  {
+    std::istringstream input(body);
+    boost::archive::binary_iarchive archive(input);
+    archive >> result;
+  }
+  catch (const std::exception &)
+  {
+    throw InputError(damaged);
+  }
   for (const State::File &expected : result.files)
   {
     const bool there = std::filesystem::exists(path(expected.name));
@@ -207,19 +223,44 @@ Checkpoint::State Checkpoint::read_state() const
   return result;
 }
 
-std::string Checkpoint::read(const std::uint64_t fingerprint)
+std::string Checkpoint::read(const std::uint64_t fingerprint, const std::string &deck)
 {
+  problem_of_newest.clear();
   try
   {
     on_root(communicator,
             [&]()
             {
-              State found = read_state();
+              State found;
+              try
+              {
+                found = read_state();
+              }
+              catch (const InputError &error)
+              {
+                if (!std::filesystem::exists(path("state.previous")))
+                  throw;
+                try
+                {
+                  found = read_state("state.previous");
+                  problem_of_newest = error.what();
+                }
+                catch (const InputError &)
+                {
+                  throw error;
+                }
+              }
               if (found.fingerprint != fingerprint)
-                throw InputError(
-                  "The checkpoint in " + directory +
-                  " was written by a run of another deck, or this deck has been changed "
-                  "since. Restart with the deck as it was, or start afresh.");
+              {
+                const std::string changed =
+                  found.deck.empty() || deck.empty() ? "" : difference(found.deck, deck);
+                throw InputError("The checkpoint in " + directory +
+                                 " was written by a run of another deck, or this deck has been "
+                                 "changed since" +
+                                 (changed.empty() ? "" : ": " + changed) +
+                                 ". Restart with the deck as it was, or start afresh.");
+              }
+              found.deck.clear();
               state = std::move(found);
             });
   }
@@ -228,6 +269,7 @@ std::string Checkpoint::read(const std::uint64_t fingerprint)
     throw InputError(error.what());
   }
   state = Utilities::MPI::broadcast(communicator, state, 0);
+  problem_of_newest = Utilities::MPI::broadcast(communicator, problem_of_newest, 0);
   std::string bytes;
   std::swap(bytes, state.bytes);
   return bytes;
@@ -292,12 +334,14 @@ template void Checkpoint::save<2>(const parallel::distributed::Triangulation<2> 
                                   const DoFHandler<2> &,
                                   const std::vector<const Vector *> &,
                                   const std::string &,
-                                  std::uint64_t);
+                                  std::uint64_t,
+                                  const std::string &);
 template void Checkpoint::save<3>(const parallel::distributed::Triangulation<3> &,
                                   const DoFHandler<3> &,
                                   const std::vector<const Vector *> &,
                                   const std::string &,
-                                  std::uint64_t);
+                                  std::uint64_t,
+                                  const std::string &);
 template void Checkpoint::load_mesh<2>(parallel::distributed::Triangulation<2> &) const;
 template void Checkpoint::load_mesh<3>(parallel::distributed::Triangulation<3> &) const;
 template void Checkpoint::load_vectors<2>(const DoFHandler<2> &,

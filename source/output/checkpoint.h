@@ -17,7 +17,8 @@ namespace stockwork
 ///
 /// A write never touches the checkpoint before it: the mesh and the vectors go to whichever of two
 /// sets of files (a, b) is not in use, and replacing the small file "state", which names the set
-/// and holds checksums of it, is the one step that makes the new checkpoint the valid one.
+/// and holds checksums of it, is the one step that makes the new checkpoint the valid one. The file
+/// before it is kept as "state.previous": where the newest is damaged, reading falls back to it.
 ///
 /// Reading has three phases, because unknowns need a mesh and a mesh its coarse cells:
 ///
@@ -39,19 +40,27 @@ public:
   /// @param vectors with ghosts, the locally relevant ones at least
   /// @param bytes the rest, the same on all ranks (rank 0's is written)
   /// @param fingerprint of the deck
+  /// @param deck its comparable_text(), to say later what has changed
   /// @throws OutputError if it cannot be written; the previous checkpoint is left as it was
   template <int dim>
   void save(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
             const dealii::DoFHandler<dim> &dof_handler,
             const std::vector<const Vector *> &vectors,
             const std::string &bytes,
-            std::uint64_t fingerprint);
+            std::uint64_t fingerprint,
+            const std::string &deck = "");
 
   bool exists() const;
 
   /// The bytes given to save(). @throws InputError if there is no checkpoint, if it is damaged or
   /// of another version, or if the deck has changed since
-  std::string read(std::uint64_t fingerprint);
+  std::string read(std::uint64_t fingerprint, const std::string &deck = "");
+
+  /// Why read() took the checkpoint before the newest; empty: it took the newest.
+  const std::string &why_not_newest() const
+  {
+    return problem_of_newest;
+  }
 
   /// @param triangulation the coarse cells of the mesh
   template <int dim>
@@ -86,22 +95,24 @@ private:
     std::string set; ///< "a" or "b"; empty: there is no checkpoint
     std::vector<File> files;
     std::string bytes;
+    std::string deck;
 
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &fingerprint &dimension &n_vectors &n_dofs &set &files &bytes;
+      archive &fingerprint &dimension &n_vectors &n_dofs &set &files &bytes &deck;
     }
   };
 
   std::string path(const std::string &name) const;
   void reserve_space(std::uint64_t bytes) const;
   State::File describe(const std::string &name) const;
-  State read_state() const;
+  State read_state(const std::string &name = "state") const;
   void write_state(const State &next) const;
 
   std::string directory;
   MPI_Comm communicator;
+  std::string problem_of_newest;
   State state; ///< of the valid checkpoint, without its bytes
 };
 

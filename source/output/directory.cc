@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "stockwork/base/error.h"
@@ -111,5 +112,29 @@ void prepare_output_directory(const std::string &directory, MPI_Comm communicato
                      std::string("a directory that can be written to, there or with --output (") +
                        error.what() + ")");
   }
+}
+
+DirectoryLock::DirectoryLock(const std::string &directory, MPI_Comm communicator)
+{
+  int held = 0;
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+    descriptor = open((directory + "/.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    held = descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  }
+  if (dealii::Utilities::MPI::max(held, communicator) == 1)
+  {
+    if (descriptor >= 0)
+      close(descriptor);
+    throw EntryError(
+      "Output directory", directory,
+      "a directory that no other run writes to at this time, there or with --output");
+  }
+}
+
+DirectoryLock::~DirectoryLock()
+{
+  if (descriptor >= 0)
+    close(descriptor);
 }
 } // namespace stockwork

@@ -11,6 +11,21 @@ namespace stockwork
 /// Collective. @throws InputError on every rank, so that a run does not compute in vain
 void prepare_output_directory(const std::string &directory, MPI_Comm communicator);
 
+/// Holds an output directory for one run at a time, as long as it lives; the system lets go of it
+/// also when the run crashes. File systems without locks are taken on trust.
+class DirectoryLock
+{
+public:
+  /// Collective. @throws EntryError on every rank if another run holds it
+  DirectoryLock(const std::string &directory, MPI_Comm communicator);
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock &) = delete;
+  DirectoryLock &operator=(const DirectoryLock &) = delete;
+
+private:
+  int descriptor = -1; ///< on rank 0
+};
+
 /// Run @p action on rank 0; if it throws there, throw an OutputError with its message on every
 /// rank. Collective.
 void on_root(MPI_Comm communicator, const std::function<void()> &action);

@@ -71,6 +71,12 @@ struct ReferenceInput
   /// Rate of the first well, of the whole fracture (both wings) [m^2/s], [m^3/s] in 3-D.
   double injection_rate = 0.;
 
+  bool rate_is_constant = true; ///< from the start time on
+  unsigned int n_wells = 1;
+  bool leaks = false;               ///< by any law
+  bool layered = false;             ///< the mesh has regions
+  bool has_stress_gradient = false; ///< in situ
+
   /// Fluid pressure in the cracks net of the in-situ stress across the first; NaN where it is not
   /// given [Pa].
   double crack_pressure = std::numeric_limits<double>::quiet_NaN();

@@ -1,6 +1,6 @@
-// The box kernel BondForces, which no run uses (what a run assembles: peridynamics_assembly_test.cc).
-// A lattice alone: forces against the energy they come from, and patch tests on a box of sites
-// whose outer layers are held at a given displacement.
+// The box kernel BondForces, which no run uses (what a run assembles:
+// peridynamics_assembly_test.cc). A lattice alone: forces against the energy they come from, and
+// patch tests on a box of sites whose outer layers are held at a given displacement.
 #include <doctest/doctest.h>
 
 #include "fracture/peridynamics/bond_forces.h"

@@ -1,6 +1,6 @@
-// By the box kernel BondForces, which no run uses (a run's own: convergence/surfing/peridynamics/brittle).
-// Steady growth of a straight crack in a lattice: what driving force it takes, and with it the
-// calibration of the critical stretch.
+// By the box kernel BondForces, which no run uses (a run's own:
+// convergence/surfing/peridynamics/brittle). Steady growth of a straight crack in a lattice: what
+// driving force it takes, and with it the calibration of the critical stretch.
 #include <doctest/doctest.h>
 
 #include "fracture/peridynamics/bond_forces.h"

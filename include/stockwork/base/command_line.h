@@ -14,6 +14,7 @@ struct CommandLine
     run,
     check, ///< read the deck, say whether it is all right, compute nothing
     print_parameters,
+    list, ///< the cases and models that ship
     help,
     version
   };
@@ -23,7 +24,7 @@ struct CommandLine
   std::optional<std::string> output;  ///< --output DIR
   std::vector<std::string> overrides; ///< --set, "Section/Entry=value", in order
   bool restart = false;               ///< continue from the last checkpoint
-  std::string parameter_format;       ///< prm, json or markdown
+  std::string parameter_format;       ///< prm, json, json-schema or markdown
 };
 
 /// @throws InputError with a message that names the option

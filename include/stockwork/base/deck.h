@@ -98,4 +98,12 @@ private:
 /// or starts with a section listed there ("Output", "Time/End time").
 std::uint64_t fingerprint(const dealii::ParameterHandler &prm,
                           const std::vector<std::string> &excluded = {});
+
+/// What the fingerprint is of: a line "Section/Entry=value" for each, sorted.
+std::string comparable_text(const dealii::ParameterHandler &prm,
+                            const std::vector<std::string> &excluded = {});
+
+/// The entries in which two such texts differ, for people: "'Rock/Young modulus' was 3e10 and is
+/// now 3.1e10"; of many, the first few.
+std::string difference(const std::string &before, const std::string &now);
 } // namespace stockwork

@@ -12,7 +12,9 @@ namespace stockwork
 {
 /// Print all declared entries with their present values.
 ///
-/// @param format "prm": a deck that can be run; "json": for programs; "markdown": the reference
+/// @param format "prm": a deck that can be run; "json": for programs; "json-schema": what such a
+/// file may hold, for editors (draft 2020-12; nested sections, and of each entry its type, unit,
+/// range, default and meaning); "markdown": the reference
 /// manual, a table of entries, defaults, allowed values and meaning for each section
 /// @throws InputError for another format
 void print_parameters(const dealii::ParameterHandler &prm,

@@ -35,9 +35,11 @@ struct RunSummary
 
   std::string case_name; ///< key "case"
   std::string fracture_model;
-  std::string deck;    ///< its path
-  std::string machine; ///< machine()
-  std::string date;    ///< of the end, utc_date()
+  std::string deck;                ///< its path
+  std::string machine;             ///< machine()
+  std::string date;                ///< of the end, utc_date()
+  std::string status = "finished"; ///< or "failed"
+  std::string reason;              ///< why it failed
   unsigned int ranks = 1;
   std::uint64_t cells = 0;
   std::uint64_t unknowns = 0;

@@ -378,8 +378,7 @@ template <int dim>
 void CohesiveXFEM<dim>::save(boost::archive::binary_oarchive &archive) const
 {
   archive << committed_paths << committed_damage << committed_reach << committed_bare_tips
-          << dissipated << started << law.strength << contact << largest_cell
-          << committed_limits;
+          << dissipated << started << law.strength << contact << largest_cell << committed_limits;
 }
 
 

@@ -23,8 +23,29 @@ analytical::KgdParameters kgd_parameters(const ReferenceInput<2> &input)
     throw InputError(
       "The reference solution of the KGD fracture needs 'Rock/Fracture toughness' or "
       "'Rock/Critical energy release rate'.");
+  if (input.n_wells > 1 || !input.rate_is_constant)
+    throw InputError(
+      "The reference solution of the KGD fracture is for one well of constant rate.");
+  if (input.layered)
+    throw InputError("The reference solution of the KGD fracture is for rock without regions.");
+  if (input.has_stress_gradient)
+    throw InputError(
+      "The reference solution of the KGD fracture is for in-situ stress without a gradient.");
+  if (input.cracks.size() > 1)
+    throw InputError("The reference solution of the KGD fracture is for one crack.");
   return {rock.young_modulus, rock.poisson_ratio, input.rock.fluid().viscosity, rock.toughness(),
           input.injection_rate};
+}
+
+
+/// Those without leak-off.
+analytical::KgdParameters tight_kgd_parameters(const ReferenceInput<2> &input)
+{
+  if (input.leaks)
+    throw InputError("This reference solution is for a fracture that does not leak; 'Fracture "
+                     "flow/Leak-off' is set. 'kgd carter' has Carter leak-off, 'none' compares "
+                     "with nothing.");
+  return kgd_parameters(input);
 }
 
 
@@ -142,13 +163,13 @@ private:
 
 Made<2> make_kgd(const ParameterHandler &, const ReferenceInput<2> &input)
 {
-  return std::make_unique<KgdReference>(kgd_parameters(input), n_wings(input));
+  return std::make_unique<KgdReference>(tight_kgd_parameters(input), n_wings(input));
 }
 
 
 Made<2> make_kgd_vertex(const ParameterHandler &, const ReferenceInput<2> &input)
 {
-  return std::make_unique<KgdVertexReference>(kgd_parameters(input), n_wings(input));
+  return std::make_unique<KgdVertexReference>(tight_kgd_parameters(input), n_wings(input));
 }
 
 
@@ -166,6 +187,8 @@ Made<2> make_kgd_carter(const ParameterHandler &, const ReferenceInput<2> &input
 Made<2> make_kgd_box(const ParameterHandler &, const ReferenceInput<2> &input)
 {
   const unsigned int wings = n_wings(input);
+  if (input.leaks && !(input.carter_coefficient > 0.))
+    throw InputError("The reference solution 'kgd box' knows Carter leak-off only.");
   return std::make_unique<KgdHistoryReference>(
     analytical::HydraulicFractureParameters{kgd_parameters(input), input.carter_coefficient,
                                             (input.upper[0] - input.lower[0]) / wings,

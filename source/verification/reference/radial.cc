@@ -61,6 +61,11 @@ Made<3> make_radial(const ParameterHandler &, const ReferenceInput<3> &input)
     throw InputError(
       "The reference solution of the radial fracture needs 'Rock/Fracture toughness' or "
       "'Rock/Critical energy release rate'.");
+  if (input.n_wells > 1 || !input.rate_is_constant || input.layered || input.has_stress_gradient)
+    throw InputError("The reference solution of the radial fracture is for one well of constant "
+                     "rate, rock without regions and in-situ stress without a gradient.");
+  if (input.leaks && !(input.carter_coefficient > 0.))
+    throw InputError("The reference solution of the radial fracture knows Carter leak-off only.");
   analytical::HydraulicFractureParameters parameters;
   parameters.fracture = {rock.young_modulus, rock.poisson_ratio, input.rock.fluid().viscosity,
                          rock.toughness(), input.injection_rate};

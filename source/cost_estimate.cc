@@ -1,0 +1,82 @@
+#include "cost_estimate.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace stockwork
+{
+CostEstimate estimate_cost(const unsigned int dim,
+                           const double n_unknowns,
+                           const bool has_pore_pressure,
+                           const bool has_fracture)
+{
+  const double n = std::max(n_unknowns, 2.);
+  const double program = 1.9e8; // deal.II, Trilinos and MPI, before any cell is made
+  if (dim == 3)
+    return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.),
+            4e-5 * n * (has_fracture ? 4. : 1.)};
+  const double factor = 60. * n * std::log2(n);
+  const double new_factor = 3e-5 * n + 2e-8 * std::pow(n, 1.5), iteration = 1e-6 * n;
+  return {program + 2e3 * n + factor,
+          (has_pore_pressure ? new_factor : 0.) + iteration * (has_fracture ? 6. : 1.)};
+}
+
+
+double physical_memory(MPI_Comm communicator)
+{
+  // Ranks of one machine share its memory; limits count for each of them.
+  MPI_Comm machine;
+  MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const bool first = dealii::Utilities::MPI::this_mpi_process(machine) == 0;
+  MPI_Comm_free(&machine);
+  const double installed = first ? double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE) : 0.;
+  rlimit limit;
+  const double allowed = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY
+                           ? static_cast<double>(limit.rlim_cur)
+                           : INFINITY;
+  return std::min(dealii::Utilities::MPI::sum(installed, communicator),
+                  dealii::Utilities::MPI::sum(allowed, communicator));
+}
+
+
+double resident_memory()
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024. * usage.ru_maxrss;
+}
+
+
+namespace
+{
+std::string two_digits(const double value, const char *unit)
+{
+  std::ostringstream out;
+  const double step =
+    std::pow(10., std::max(std::floor(std::log10(std::max(value, 0.1))) - 1, -1.));
+  out << step * std::round(value / step) << ' ' << unit;
+  return out.str();
+}
+} // namespace
+
+
+std::string in_bytes(const double bytes)
+{
+  return bytes < 1e9 ? two_digits(bytes / 1e6, "MB") : two_digits(bytes / 1e9, "GB");
+}
+
+
+std::string in_time(const double seconds)
+{
+  return seconds < 120.      ? two_digits(seconds, "s")
+         : seconds < 7200.   ? two_digits(seconds / 60., "min")
+         : seconds < 172800. ? two_digits(seconds / 3600., "h")
+                             : two_digits(seconds / 86400., "days");
+}
+} // namespace stockwork

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+
+namespace stockwork
+{
+/// What a run will take, to within a factor of two or three.
+struct CostEstimate
+{
+  double memory; ///< at its greatest, of all ranks [bytes]
+  double step;   ///< time of one step, on one core [s]
+};
+
+/// From runs of the shipped cases. A factor of the matrix grows with N log N in two dimensions; it
+/// lasts as long as the rock stays as it is, in porous rock the step. In three dimensions large
+/// systems are solved by iteration.
+CostEstimate
+estimate_cost(unsigned int dim, double n_unknowns, bool has_pore_pressure, bool has_fracture);
+
+/// Of the machines that the ranks run on, or less where a limit is set (ulimit -v) [bytes].
+/// Collective.
+double physical_memory(MPI_Comm communicator);
+
+/// Greatest so far, of this rank [bytes].
+double resident_memory();
+
+/// "3.2 GB", "20 min": two digits.
+std::string in_bytes(double bytes);
+std::string in_time(double seconds);
+} // namespace stockwork

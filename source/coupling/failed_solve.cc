@@ -1,0 +1,109 @@
+#include "coupling/coupled_system.h"
+
+#include "stockwork/base/quantity.h"
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace stockwork
+{
+using namespace dealii;
+
+template <int dim>
+Point<dim> CoupledSystem<dim>::place_in_bulk(const unsigned int block) const
+{
+  const auto &residual = system.residual_bulk.block(block);
+  const types::global_dof_index first = block == 0 ? 0 : system.residual_bulk.block(0).size();
+  double greatest = -1.;
+  types::global_dof_index worst = 0;
+  for (const auto i : owned[block])
+    if (std::abs(residual(i)) > greatest)
+    {
+      greatest = std::abs(residual(i));
+      worst = first + i;
+    }
+  Point<dim> place;
+  if (greatest == communication.max(greatest))
+  {
+    std::map<types::global_dof_index, Point<dim>> points;
+    DoFTools::map_dofs_to_support_points(mapping, dof_handler, points);
+    place = points.at(worst);
+  }
+  // Of ranks that share the greatest, which is rare, the place with the greatest coordinates.
+  for (unsigned int d = 0; d < dim; ++d)
+    place[d] = communication.max(greatest == communication.max(greatest) ? place[d] : -1e300);
+  return place;
+}
+
+
+template <int dim>
+void CoupledSystem<dim>::explain(NonlinearReport &report,
+                                 const Norms &norms,
+                                 const Norms &tolerances,
+                                 const unsigned int n_limited,
+                                 const unsigned int n_halved) const
+{
+  struct Equation
+  {
+    const char *name;
+    double share; ///< of its tolerance
+  };
+  const auto share = [](const double norm, const double tolerance)
+  { return norm / std::max(tolerance, 1e-300); };
+  const Equation equations[] = {
+    {"the balance of forces in the rock", share(norms.momentum, tolerances.momentum)},
+    {"the balance of fluid in the pores", share(norms.mass, tolerances.mass)},
+    {"the balance of forces on the fracture's faces", share(norms.extra, tolerances.extra)},
+    {"the balance of fluid in the fracture",
+     share(norms.fracture_fluid, tolerances.fracture_fluid)}};
+  const unsigned int worst =
+    std::max_element(std::begin(equations), std::end(equations),
+                     [](const Equation &a, const Equation &b) { return a.share < b.share; }) -
+    std::begin(equations);
+  std::ostringstream text;
+  text.precision(3);
+  text << "; " << equations[worst].name << " is left with " << equations[worst].share
+       << " times its tolerance";
+  if (worst < 2)
+    text << ", most of it at (" << place_in_bulk(worst) << ") m";
+  else if (worst == 3 && numbering.size() > n_model_extra)
+  {
+    const auto &segments = network.segments();
+    const auto greater = [](const double a, const double b) { return std::abs(a) < std::abs(b); };
+    const unsigned int i = std::max_element(system.residual_extra.begin() + n_model_extra,
+                                            system.residual_extra.end(), greater) -
+                           system.residual_extra.begin() - n_model_extra;
+    if (i < segments.size() && !segments[i].has_given_pressure())
+      text << ", most of it at (" << segments[i].centre << ") m";
+  }
+  if (n_limited > 0)
+    text << "; 'Nonlinear solver/Maximum pressure change' ("
+         << (pressure_limit ? to_string(*pressure_limit, dimension::pressure)
+                            : "four times what pressures had changed by")
+         << ") shortened " << n_limited << " of " << report.iterations << " iterations";
+  if (n_halved > 0)
+    text << "; " << n_halved << " were shortened because the residual grew";
+  report.reason += text.str();
+  report.advice =
+    2 * n_limited > report.iterations
+      ? "Try a greater 'Nonlinear solver/Maximum pressure change': the pressure has farther to go."
+    : worst == 3
+      ? "Try a greater 'Fracture flow/Minimum aperture' or a smaller 'Time/Minimum step'."
+    : worst == 2
+      ? "Try smaller cells where the fracture is, so that the part of it that still holds is "
+        "resolved, or a smaller 'Time/Minimum step'."
+      : "Try a smaller 'Time/Minimum step', or more 'Nonlinear solver/Maximum iterations'.";
+}
+
+
+template Point<2> CoupledSystem<2>::place_in_bulk(const unsigned int) const;
+template Point<3> CoupledSystem<3>::place_in_bulk(const unsigned int) const;
+template void CoupledSystem<2>::explain(
+  NonlinearReport &, const Norms &, const Norms &, const unsigned int, const unsigned int) const;
+template void CoupledSystem<3>::explain(
+  NonlinearReport &, const Norms &, const Norms &, const unsigned int, const unsigned int) const;
+} // namespace stockwork
