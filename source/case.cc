@@ -276,7 +276,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   scene.crack_pressure = given_crack_pressure(prm);
   control.parse_parameters(prm);
   scene.injection_rate = greatest_rate(network, control);
-  in_situ.check(prm, rock.main().density, rock.fluid().density,
+  in_situ.check(prm, rock.main().density,
                 std::isnan(scene.crack_pressure) ? scene.cracks : std::vector<InitialCrack<dim>>(),
                 warnings);
   prm.enter_subsection("Fracture");

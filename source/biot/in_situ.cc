@@ -109,11 +109,11 @@ std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_across(const InitialCr
 template <int dim>
 void InSitu<dim>::check(ParameterHandler &prm,
                         const double rock_density,
-                        const double fluid_density,
                         const std::vector<InitialCrack<dim>> &fluid_filled,
                         std::vector<std::string> &warnings) const
 {
-  constexpr double gravity = 9.81;
+  // For messages and plausibility only: of water, and a density that no rock has.
+  constexpr double gravity = 9.81, fluid_density = 1000., greatest_density = 2e4;
   prm.enter_subsection("In situ");
   const std::string stress_text = prm.get("Stress"), gradient_text = prm.get("Stress gradient"),
                     pressure_text = prm.get("Pore pressure gradient");
@@ -126,18 +126,16 @@ void InSitu<dim>::check(ParameterHandler &prm,
                        "no gradient of a shear component with the vertical: nothing would hold the "
                        "rock sideways");
   const double weight = stress_gradient[dim - 1][dim - 1];
-  if (weight < 0. || weight > 2e4 * gravity)
+  if (weight < 0. || weight > greatest_density * gravity)
     throw EntryError("In situ/Stress gradient", gradient_text,
-                     "a vertical component that is in equilibrium with the rock's weight, rho g (" +
-                       to_string(rock_density * gravity, dimension::pressure_gradient) +
-                       " at the deck's density): compression grows downwards");
-  if (pressure_gradient > 0. || pressure_gradient < -2e4 * gravity)
+                     "a vertical component that is in equilibrium with the rock's weight, rho g: "
+                     "compression grows downwards");
+  if (pressure_gradient > 0. || pressure_gradient < -greatest_density * gravity)
     throw EntryError("In situ/Pore pressure gradient", pressure_text,
-                     "a value in equilibrium with the fluid's weight, -rho g (" +
-                       to_string(-fluid_density * gravity, dimension::pressure_gradient) +
-                       " at the deck's density): the pressure grows downwards");
+                     "a value in equilibrium with the fluid's weight, -rho g: "
+                     "the pressure grows downwards");
   const auto is_unlike = [](const double value, const double usual)
-  { return value != 0. && std::abs(value - usual) > 0.25 * usual; };
+  { return value != 0. && usual > 0. && std::abs(value - usual) > 0.25 * usual; };
   if (is_unlike(weight, rock_density * gravity))
     warnings.push_back("'In situ/Stress gradient': the vertical stress changes by " +
                        to_string(weight, dimension::pressure_gradient) +
@@ -146,7 +144,7 @@ void InSitu<dim>::check(ParameterHandler &prm,
   if (is_unlike(-pressure_gradient, fluid_density * gravity))
     warnings.push_back("'In situ/Pore pressure gradient': the pore pressure changes by " +
                        to_string(pressure_gradient, dimension::pressure_gradient) +
-                       ", the weight of fluid of the deck's density makes " +
+                       ", the weight of water makes " +
                        to_string(-fluid_density * gravity, dimension::pressure_gradient) +
                        ": fluid would flow before anything is injected.");
 

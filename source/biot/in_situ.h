@@ -30,13 +30,12 @@ public:
   double pore_pressure(const dealii::Point<dim> &point) const;
 
   /// The state must be in equilibrium, and hold cracks that fluid is to fill closed.
-  /// @param rock_density, fluid_density [kg/m^3], of which gradients are the weight
+  /// @param rock_density [kg/m^3], of which the gradient of the stress is the weight; zero: unknown
   /// @param fluid_filled cracks whose fluid pressure is computed
   /// @param warnings gets what is unusual
   /// @throws EntryError
   void check(dealii::ParameterHandler &prm,
              double rock_density,
-             double fluid_density,
              const std::vector<InitialCrack<dim>> &fluid_filled,
              std::vector<std::string> &warnings) const;
 

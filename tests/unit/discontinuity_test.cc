@@ -338,9 +338,9 @@ TEST_CASE("a crack that the mesh cannot hold is refused with the entry that asks
     return std::string("accepted");
   };
   using Kind = InitialCrack<2>::Kind;
-  const InitialCrack<2> along{{{-0.6, 0.1}, {0.6, 0.1}}, Kind::open, "Cracks/Open", "along"},
-    across{{{-0.5, -0.6}, {-0.5, 0.6}}, Kind::cohesive, "Cracks/Cohesive", "across"},
-    outside{{{2., 0.1}, {2.6, 0.1}}, Kind::open, "Cracks/Open", "outside"};
+  const InitialCrack<2> along{{{-0.6, 0.1}, {0.6, 0.1}}, Kind::open, "Cracks/Open", "along", {}},
+    across{{{-0.5, -0.6}, {-0.5, 0.6}}, Kind::cohesive, "Cracks/Cohesive", "across", {}},
+    outside{{{2., 0.1}, {2.6, 0.1}}, Kind::open, "Cracks/Open", "outside", {}};
   CHECK(refused({along}) == "accepted");
   CHECK(refused({along, across}).find("Cracks/Cohesive: 'Cracks/Cohesive' is 'across'") == 0);
   CHECK(refused({outside}).find("Cracks/Open: 'Cracks/Open' is 'outside'") == 0);
