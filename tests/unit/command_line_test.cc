@@ -68,7 +68,7 @@ TEST_CASE("what cannot be understood is named")
   CHECK(has(error_of({"a.prm", "b.prm"}), "'a.prm' and 'b.prm'"));
   CHECK(has(error_of({"a.prm", "--set", "Rock"}), "'Section/Entry=value'"));
   CHECK(has(error_of({"a.prm", "--set"}), "--set"));
-  CHECK(has(error_of({"--print-parameters", "xml"}), "'prm', 'json' or 'markdown'"));
+  CHECK(has(error_of({"--print-parameters", "xml"}), "'prm', 'json', 'json-schema' or 'markdown'"));
 }
 
 TEST_CASE("help and versions")

@@ -113,10 +113,10 @@ std::string CohesiveXFEM<dim>::reason_to_stop(const State &state) const
   for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
     if (limits.has_grown[c])
     {
-      const CrackPath<dim> &path = discontinuity.paths()[c];
-      if (path.is_tip[0] || path.is_tip[1])
+      // A tip that stops in this very step has its step accepted.
+      if (committed_paths[c].is_tip[0] || committed_paths[c].is_tip[1])
         return "";
-      const unsigned int n = path.pieces.size();
+      const unsigned int n = discontinuity.paths()[c].pieces.size();
       swells |= volume(c, {0, n - 1}, state.current) > limits.volume[c] * (1. + 1e-9);
     }
   return swells
