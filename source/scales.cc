@@ -129,9 +129,8 @@ std::vector<ChosenValue> fill_in_flow(ParameterHandler &prm, const Scales &scale
   prm.enter_subsection("Nonlinear solver");
   if (prm.get("Maximum pressure change").empty())
     chosen.push_back(
-      {"Nonlinear solver/Maximum pressure change",
-       to_string(4. * scales.pressure, dimension::pressure),
-       "four times the net pressure (" + scales.source + "), more while pressures change by more"});
+      {"Nonlinear solver/Maximum pressure change", to_string(scales.pressure, dimension::pressure),
+       "the net pressure (" + scales.source + "), more while pressures change by more"});
   prm.leave_subsection();
   return chosen;
 }

@@ -55,7 +55,7 @@ void CoupledSystem<dim>::declare_parameters(ParameterHandler &prm)
   prm.declare_entry("Maximum pressure change", "",
                     Quantity(dimension::pressure, Range::positive(), ""),
                     "An iteration that would change a fracture pressure by more is shortened. "
-                    "Empty: four times the net pressure with which the first crack sets out, by "
+                    "Empty: the net pressure with which the first crack sets out, by "
                     "toughness or viscosity, or what pressures have changed by so far in the "
                     "solve, if that is more.");
   prm.declare_entry("Show iterations", "false", Patterns::Bool(),
@@ -538,7 +538,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     double greatest_change = network.typical_pressure(), factor = 1.;
     for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
       greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
-    const double limit = pressure_limit.value_or(4. * greatest_change);
+    const double limit = pressure_limit.value_or(greatest_change);
     for (unsigned int i = n_model_extra; i < numbering.size(); ++i)
       if (const double change = std::abs(dx_extra[i]); factor * change > limit)
         factor = limit / change;

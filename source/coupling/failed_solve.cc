@@ -83,7 +83,7 @@ void CoupledSystem<dim>::explain(NonlinearReport &report,
   if (n_limited > 0)
     text << "; 'Nonlinear solver/Maximum pressure change' ("
          << (pressure_limit ? to_string(*pressure_limit, dimension::pressure)
-                            : "four times what pressures had changed by")
+                            : "what pressures had changed by")
          << ") shortened " << n_limited << " of " << report.iterations << " iterations";
   if (n_halved > 0)
     text << "; " << n_halved << " were shortened because the residual grew";

@@ -40,8 +40,16 @@ double given_crack_pressure(ParameterHandler &prm)
   prm.enter_subsection("Cracks");
   const std::string text = prm.get("Fluid pressure");
   prm.leave_subsection();
-  return text.empty() ? std::numeric_limits<double>::quiet_NaN()
-                      : parse_quantity(text, dimension::pressure);
+  if (text.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  try
+  {
+    return parse_quantity(text, dimension::pressure);
+  }
+  catch (const InputError &error)
+  {
+    throw EntryError("Cracks/Fluid pressure", text, std::string("a pressure: ") + error.what());
+  }
 }
 
 
@@ -54,6 +62,9 @@ void parse_geometry(const std::string &text, InitialCrack<2> &crack)
     if (Utilities::split_string_list(corner, ',').size() != 2)
       throw EntryError(crack.entry, text, "corners with 2 coordinates each");
     crack.points.push_back(parse_point<2>(corner));
+    const std::size_t n = crack.points.size();
+    if (n > 1 && !(crack.points[n - 1].distance(crack.points[n - 2]) > 0.))
+      throw EntryError(crack.entry, text, "corners that differ from the one before");
   }
   if (crack.points.size() < 2)
     throw EntryError(crack.entry, text, "at least two corners");
@@ -97,7 +108,18 @@ parse_initial_cracks(ParameterHandler &prm, const Point<dim> &lower, const Point
       crack.kind = kind;
       crack.entry = std::string("Cracks/") + entry;
       crack.text = text;
-      parse_geometry(text, crack);
+      try
+      {
+        parse_geometry(text, crack);
+      }
+      catch (const EntryError &)
+      {
+        throw;
+      }
+      catch (const InputError &error) // of a number in it
+      {
+        throw EntryError(crack.entry, text, std::string("lengths and numbers: ") + error.what());
+      }
       std::vector<Point<dim>> within = crack.points;
       if (crack.disc)
         within = {crack.disc->centre};

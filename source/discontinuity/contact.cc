@@ -80,7 +80,7 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   Tensor<1, dim> jump;
   for (const auto &[unknown, unit] : patch.jumps)
     jump += extra[unknown] * unit;
-  const ContactLaw law{1000. * plane_modulus / piece.cell_size(), friction};
+  const ContactLaw law{stiffness * plane_modulus / piece.cell_size(), friction};
   return law.evaluate(jump * piece.normal(), jump * piece.along, has_friction() ? slip(piece) : 0.,
                       broken);
 }

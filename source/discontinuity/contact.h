@@ -19,16 +19,21 @@ namespace stockwork
 /// there are independent jumps of displacement along the crack, so that the tractions do not
 /// oscillate. A span that ends in its cell has no jumps of its own but those of the tip's
 /// functions, which reach over half the crack; it shares the gap of the span before. The penalty is
-/// a thousand times the stiffness of the rock over a cell, 1000 E'/h: under the stress S faces
-/// overlap by h S/(1000 E'), less than a thousandth of a per cent of h.
+/// so many times the stiffness of the rock over a cell, s E'/h: under the stress S faces overlap by
+/// h S/(s E').
 template <int dim>
 class FaceContact
 {
 public:
   /// @param friction coefficient
   /// @param plane_modulus E' of the rock [Pa]
-  FaceContact(const double friction, const double plane_modulus, const double domain_size)
+  /// @param stiffness s
+  FaceContact(const double friction,
+              const double stiffness,
+              const double plane_modulus,
+              const double domain_size)
     : friction(friction)
+    , stiffness(stiffness)
     , plane_modulus(plane_modulus)
     , domain_size(domain_size)
   {
@@ -93,7 +98,7 @@ private:
 
   double slip(const CrackPiece<dim> &first_of_patch) const;
 
-  double friction, plane_modulus, domain_size;
+  double friction, stiffness, plane_modulus, domain_size;
 
   // Committed, the same on all ranks.
   std::unordered_map<std::uint64_t, double> slips; ///< by key of the first piece [m]

@@ -114,7 +114,7 @@ foreach(angle 0 15 30 45)
   endif()
   foreach(load "" "/tension")
     stockwork_case_test(NAME convergence/inclined/${angle}${load} NEGATIVE
-      DECK prm/inclined/${angle}${load}/prescribed.prm SET "Resolution=coarse"
+      DECK prm/inclined/${angle}${load}/prescribed.prm SET "Resolution=medium"
       EXPECT "errors/fracture_volume/final < 0.01" "errors/displacement/final < 0.01"
              "errors/stress_intensity_I/final < 0.005" ${shear})
   endforeach()

@@ -36,7 +36,7 @@ def main():
 
     schema = json.loads(said("--print-parameters", "json-schema"))
     modulus = schema["properties"]["Rock"]["properties"]["Young modulus"]
-    assert modulus["x-unit"] == "Pa" and modulus["default"] == "10 GPa", modulus
+    assert modulus["x-unit"] == "Pa" and modulus["default"] == "", modulus
     assert "string" in modulus["type"] and modulus["description"], modulus
     assert "cohesive_xfem" in schema["properties"]["Fracture"]["properties"]["Model"]["enum"]
     assert "Cell size" in schema["properties"]["Fracture"]["properties"]["cohesive_xfem"]["properties"]

@@ -28,6 +28,7 @@ public:
     , cell_size(get_quantity(prm, "Cell size", dimension::length))
     , discontinuity(scene.domain_size, 1.)
     , contact(get_quantity(prm, "Friction coefficient", dimension::number),
+              1000.,
               scene.rock.main().plane_modulus(),
               scene.domain_size)
   {
