@@ -8,6 +8,7 @@
 #include "output/checkpoint.h"
 #include "output/field_output.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace stockwork
@@ -88,21 +89,29 @@ void refuse_incompressible(ParameterHandler &prm,
 }
 
 
-/// What a region may not have of its own where the fracture model knows one rock only. Pores, their
-/// fluid and the mass are the elements' everywhere.
-void refuse_regions(ParameterHandler &prm, const std::string &model_name)
+/// What a region may not have of its own: what it breaks at where the fracture model knows one
+/// strength, and its stiffness as well where the model knows one rock only. Pores, their fluid and
+/// the mass are the elements' everywhere.
+void refuse_regions(ParameterHandler &prm,
+                    const std::string &model_name,
+                    const Requirements &requirements)
 {
+  std::vector<std::string> refused = {"Fracture toughness", "Critical energy release rate",
+                                      "Shear energy release rate", "Tensile strength"};
+  if (requirements.uniform_rock)
+    refused.insert(refused.end(),
+                   {"Young modulus", "Poisson ratio", "Biot coefficient", "Solid bulk modulus"});
   for (const DeclaredEntry &entry : declared_entries(prm))
     if (entry.path().compare(0, 12, "Rock/Region ") == 0)
-      for (const char *name :
-           {"Young modulus", "Poisson ratio", "Biot coefficient", "Solid bulk modulus",
-            "Fracture toughness", "Critical energy release rate", "Shear energy release rate",
-            "Tensile strength"})
-        if (entry.name == name && !entry.value.empty())
-          throw EntryError(entry.path(), entry.value,
-                           "nothing (an empty entry) with the fracture model '" + model_name +
-                             "', whose rock is one and the same everywhere; 'cohesive_xfem' and "
-                             "'prescribed' know regions");
+      if (!entry.value.empty() &&
+          std::find(refused.begin(), refused.end(), entry.name) != refused.end())
+        throw EntryError(entry.path(), entry.value,
+                         "nothing (an empty entry) with the fracture model '" + model_name +
+                           (requirements.uniform_rock
+                              ? "', whose rock is one and the same everywhere; 'cohesive_xfem' and "
+                                "'prescribed' know "
+                                "regions"
+                              : "', which breaks all rock as it breaks outside of the regions"));
 }
 
 
@@ -287,8 +296,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   if (solves_for_flow)
     chosen = chosen_for_flow;
   model = make_model<dim>(prm, registry, scene);
-  if (model->requirements().uniform_rock)
-    refuse_regions(prm, model_name);
+  if (model->requirements().uniform_rock || model->requirements().uniform_strength)
+    refuse_regions(prm, model_name, model->requirements());
   discretisation =
     parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = discretisation.has_pore_pressure;

@@ -32,9 +32,10 @@ struct Requirements
   bool changes_bulk = false;  ///< bulk_coefficients() has something to say
   bool newton = true;         ///< assemble() gives the exact derivative (else a secant)
   bool quasi_static_only = false;
-  bool linear_elements = false; ///< displacements live at vertices only
-  bool bulk_alone = false;      ///< has neither unknowns nor segments, ever: rock, to a split
-  bool uniform_rock = false;    ///< its own terms know the rock at large, no region's
+  bool linear_elements = false;  ///< displacements live at vertices only
+  bool bulk_alone = false;       ///< has neither unknowns nor segments, ever: rock, to a split
+  bool uniform_rock = false;     ///< its own terms know the rock at large, no region's
+  bool uniform_strength = false; ///< it breaks all rock as the first region breaks
 };
 
 /// What a model says about a converged solution.

@@ -24,8 +24,8 @@ using dealii::Tensor;
 
 namespace
 {
-/// Of the faces, in stiffnesses of the rock over a cell: a few times that of the unbroken seam.
-/// Twenty times as much, as for given cracks, makes Newton's method cycle at tips in viscous fluid.
+/// Of the faces, in stiffnesses of the rock over a cell: about three times that of the unbroken
+/// seam. More, as for given cracks, makes Newton's method cycle at tips in viscous fluid.
 constexpr double contact_stiffness = 20.;
 
 CohesiveLaw
@@ -128,7 +128,7 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
     }
   }
   committed_paths = discontinuity.paths();
-  committed_limits = limits = GrowthLimits();
+  committed_limits = GrowthLimits();
   committed_limits.has_grown.assign(committed_paths.size(), false);
   committed_limits.volume.assign(committed_paths.size(), 0.);
   limits = committed_limits;

@@ -28,6 +28,7 @@ public:
   {
     Requirements needs;
     needs.symmetric = !contact.has_friction();
+    needs.uniform_strength = true;
     return needs;
   }
 
