@@ -149,7 +149,8 @@ TEST_CASE("phases inside phases are counted once")
     wait(20);
   }
   wait(20);
-  const auto seconds = timers.seconds(MPI_COMM_WORLD);
+  // Of one rank: the greatest of all ranks, phase by phase, need not add up.
+  const auto seconds = timers.seconds(MPI_COMM_SELF);
   CHECK(seconds.at("solve") >= 0.04);
   CHECK(seconds.at("preconditioner") >= 0.04);
   CHECK(seconds.at("assembly") == 0);
