@@ -16,7 +16,8 @@
 
 An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
 (`errors/pore_pressure/final`), or is `rates/COLUMN` of statistics.csv, its growth per time in the
-second half of the run, or `least/COLUMN` or `greatest/COLUMN`, of all steps; OP is one of
+second half of the run, or `least/COLUMN` or `greatest/COLUMN`, of all steps, or
+`closure/QUANTITY` of contrib/closure.py; OP is one of
 < <= > >= ==, or = which needs the relative TOLERANCE;
 VALUE is a number or another path. A list stands for its length (`warnings == 0`), and what is
 missing, null or not finite fails.
@@ -35,6 +36,7 @@ import threading
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "contrib"))
+from closure import closure  # noqa: E402
 from results import lookup, read_statistics, read_summary  # noqa: E402
 
 MPIRUN = "mpirun --allow-run-as-root --oversubscribe -np"
@@ -202,6 +204,8 @@ def run_case(runner, options):
                    for name, column in read_statistics(runner.output("run")).items()}
         summary["least"] = {name: min(column) for name, column in columns.items() if column}
         summary["greatest"] = {name: max(column) for name, column in columns.items() if column}
+    if any(e.path.startswith("closure/") for e in expectations):
+        summary["closure"] = closure(read_statistics(runner.output("run")))[0]
     failed = check_all(expectations, summary)
     failed += [f"no warning says '{text}', but {summary['warnings']}" for text in options.warns
                if not any(text in warning for warning in summary["warnings"])]

@@ -198,11 +198,12 @@ private:
     double leaked = 0.;   ///< volume through both faces so far [m^3]
     double volume = 0.;   ///< between the faces [m^3]
     double vapour = 0.;   ///< part of it that holds no fluid [m^3]
+    bool bare = false;    ///< the faces have been bare once
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &exposure &wetted &leaked &volume &vapour;
+      ar &exposure &wetted &leaked &volume &vapour &bare;
     }
   };
 
@@ -234,9 +235,13 @@ private:
   };
   Exposure exposure(unsigned int segment, const StepContext &, const Values &) const;
 
+  /// Bridges of rock that have once been broken do not hold the faces together again.
   double bare_aperture(const unsigned int segment) const
   {
-    return std::max(network[segment].bare_aperture, minimum_aperture);
+    const auto old = history.find(network[segment].key);
+    return old != history.end() && old->second.bare
+             ? minimum_aperture
+             : std::max(network[segment].bare_aperture, minimum_aperture);
   }
 
   /// c_l of the linear leak-off laws [m/(Pa s)].

@@ -96,6 +96,7 @@ void Network<dim>::commit(const StepContext &context,
     History &entry = history[network[i].key];
     entry.exposure = exposed;
     entry.wetted = wetted_share(values.aperture[i], bare_aperture(i)).value;
+    entry.bare = entry.bare || entry.wetted >= 1.;
     entry.leaked += leaked[i];
     entry.volume = network[i].area * values.aperture[i];
     entry.vapour = values.vapour[i];

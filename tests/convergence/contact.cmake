@@ -19,3 +19,9 @@ foreach(angle 0 20 27)
 endforeach()
 stockwork_same_test(NAME parallel/closed DECK prm/closed/27/prescribed.prm
   SET "Resolution=coarse" RANKS 1,2 TOLERANCE 1e-8 IGNORE balance_error)
+
+# A minifrac closes at the least in-situ stress, 4 MPa; its faces meet.
+stockwork_case_test(NAME convergence/minifrac DECK prm/minifrac/cohesive_xfem.prm
+  EXPECT "closure/first_contact = 4e6 within 0.02" "closure/g_function = 4e6 within 0.02"
+         "closure/isip > 4.4e6" "least/least_aperture > -2.5e-6"
+         "fluid_balance/relative_error < 1e-8")

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""Shut-in and closure pressure of a run, from its statistics.csv.
+
+    contrib/closure.py OUTPUT_DIRECTORY [--shut-in TIME]
+
+The shut-in is the last time at which the first well's rate falls to zero. Printed are
+
+- ISIP, the instantaneous shut-in pressure: the falloff of the inlet pressure, drawn against the square
+  root of the time since shut-in, prolonged in a straight line to shut-in;
+- the pressure at which the faces first touch at the well: the inlet aperture has fallen to a hundredth
+  of what it was at shut-in. Only a simulation can see this;
+- the closure pressure by the G function (Nolte 1979; Barree, Barree and Craig 2009, "Holistic fracture
+  diagnostics"): while the open fracture leaks by Carter's law, G dp/dG is a straight line through the
+  origin; it ends at closure. Taken is the last point before G dp/dG falls for good from within a
+  tenth of its greatest value.
+"""
+import argparse
+import math
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from results import read_statistics  # noqa: E402
+
+LABELS = {"isip": "ISIP", "first_contact": "pressure at first contact",
+          "g_function": "closure pressure (G function)"}
+
+
+def shut_in(times, rates):
+    """Index of the last step with a rate before it is zero to the end."""
+    flowing = [i for i, rate in enumerate(rates) if rate > 0.]
+    if not flowing or flowing[-1] + 3 >= len(times):
+        raise ValueError("the first well is not shut in, or the run ends with it")
+    return flowing[-1]
+
+
+def g_function(delta):
+    """Nolte's G of the time since shut-in over that of pumping, high efficiency."""
+    return 4. / math.pi * (4. / 3. * ((1. + delta) ** 1.5 - delta ** 1.5) - 4. / 3.)
+
+
+def crossing(x, y, level):
+    """x where y first falls to a level, between points in a straight line; None: never."""
+    for i in range(1, len(y)):
+        if y[i] <= level < y[i - 1]:
+            return x[i - 1] + (x[i] - x[i - 1]) * (y[i - 1] - level) / (y[i - 1] - y[i])
+    return None
+
+
+def closure(table, shut=None):
+    """{quantity: pressure [Pa] or None} and the time of shut-in [s]."""
+    times, pressures = table["time"], table["inlet_pressure"]
+    last = (shut_in(times, table["well_1_rate"]) if shut is None else
+            max(i for i, time in enumerate(times) if time <= shut * (1. + 1e-9)))
+    start = times[last]
+    since = [time - start for time in times[last + 1:]]
+    falloff = pressures[last + 1:]
+    roots = [math.sqrt(time) for time in since]
+
+    n = max(2, min(5, len(roots) // 4))
+    mean_x, mean_y = sum(roots[:n]) / n, sum(falloff[:n]) / n
+    slope = (sum((x - mean_x) * (y - mean_y) for x, y in zip(roots[:n], falloff[:n])) /
+             sum((x - mean_x) ** 2 for x in roots[:n]))
+    result = {"isip": mean_y - slope * mean_x}
+
+    aperture = table["inlet_aperture"]
+    result["first_contact"] = crossing(
+        [pressures[last]] + falloff, aperture[last:], 0.01 * aperture[last])
+
+    g = [g_function(time / start) for time in since]
+    rising = [g[i] * (falloff[i + 1] - falloff[i - 1]) / (g[i - 1] - g[i + 1])
+              for i in range(1, len(g) - 1)]
+    peak = max(rising)
+    ends = [i for i, value in enumerate(rising) if value >= 0.9 * peak]
+    closed = ends[-1] + 1 if ends[-1] + 1 < len(rising) else None
+    result["g_function"] = None if closed is None else falloff[closed]
+    return result, start
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory")
+    parser.add_argument("--shut-in", type=float, help="time [s], where the rate does not say it")
+    options = parser.parse_args()
+    try:
+        result, start = closure(read_statistics(options.directory), options.shut_in)
+    except (OSError, KeyError, ValueError) as error:
+        sys.exit(f"{options.directory}: {error}")
+    print(f"shut-in at {start:g} s")
+    for name, value in result.items():
+        print(f"{LABELS[name]}: " + ("not in this run" if value is None else f"{value / 1e6:.4f} MPa"))
+
+
+if __name__ == "__main__":
+    main()
