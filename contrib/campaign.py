@@ -57,7 +57,7 @@ def last_words(log):
     with open(log, encoding="utf-8", errors="replace") as file:
         lines = [line.strip() for line in file if line.strip()]
     errors = [i for i, line in enumerate(lines) if "rror" in line]
-    return " ".join(lines[errors[-1]:] if errors else lines[-1:])[:300]
+    return " ".join(lines[errors[-1]:] if errors else lines[-2:])[:400]
 
 
 def attempt(options, family, number):

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace stockwork
 {
@@ -400,8 +401,8 @@ typename CoupledSystem<dim>::Norms CoupledSystem<dim>::residual_norms() const
 
 
 template <int dim>
-typename CoupledSystem<dim>::Norms
-CoupledSystem<dim>::rounding_errors(const TrilinosWrappers::MPI::BlockVector &values)
+typename CoupledSystem<dim>::Norms CoupledSystem<dim>::rounding_errors(
+  const TrilinosWrappers::MPI::BlockVector &values, const StepContext &context, const State &state)
 {
   if (stamp_of_norms != stamps.bulk_values)
   {
@@ -417,6 +418,7 @@ CoupledSystem<dim>::rounding_errors(const TrilinosWrappers::MPI::BlockVector &va
   if (discretisation.has_pore_pressure)
     norms.mass = epsilon * (matrix_norms(1, 0) * values.block(0).l1_norm() +
                             matrix_norms(1, 1) * values.block(1).l1_norm());
+  norms.fracture_fluid = network.rounding_error(context, state, communication);
   return norms;
 }
 
@@ -458,11 +460,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
   const std::vector<double> extra_at_start = current.extra;
   for (unsigned int iteration = 0;; ++iteration)
   {
-    for (const auto &[now, most] :
-         {std::make_pair(norms.momentum, &greatest.momentum),
-          std::make_pair(norms.mass, &greatest.mass), std::make_pair(norms.extra, &greatest.extra),
-          std::make_pair(norms.fracture_fluid, &greatest.fracture_fluid)})
-      *most = std::max(*most, now);
+    greatest.keep_greatest(norms);
     if (show_iterations)
       run.out << "    iteration " << iteration << ": " << norms.momentum << ' ' << norms.extra
               << ' ' << norms.mass << ' ' << norms.fracture_fluid << std::endl;
@@ -473,15 +471,17 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     }
     // Forces of the bulk and of the fracture balance one another, so they share a scale: what the
     // rock exerts on the fracture, for a solve may start in equilibrium and with no residual.
-    double rock_on_fracture = 0.;
-    for (unsigned int i = 0; i < n_model_extra; ++i)
-      rock_on_fracture += linear_residual_extra[i] * linear_residual_extra[i];
-    const double force = std::max({greatest.momentum, greatest.extra, std::sqrt(rock_on_fracture)});
-    const Norms rounding = rounding_errors(values);
+    const double rock_on_fracture = std::sqrt(std::inner_product(
+      linear_residual_extra.begin(), linear_residual_extra.begin() + n_model_extra,
+      linear_residual_extra.begin(), 0.));
+    const double force = std::max({greatest.momentum, greatest.extra, rock_on_fracture});
+    const Norms rounding = rounding_errors(values, context, state);
     Norms allowed;
     allowed.momentum = allowed.extra = std::max(tolerance * force, rounding.momentum);
     allowed.mass = std::max(tolerance * greatest.mass, rounding.mass);
-    allowed.fracture_fluid = injected > 0. ? 1e-9 * injected : tolerance * greatest.fracture_fluid;
+    allowed.fracture_fluid =
+      std::max(injected > 0. ? 1e-9 * injected : tolerance * greatest.fracture_fluid,
+               rounding.fracture_fluid);
     const bool small = model_change <= tolerance && norms.momentum <= allowed.momentum &&
                        norms.extra <= allowed.extra && norms.mass <= allowed.mass &&
                        norms.fracture_fluid <= allowed.fracture_fluid;

@@ -14,6 +14,7 @@
 #include "solvers/linear_solver.h"
 #include "solvers/linear_system.h"
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -156,6 +157,14 @@ private:
   struct Norms
   {
     double momentum = 0., mass = 0., extra = 0., fracture_fluid = 0.;
+
+    void keep_greatest(const Norms &other)
+    {
+      momentum = std::max(momentum, other.momentum);
+      mass = std::max(mass, other.mass);
+      extra = std::max(extra, other.extra);
+      fracture_fluid = std::max(fracture_fluid, other.fracture_fluid);
+    }
   };
   Norms residual_norms() const;
 
@@ -173,9 +182,11 @@ private:
   /// Of the greatest residual of a block of the bulk. Collective.
   dealii::Point<dim> place_in_bulk(unsigned int block) const;
 
-  /// Bounds of what rounding leaves of the bulk's residuals: a solve that starts in equilibrium
-  /// gets no further.
-  Norms rounding_errors(const dealii::TrilinosWrappers::MPI::BlockVector &values);
+  /// Bounds of what rounding leaves of the residuals of the bulk and of the fluid in the fracture:
+  /// a solve that starts in equilibrium gets no further.
+  Norms rounding_errors(const dealii::TrilinosWrappers::MPI::BlockVector &values,
+                        const StepContext &,
+                        const State &);
 
   RunContext &run;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;

@@ -4,6 +4,7 @@
 #include <boost/serialization/map.hpp>
 
 #include <algorithm>
+#include <limits>
 
 #include "flow/conductivity.h"
 
@@ -83,6 +84,29 @@ FluidBalance Network<dim>::balance(const StepContext &context,
 
 
 template <int dim>
+double Network<dim>::rounding_error(const StepContext &context,
+                                    const State &state,
+                                    const Collectives &collectives) const
+{
+  const Values values = evaluate(context, state, collectives);
+  double volume = 0.;
+  for (unsigned int i = 0; i < network.size(); ++i)
+  {
+    volume +=
+      network[i].area * (std::abs(values.aperture[i]) + std::abs(values.aperture_reference[i]));
+    for (const Edge &edge : edges[i])
+      volume += context.fracture_dt() *
+                transmissibility(values.aperture[i], values.aperture[edge.other], edge.distance,
+                                 edge.other_distance, edge.width, viscosity, minimum_aperture)
+                  .value *
+                (std::abs(values.pressure[i]) + std::abs(values.pressure[edge.other]));
+  }
+  // A few last digits of each term.
+  return 4. * std::numeric_limits<double>::epsilon() * volume;
+}
+
+
+template <int dim>
 void Network<dim>::commit(const StepContext &context,
                           const State &state,
                           const Collectives &collectives)
@@ -136,6 +160,8 @@ void Network<dim>::load(boost::archive::binary_iarchive &archive)
 template std::vector<double> Network<2>::leaked_in_step(const StepContext &, const Values &) const;
 template FluidBalance
 Network<2>::balance(const StepContext &, const State &, const Collectives &) const;
+template double
+Network<2>::rounding_error(const StepContext &, const State &, const Collectives &) const;
 template void Network<2>::commit(const StepContext &, const State &, const Collectives &);
 template std::vector<double> Network<2>::leaked_volumes() const;
 template void Network<2>::save(boost::archive::binary_oarchive &) const;
@@ -143,6 +169,8 @@ template void Network<2>::load(boost::archive::binary_iarchive &);
 template std::vector<double> Network<3>::leaked_in_step(const StepContext &, const Values &) const;
 template FluidBalance
 Network<3>::balance(const StepContext &, const State &, const Collectives &) const;
+template double
+Network<3>::rounding_error(const StepContext &, const State &, const Collectives &) const;
 template void Network<3>::commit(const StepContext &, const State &, const Collectives &);
 template std::vector<double> Network<3>::leaked_volumes() const;
 template void Network<3>::save(boost::archive::binary_oarchive &) const;
