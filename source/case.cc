@@ -45,6 +45,10 @@ Discretisation parse_discretisation(ParameterHandler &prm,
       "Rock/Bulk model", "elastic",
       "poroelastic or auto, because the fracture model or its leak-off needs the pore "
       "pressure");
+  if (rock.bulk_model() == "elastic" && boundary_conditions.mentions_pore_pressure())
+    throw EntryError("Rock/Bulk model", "elastic",
+                     "poroelastic or auto, because 'Boundary conditions' gives pore pressures or "
+                     "fluxes, which an elastic rock does not have: leave one of them out");
   discretisation.has_pore_pressure =
     rock.bulk_model() == "poroelastic" || (rock.bulk_model() == "auto" && asked);
 
