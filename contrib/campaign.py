@@ -8,8 +8,9 @@ Each runs beside the aligned fracture of the same K_m. Right means: length withi
 half per wing; aperture and net pressure, averaged over the last half of the time, within 2 and 3 %;
 no part further from the line than a cell and 2 % of the length of a wing; less than a fifth of the
 steps rejected. `turning` has no control: both tips must end within 5 degrees of the greatest
-compression. --n is the number of scenes of each family. The decks and the logs of failures stay in
-DIR. The exit status is 0 if all scenes are right.
+compression. --n is the number of scenes of each family; those of one number have the same K_m and one
+control. The decks, logs and results of failures stay in DIR; for their control, add --keep-all. The exit
+status is 0 if all scenes are right. A scene takes one to three minutes of a processor.
 """
 import argparse
 import concurrent.futures
@@ -60,14 +61,35 @@ def last_words(log):
     return " ".join(lines[errors[-1]:] if errors else lines[-2:])[:400]
 
 
-def attempt(options, family, number):
+class Controls:
+    """The aligned fractures: scenes of one number have one K_m, so that all families share them."""
+
+    def __init__(self, options):
+        self.options, self.lock, self.runs = options, threading.Lock(), {}
+
+    def beside(self, scene, number):
+        aligned = control(scene)
+        if not aligned:
+            return None, ""
+        with self.lock:
+            first = number not in self.runs
+            mine = self.runs.setdefault(number, concurrent.futures.Future())
+        if first:
+            directory = os.path.join(self.options.keep, f"control_{self.options.seed}_{number}")
+            try:
+                mine.set_result(run(self.options, aligned, directory, "control", number))
+            except BaseException as error:  # who waits for it must hear of it
+                mine.set_exception(error)
+        return mine.result()
+
+
+def attempt(options, controls, family, number):
     """Run a scene beside its control: whether it is right."""
     began = time.time()
     scene = draw(family, options.seed, number, (options.km_from, options.km_to), options.wing)
     directory = os.path.join(options.keep, f"{family}_{options.seed}_{number}")
     shutil.rmtree(directory, ignore_errors=True)
-    aligned = control(scene)
-    beside, why = (run(options, aligned, directory, "control", number) if aligned else (None, ""))
+    beside, why = controls.beside(scene, number)
     found, wrong = why, ["control"]
     if not why:
         result, found = run(options, scene, directory, "scene", number)
@@ -79,9 +101,6 @@ def attempt(options, family, number):
               + ("right" if not wrong else "WRONG: " + ", ".join(wrong)), flush=True)
     if not wrong and not options.keep_all:
         shutil.rmtree(directory)
-    elif not options.keep_all:  # decks, logs and tables stay
-        for name in ("control", "scene"):
-            shutil.rmtree(os.path.join(directory, name, "vtu"), ignore_errors=True)
     return not wrong
 
 
@@ -111,8 +130,12 @@ def main():
     options.talk = threading.Lock()
 
     tasks = [(family, options.first + i) for family in options.family for i in range(options.n)]
+    controls = Controls(options)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        right = list(pool.map(lambda task: attempt(options, *task), tasks))
+        right = list(pool.map(lambda task: attempt(options, controls, *task), tasks))
+    if not options.keep_all:
+        for _, number in tasks:
+            shutil.rmtree(os.path.join(options.keep, f"control_{options.seed}_{number}"), ignore_errors=True)
     for family in options.family:
         of_family = [ok for (name, _), ok in zip(tasks, right) if name == family]
         print(f"{family}: {sum(of_family)} of {len(of_family)} right")

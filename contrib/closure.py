@@ -40,15 +40,18 @@ def g_function(delta):
 
 
 def crossing(x, y, level):
-    """x where y first falls to a level, between points in a straight line; None: never."""
+    """x where y first falls to a level, between points in a straight line, and the change of x
+    between these points; None: never."""
     for i in range(1, len(y)):
         if y[i] <= level < y[i - 1]:
-            return x[i - 1] + (x[i] - x[i - 1]) * (y[i - 1] - level) / (y[i - 1] - y[i])
-    return None
+            share = (y[i - 1] - level) / (y[i - 1] - y[i])
+            return x[i - 1] + (x[i] - x[i - 1]) * share, abs(x[i] - x[i - 1])
+    return None, 0.
 
 
 def closure(table, shut=None):
-    """{quantity: pressure [Pa] or None} and the time of shut-in [s]."""
+    """{quantity: pressure [Pa] or None}, the time of shut-in [s] and by how much the pressure falls
+    within the step in which the faces meet [Pa]."""
     times, pressures = table["time"], table["inlet_pressure"]
     last = (shut_in(times, table["well_1_rate"]) if shut is None else
             max(i for i, time in enumerate(times) if time <= shut * (1. + 1e-9)))
@@ -64,7 +67,7 @@ def closure(table, shut=None):
     result = {"isip": mean_y - slope * mean_x}
 
     aperture = table["inlet_aperture"]
-    result["first_contact"] = crossing(
+    result["first_contact"], fall = crossing(
         [pressures[last]] + falloff, aperture[last:], 0.01 * aperture[last])
 
     g = [g_function(time / start) for time in since]
@@ -74,7 +77,7 @@ def closure(table, shut=None):
     ends = [i for i, value in enumerate(rising) if value >= 0.9 * peak]
     closed = ends[-1] + 1 if ends[-1] + 1 < len(rising) else None
     result["g_function"] = None if closed is None else falloff[closed]
-    return result, start
+    return result, start, fall
 
 
 def main():
@@ -84,12 +87,15 @@ def main():
     parser.add_argument("--shut-in", type=float, help="time [s], where the rate does not say it")
     options = parser.parse_args()
     try:
-        result, start = closure(read_statistics(options.directory), options.shut_in)
+        result, start, fall = closure(read_statistics(options.directory), options.shut_in)
     except (OSError, KeyError, ValueError) as error:
         sys.exit(f"{options.directory}: {error}")
     print(f"shut-in at {start:g} s")
     for name, value in result.items():
         print(f"{LABELS[name]}: " + ("not in this run" if value is None else f"{value / 1e6:.4f} MPa"))
+    if fall > 0.02 * abs(result["first_contact"] or 0.):
+        print(f"The pressure falls by {fall / 1e6:.2f} MPa within the step in which the faces meet: what is read "
+              "there is no better. Run again with a smaller 'Time/Maximum step'.")
 
 
 if __name__ == "__main__":

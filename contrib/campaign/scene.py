@@ -41,7 +41,12 @@ class Scene:
     rate: float = 2e-4           # of both wings [m^2/s]
 
     poisson_ratio = 0.25
-    notch = 12.3                 # half its length
+
+    @property
+    def notch(self):
+        """Half its length. A wing that has turned comes round to the greatest compression slowly, for
+        it starts where the notch has left it: from a short notch, in the length that there is."""
+        return 6.3 if self.turn else 12.3
 
     @property
     def plane_modulus(self):
@@ -109,9 +114,9 @@ def control(scene):
 
 
 def draw(family, seed, number, K_m_range=(0.5, 8.), wing=42.):
-    """Scene `number` of a family; the others do not matter."""
+    """Scene `number` of a family; the others do not matter. K_m is that of the number."""
+    K_m = float(np.random.default_rng([seed, number]).uniform(*K_m_range))
     random = np.random.default_rng([seed, zlib.crc32(family.encode()), number])
-    K_m = float(random.uniform(*K_m_range))
     angle = float(random.uniform(0., 180.))
     centre = tuple(float(x) for x in random.uniform(-0.5, 0.5, 2))
     along, across = (float(x) for x in sorted(random.uniform(0., 60., 2), reverse=True))
