@@ -8,6 +8,12 @@
     --every 'COLUMN OP VALUE'             in every row, the last ones of a run that failed as well
     --tips ANGLE,DEGREES                  the last eight cells (of --cell) at both ends of the fracture
                                           point to ANGLE
+    --kink TABLE,NOTCH,SHORT,DEGREES      both wings of a notch through the origin turn from its direction, NOTCH
+                                          degrees, by the kink of the TABLE less SHORT degrees, within DEGREES:
+                                          the chord from the notch's end to the tip
+    --symmetric X,Y,LENGTH                each end of the fracture's pieces has its image in (X, Y) no further
+                                          than LENGTH [m] from the fracture
+    --peak COLUMN=VALUE,SHARE             of the fracture's last file: the greatest of its absolute values
     --least COLUMN=SHARE                  of the fracture's last file: not below minus SHARE of its greatest
     --ends STATUS [--says TEXT]           the run ends with one of these statuses, and says why
     --checked                             --check finds it: status 1, or a warning with status 0 if --ends 0
@@ -69,13 +75,28 @@ def last_fracture(directory):
     return fracture, ends, cells
 
 
+def last_values(directory, name):
+    fracture, ends, cells = last_fracture(directory)
+    return fracture.cell_data[name][cells] if name in fracture.cell_data else fracture.point_data[name][ends]
+
+
+def check_peak(directory, texts):
+    failed = []
+    for text in texts:
+        name, wanted = text.split("=")
+        wanted, share = (float(x) for x in wanted.split(","))
+        peak = abs(last_values(directory, name)).max()
+        print(f"  {name}: {peak:.5g} at most, {100 * (peak / wanted - 1):+.2f} % off {wanted:g}")
+        if not abs(peak / wanted - 1) <= share:
+            failed.append(f"the greatest {name} is {peak:g}, not {wanted:g}")
+    return failed
+
+
 def check_least(directory, texts):
     failed = []
     for text in texts:
         name, share = text.split("=")
-        fracture, ends, cells = last_fracture(directory)
-        values = (fracture.cell_data[name][cells] if name in fracture.cell_data
-                  else fracture.point_data[name][ends])
+        values = last_values(directory, name)
         print(f"  {name}: from {values.min():.4g} to {values.max():.4g}")
         if not values.min() >= -float(share) * values.max():
             failed.append(f"{name} goes down to {values.min():.4g} where the greatest is {values.max():.4g}")
@@ -86,7 +107,7 @@ def check_tips(directory, angle, bound, cell):
     import numpy as np
     fracture, ends, _ = last_fracture(directory)
     points = fracture.points[ends][:, :, :2].reshape(-1, 2)
-    t = np.array([math.cos(math.radians(angle)), math.sin(math.radians(angle))])
+    t = direction(angle)
     failed = []
     for sign in (-1, 1):
         tip = points[np.argmax(sign * (points @ t))]
@@ -98,6 +119,61 @@ def check_tips(directory, angle, bound, cell):
         if not abs(off) <= bound:
             failed.append(f"the tip at {tip} is {off:+.1f} degrees off")
     return failed
+
+
+def direction(degrees):
+    import numpy as np
+    return np.array([math.cos(math.radians(degrees)), math.sin(math.radians(degrees))])
+
+
+def kink_of(table, notch):
+    with open(os.path.join(HERE, "..", "data", "reference", table), encoding="utf-8") as file:
+        lines = [line.strip().split(",") for line in file if not line.startswith("#")]
+    column = lines[0].index("kink_max_hoop_deg")
+    return next(float(row[column]) for row in lines[1:] if float(row[0]) == notch)
+
+
+def check_kink(directory, table, notch, short, bound):
+    import numpy as np
+    wanted = kink_of(table, notch)
+    wanted -= math.copysign(short, wanted)
+    fracture, ends, _ = last_fracture(directory)
+    points = fracture.points[ends][:, :, :2].reshape(-1, 2)
+    t = direction(notch)
+    off_line = np.abs(points @ np.array([-t[1], t[0]])) / np.abs(points).max()
+    failed = []
+    for sign in (-1, 1):
+        on_line = points[off_line < 1e-4]  # crossings are kept off vertices
+        old = on_line[np.argmax(sign * (on_line @ t))]
+        tip = points[np.argmax(sign * (points @ t))]
+        chord = sign * (tip - old)
+        if not np.linalg.norm(chord) > 0:
+            failed.append(f"the wing that ends at {old} has not grown")
+            continue
+        turn = (math.degrees(math.atan2(chord[1], chord[0])) - notch + 180.) % 360. - 180.
+        print(f"  from {old} to {tip}: turned by {turn:.2f} degrees, table {kink_of(table, notch):.2f},"
+              f" expected {wanted:.2f}")
+        if not abs(turn - wanted) <= bound:
+            failed.append(f"the wing that ends at {tip} turns by {turn:.2f} degrees, not {wanted:.2f}")
+    return failed
+
+
+def check_symmetric(directory, x, y, bound):
+    import numpy as np
+    starts, stops = last_pieces(directory)
+    along = stops - starts
+    worst = 0.
+    for image in 2 * np.array([x, y]) - np.concatenate([starts, stops]):
+        at = np.clip(((image - starts) * along).sum(1) / (along * along).sum(1), 0., 1.)
+        worst = max(worst, np.linalg.norm(starts + at[:, None] * along - image, axis=1).min())
+    print(f"  images lie {worst:.4g} m from the fracture at most")
+    return [] if worst <= bound else [f"the image of a piece lies {worst:g} m from the fracture"]
+
+
+def last_pieces(directory):
+    fracture, ends, _ = last_fracture(directory)
+    points = fracture.points[ends][:, :, :2]
+    return points[:, 0], points[:, 1]
 
 
 def run(runner, options):
@@ -118,6 +194,12 @@ def run(runner, options):
         runner.run("beside", options.beside, options.beside_set)
         failed += check_beside(runner, options)
     failed += check_least(runner.output("run"), options.least)
+    failed += check_peak(runner.output("run"), options.peak)
+    if options.kink:
+        table, *numbers = options.kink.split(",")
+        failed += check_kink(runner.output("run"), table, *(float(x) for x in numbers))
+    if options.symmetric:
+        failed += check_symmetric(runner.output("run"), *(float(x) for x in options.symmetric.split(",")))
     if options.tips:
         angle, bound = (float(x) for x in options.tips.split(","))
         failed += check_tips(runner.output("run"), angle, bound, options.cell)
@@ -144,6 +226,9 @@ def main():
     parser.add_argument("--within", action="append", default=[])
     parser.add_argument("--every", action="append", default=[])
     parser.add_argument("--least", action="append", default=[])
+    parser.add_argument("--peak", action="append", default=[])
+    parser.add_argument("--kink")
+    parser.add_argument("--symmetric")
     parser.add_argument("--tips")
     parser.add_argument("--cell", type=float, default=1.)
     parser.add_argument("--ends", default="0")
