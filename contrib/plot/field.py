@@ -5,9 +5,9 @@
              [--window x0,x1,y0,y1] [--mirror] [--fluid] [--output FILE.png]
 
 What has a sign (components of stress, displacement, flux) is drawn in colours that part at zero, or
-at the stress in situ where the deck gives one. Cells that the fracture has opened, or whose bonds
-are broken, have no stress of their own and are left grey. Several times are drawn side by side. --fluid fills the opening with the pressure of the fluid, in
-the colours of the pore pressure; otherwise it is white.
+at the stress in situ where the deck gives one. Cells that the fracture has opened are left grey, as
+are stresses where bonds are broken. Several times are drawn side by side. --fluid fills the opening
+with the pressure of the fluid, in the colours of the pore pressure; otherwise it is white.
 Without --window, what surrounds the fracture is shown (without a fracture, everything). --warp is
 the factor on displacement and opening; by default the greatest opening is drawn as 6 % of the
 window's height. --mirror adds the mirror image at x = 0 of a half model.
@@ -167,7 +167,7 @@ def panel(ax, options, time):
         moved += warp * grid.point_data["displacement"][:, :2]
     factor = UNITS.get(options.field, ("-", 1.))[1]
     broken = opened(grid.points[corners][:, :, :2], lines[is_open(aperture)])
-    if "damage" in grid.point_data:  # elements know nothing of the bonds that have gone
+    if "damage" in grid.point_data and "stress" in options.field:  # of the bonds that have gone
         broken |= grid.point_data["damage"][corners].mean(axis=1) > 0.05
     colour = factor * at_corners(grid, corners, cells, values, at_points, broken)
 
