@@ -5,17 +5,20 @@
 
 A deck that ships, with a few lines changed, is given to `--check`; a checkpoint of a short run, with
 bytes flipped or files cut short, to `--restart`. What must not happen is a signal, a run of more
-than 20 s, or an exit status other than 0, 1 and 2. What fails is kept in the scratch directory, and
+than 20 s of the processor, or an exit status other than 0, 1 and 2. What fails is kept in the scratch directory, and
 its number with the seed makes it again. The long form, an hour on one core:
 
     tests/fuzz/fuzz_decks.py build/source/stockwork --decks 2000 --checkpoints 300
 """
 import argparse
 import glob
+import math
 import os
 import random
 import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -91,10 +94,16 @@ class Fuzzer:
     def run(self, *arguments, limit=None):
         """(status or what else happened, stderr)"""
         try:
+            # On a machine that others use, a run may wait: its own seconds count, and ten times as many
+            # of the clock for one that waits for something itself.
+            seconds = limit or self.options.timeout
             done = subprocess.run([self.program, *arguments], cwd=self.scratch, env=self.environment,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.PIPE, timeout=limit or self.options.timeout,
-                                  check=False)
+                                  stderr=subprocess.PIPE, timeout=10 * seconds, check=False,
+                                  preexec_fn=lambda: resource.setrlimit(
+                                      resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds))))
+            if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+                return "hang", ""
             return done.returncode, done.stderr.decode(errors="replace")
         except subprocess.TimeoutExpired:
             return "hang", ""
