@@ -5,6 +5,12 @@ stockwork_case_test(NAME convergence/kgd/wang DECK prm/kgd/wang/cohesive_xfem.pr
   EXPECT "errors/equivalent_length/final < 0.03" "errors/inlet_aperture/final < 0.02"
          "errors/net_inlet_pressure/final < 0.03" "fluid_balance/relative_error < 1e-8"
          "rejected_steps == 0")
+# Growth by the effective stress, as published: 20 to 46 times the right pressure.
+stockwork_case_test(NAME convergence/kgd/wang/as_published
+  DECK prm/kgd/wang/as_published/cohesive_xfem.prm SET "Resolution=coarse"
+  EXPECT "errors/net_inlet_pressure/final > 19" "errors/net_inlet_pressure/final < 45"
+         "errors/equivalent_length/final > 0.77" "errors/equivalent_length/final < 0.86"
+         "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/kgd/wang/hard DECK prm/kgd/wang/hard/cohesive_xfem.prm NEGATIVE
   SET "Resolution=medium"
   EXPECT "errors/equivalent_length/final < 0.04" "errors/inlet_aperture/final < 0.02"

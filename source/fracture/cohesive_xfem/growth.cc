@@ -183,8 +183,8 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
         discs.push_back({path.tip(end), path.direction(end), parameters.direction_radius * h});
       }
 
-  const auto stresses =
-    average_stress(discs, *discretization, discontinuity, scene, state, collectives);
+  const auto averages =
+    average_ahead(discs, *discretization, discontinuity, scene, state, collectives);
   std::vector<Advance> growing;
   std::vector<double> pressures;
   std::vector<bool> broken; // behind the new tip
@@ -196,7 +196,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     const double span = discontinuity.length(c, last);
     const double pressure =
       state.segment_pressure ? state.segment_pressure(discontinuity.key(c, last)) : 0.;
-    const auto &stress = stresses[2 * i];
+    const auto &stress = averages[2 * i].stress;
     Tensor<1, dim> across;
     across[0] = -tips[i].direction[1];
     across[1] = tips[i].direction[0];
@@ -204,8 +204,9 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     // would never end. Where it does so by far, there is no cohesive zone worth the name: spans
     // open by less than the fluid's aperture would be cut one after another.
     const bool broken_here = distance_to_damage(c, end, 1., state) <= 0.5 * span * (1. + 1e-9);
-    const double drive = pressure + (parameters.straight ? across * (stress * across)
-                                                         : dealii::eigenvalues(stress)[0]);
+    const double added = parameters.as_published ? averages[2 * i].pore_pressure : pressure;
+    const double drive =
+      added + (parameters.straight ? across * (stress * across) : dealii::eigenvalues(stress)[0]);
     // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
     if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
     {
@@ -226,7 +227,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
       continue;
     }
     // Orthogonal to the largest tension, forward.
-    const Tensor<1, dim> normal = dealii::eigenvectors(stresses[2 * i + 1])[0].second;
+    const Tensor<1, dim> normal = dealii::eigenvectors(averages[2 * i + 1].stress)[0].second;
     Tensor<1, dim> direction;
     direction[0] = -normal[1];
     direction[1] = normal[0];

@@ -22,6 +22,13 @@ void Parameters::declare(dealii::ParameterHandler &prm)
     "A cell ahead of a tip is cut when the averaged stress reaches this share of the strength. "
     "The cut cell still holds until its own traction reaches the strength, so an early cut "
     "costs nothing, and a late one holds the crack back.");
+  prm.declare_entry(
+    "Growth criterion", "fluid pressure",
+    dealii::Patterns::Selection("fluid pressure|as published"),
+    "What is added to the averaged total stress before it is compared with the strength. "
+    "fluid pressure: that of the fluid at the tip, which acts on the faces to come. as published: "
+    "the rock's pore pressure (Wang 2016), so that the effective stress counts; fractures then "
+    "need many times the right pressure.");
   number("Averaging radius", "1.5", Range::closed(1., 6.),
          "Radius, in cells, over which the stress ahead of a tip is averaged; never more than half "
          "the cohesive length if that is resolved.");
@@ -50,6 +57,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm)
   p.mode_exponent = get_quantity(prm, "Mixed-mode exponent", dimension::number);
   p.elastic_share = get_quantity(prm, "Elastic share", dimension::number);
   p.growth_threshold = get_quantity(prm, "Growth threshold", dimension::number);
+  p.as_published = prm.get("Growth criterion") == "as published";
   p.averaging_radius = get_quantity(prm, "Averaging radius", dimension::number);
   p.direction_radius = get_quantity(prm, "Direction radius", dimension::number);
   p.most_advances = prm.get_integer("Most advances per step");

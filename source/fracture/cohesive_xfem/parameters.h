@@ -11,6 +11,7 @@ struct Parameters
   double mode_exponent;        ///< of Benzeggagh and Kenane
   double elastic_share;        ///< opening at the peak over critical opening
   double growth_threshold;     ///< stress at which a cell is cut, in strengths
+  bool as_published;           ///< pore pressure is added to that stress, not the fluid's
   double averaging_radius;     ///< of the tip stress, in cells
   double direction_radius;     ///< of the stress that a tip turns to, in cells
   unsigned int most_advances;  ///< cells per tip and step

@@ -8,15 +8,15 @@ namespace stockwork::cohesive_xfem
 using dealii::SymmetricTensor;
 
 template <int dim>
-std::vector<SymmetricTensor<2, dim>> average_stress(const std::vector<HalfDisc<dim>> &discs,
-                                                    const Discretization<dim> &discretization,
-                                                    const Discontinuity<dim> &discontinuity,
-                                                    const Scene<dim> &scene,
-                                                    const State &state,
-                                                    const Collectives &collectives)
+std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &discs,
+                                          const Discretization<dim> &discretization,
+                                          const Discontinuity<dim> &discontinuity,
+                                          const Scene<dim> &scene,
+                                          const State &state,
+                                          const Collectives &collectives)
 {
   constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
-  constexpr unsigned int stride = n_components + 1;
+  constexpr unsigned int stride = n_components + 2;
 
   const auto &fe = discretization.dof_handler.get_fe();
   const dealii::QGauss<dim> quadrature(3);
@@ -28,7 +28,7 @@ std::vector<SymmetricTensor<2, dim>> average_stress(const std::vector<HalfDisc<d
   std::vector<SymmetricTensor<2, dim>> strains(quadrature.size());
   std::vector<double> pressures(quadrature.size(), 0.);
 
-  // Weighted sum of the stress and sum of the weights, disc by disc.
+  // Weighted sums of stress and pore pressure, and sum of the weights, disc by disc.
   std::vector<double> sums(discs.size() * stride, 0.);
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
   {
@@ -68,26 +68,31 @@ std::vector<SymmetricTensor<2, dim>> average_stress(const std::vector<HalfDisc<d
           stress[d][d] += isotropic;
         for (unsigned int k = 0; k < n_components; ++k)
           sums[i * stride + k] += weight * stress.access_raw_entry(k);
-        sums[i * stride + n_components] += weight;
+        sums[i * stride + n_components] += weight * (pressures[q] + scene.in_situ_pore_pressure(x));
+        sums[i * stride + n_components + 1] += weight;
       }
     }
   }
   collectives.sum(sums);
 
-  std::vector<SymmetricTensor<2, dim>> averages(discs.size());
+  std::vector<RockAhead<dim>> averages(discs.size());
   for (unsigned int i = 0; i < discs.size(); ++i)
-    if (const double weight = sums[i * stride + n_components]; weight > 0.)
+    if (const double weight = sums[i * stride + n_components + 1]; weight > 0.)
+    {
       for (unsigned int k = 0; k < n_components; ++k)
-        averages[i].access_raw_entry(k) = sums[i * stride + k] / weight;
-    else
-      averages[i] = scene.in_situ_stress(discs[i].centre); // nothing but cut cells ahead
+        averages[i].stress.access_raw_entry(k) = sums[i * stride + k] / weight;
+      averages[i].pore_pressure = sums[i * stride + n_components] / weight;
+    }
+    else // nothing but cut cells ahead
+      averages[i] = {scene.in_situ_stress(discs[i].centre),
+                     scene.in_situ_pore_pressure(discs[i].centre)};
   return averages;
 }
 
-template std::vector<SymmetricTensor<2, 2>> average_stress(const std::vector<HalfDisc<2>> &,
-                                                           const Discretization<2> &,
-                                                           const Discontinuity<2> &,
-                                                           const Scene<2> &,
-                                                           const State &,
-                                                           const Collectives &);
+template std::vector<RockAhead<2>> average_ahead(const std::vector<HalfDisc<2>> &,
+                                                 const Discretization<2> &,
+                                                 const Discontinuity<2> &,
+                                                 const Scene<2> &,
+                                                 const State &,
+                                                 const Collectives &);
 } // namespace stockwork::cohesive_xfem

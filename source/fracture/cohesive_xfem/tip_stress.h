@@ -19,14 +19,21 @@ struct HalfDisc
   double radius;
 };
 
-/// Total stress, tension positive, averaged over the uncut cells in each half disc with the weight
-/// exp(-4 r^2/R^2) (Wells and Sluys 2001). The same on all ranks.
+/// What the rock ahead of a crack tip bears.
 template <int dim>
-std::vector<dealii::SymmetricTensor<2, dim>>
-average_stress(const std::vector<HalfDisc<dim>> &discs,
-               const Discretization<dim> &discretization,
-               const Discontinuity<dim> &discontinuity,
-               const Scene<dim> &scene,
-               const State &state,
-               const Collectives &collectives);
+struct RockAhead
+{
+  dealii::SymmetricTensor<2, dim> stress; ///< total, tension positive [Pa]
+  double pore_pressure = 0.;              ///< with that in situ [Pa]
+};
+
+/// Averages over the uncut cells in each half disc with the weight exp(-4 r^2/R^2) (Wells and
+/// Sluys 2001). The same on all ranks.
+template <int dim>
+std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &discs,
+                                          const Discretization<dim> &discretization,
+                                          const Discontinuity<dim> &discontinuity,
+                                          const Scene<dim> &scene,
+                                          const State &state,
+                                          const Collectives &collectives);
 } // namespace stockwork::cohesive_xfem
