@@ -59,6 +59,14 @@ double parse_quantity(const std::string &text, const Dimension &expected)
   return result.value;
 }
 
+double parse_finite_quantity(const std::string &text, const Dimension &expected)
+{
+  const double value = parse_quantity(text, expected);
+  if (!std::isfinite(value))
+    throw InputError("\"" + text + "\" is not finite; " + what_is_expected(expected));
+  return value;
+}
+
 std::string to_string(const double value, const Dimension &dimension)
 {
   std::ostringstream out;

@@ -50,7 +50,7 @@ parse_value(const std::string &entry, const std::string &text, const Dimension &
 {
   try
   {
-    const double constant = parse_quantity(text, dimension);
+    const double constant = parse_finite_quantity(text, dimension);
     return {[constant](const Point<dim> &, double) { return constant; }, true};
   }
   catch (const InputError &quantity_error)

@@ -197,7 +197,7 @@ void Rock::parse_parameters(ParameterHandler &prm)
     const std::string toughness = prm.get("Fracture toughness");
     if (!toughness.empty())
       blank.energy_release_rate =
-        std::pow(parse_quantity(toughness, dimension::toughness), 2) / blank.plane_modulus();
+        std::pow(parse_finite_quantity(toughness, dimension::toughness), 2) / blank.plane_modulus();
   }
   default_region = blank;
   for (unsigned int region = 1; region <= max_regions; ++region)

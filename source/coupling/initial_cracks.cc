@@ -44,7 +44,7 @@ double given_crack_pressure(ParameterHandler &prm)
     return std::numeric_limits<double>::quiet_NaN();
   try
   {
-    return parse_quantity(text, dimension::pressure);
+    return parse_finite_quantity(text, dimension::pressure);
   }
   catch (const InputError &error)
   {
@@ -82,8 +82,8 @@ void parse_geometry(const std::string &text, InitialCrack<3> &crack)
   Disc<3> disc;
   disc.centre = parse_point<3>(match[1]);
   for (unsigned int d = 0; d < 3; ++d)
-    disc.normal[d] = parse_quantity(numbers()[d], dimension::number);
-  disc.radius = parse_quantity(match[3], dimension::length);
+    disc.normal[d] = parse_finite_quantity(numbers()[d], dimension::number);
+  disc.radius = parse_finite_quantity(match[3], dimension::length);
   if (!(disc.normal.norm() > 0.) || !(disc.radius > 0.))
     throw EntryError(crack.entry, text, "a normal other than (0, 0, 0) and a radius > 0");
   disc.normal /= disc.normal.norm();

@@ -38,7 +38,7 @@ TimeHistory::TimeHistory(const std::string &text,
     else if (text.find(':') == std::string::npos)
     {
       times = {-std::numeric_limits<double>::infinity()};
-      values = {parse_quantity(trim(text), dimension)};
+      values = {parse_finite_quantity(trim(text), dimension)};
     }
     else
       for (const std::string &piece : split_list(text))
@@ -46,14 +46,11 @@ TimeHistory::TimeHistory(const std::string &text,
         const auto colon = piece.find(':');
         if (colon == std::string::npos)
           throw InputError("no time");
-        times.push_back(parse_quantity(trim(piece.substr(0, colon)), dimension::time));
-        values.push_back(parse_quantity(trim(piece.substr(colon + 1)), dimension));
+        times.push_back(parse_finite_quantity(trim(piece.substr(0, colon)), dimension::time));
+        values.push_back(parse_finite_quantity(trim(piece.substr(colon + 1)), dimension));
         if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
           throw InputError("its times do not grow");
       }
-    for (const double value : values)
-      if (!std::isfinite(value))
-        throw InputError("it is not finite");
   }
   catch (const InputError &error)
   {

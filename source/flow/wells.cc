@@ -38,7 +38,7 @@ dealii::Point<dim> parse_point(const std::string &text)
     const std::size_t comma = d + 1 < dim ? text.find(',', begin) : text.size();
     if (comma == std::string::npos)
       throw InputError("too few coordinates");
-    point[d] = parse_quantity(text.substr(begin, comma - begin), dimension::length);
+    point[d] = parse_finite_quantity(text.substr(begin, comma - begin), dimension::length);
     begin = comma + 1;
   }
   return point;
@@ -128,7 +128,7 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double bo
           throw EntryError(path + "Least pressure", text, allowed);
         try
         {
-          well.least_pressure = parse_quantity(text, dimension::pressure);
+          well.least_pressure = parse_finite_quantity(text, dimension::pressure);
         }
         catch (const InputError &)
         {

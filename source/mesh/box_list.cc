@@ -19,7 +19,7 @@ dealii::Point<dim> parse_point(const std::string &text)
                      " coordinates instead of " + std::to_string(dim));
   dealii::Point<dim> point;
   for (unsigned int d = 0; d < dim; ++d)
-    point[d] = parse_quantity(parts[d], dimension::length);
+    point[d] = parse_finite_quantity(parts[d], dimension::length);
   return point;
 }
 

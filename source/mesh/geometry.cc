@@ -341,7 +341,7 @@ void Geometry<dim>::parse_refinement(ParameterHandler &prm)
                   {
                     for (const auto &item : parse_boxes<dim>(text))
                     {
-                      const double size = parse_quantity(item.label, dimension::length);
+                      const double size = parse_finite_quantity(item.label, dimension::length);
                       if (!(size >= 1e-6 * diameter()))
                         throw InputError("the cell size " + item.label +
                                          " is less than a millionth of the domain");

@@ -17,7 +17,7 @@ constexpr double max_cells = 1e6;
 
 double length(const std::string &text)
 {
-  return parse_quantity(text, dimension::length);
+  return parse_finite_quantity(text, dimension::length);
 }
 
 std::string metres(const double x)
@@ -251,7 +251,7 @@ std::vector<double> parse_lines(const std::string &text, const double lower, con
   double largest = std::numeric_limits<double>::infinity();
   for (const std::string &part : split_list(text))
     if (std::regex_match(part, match, growth_entry))
-      growth = parse_quantity(match[1], dimension::number);
+      growth = parse_finite_quantity(match[1], dimension::number);
     else if (std::regex_match(part, match, largest_entry))
       largest = length(match[1]);
     else if (std::regex_match(part, match, from))

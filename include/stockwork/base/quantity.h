@@ -86,6 +86,9 @@ constexpr Dimension toughness           {-0.5, 1, -2, 0, "toughness", "Pa m^0.5"
 /// @throws InputError with what was given and what is expected.
 double parse_quantity(const std::string &text, const Dimension &dimension);
 
+/// The same where nothing is infinite. @throws InputError
+double parse_finite_quantity(const std::string &text, const Dimension &dimension);
+
 /// "1.596e+10 Pa": a value with its SI unit, for messages.
 std::string to_string(double value, const Dimension &dimension);
 

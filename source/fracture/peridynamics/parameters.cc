@@ -131,7 +131,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   const auto number = [&](const char *entry, const double otherwise)
   {
     const std::string text = prm.get(entry);
-    return text.empty() ? otherwise : parse_quantity(text, dimension::number);
+    return text.empty() ? otherwise : parse_finite_quantity(text, dimension::number);
   };
   const auto bad = [&](const char *entry, const std::string &allowed)
   { return EntryError(std::string("Fracture/peridynamics/") + entry, prm.get(entry), allowed); };
