@@ -50,8 +50,14 @@ parse_value(const std::string &entry, const std::string &text, const Dimension &
 {
   try
   {
-    const double constant = parse_finite_quantity(text, dimension);
+    const double constant = parse_quantity(text, dimension);
+    if (!std::isfinite(constant))
+      throw EntryError("Boundary conditions/" + entry, text, "a finite value");
     return {[constant](const Point<dim> &, double) { return constant; }, true};
+  }
+  catch (const EntryError &)
+  {
+    throw;
   }
   catch (const InputError &quantity_error)
   {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "stockwork/base/error.h"
 
 namespace stockwork::analytical
 {
@@ -65,7 +66,7 @@ inline void solve_in_place(DenseMatrix &A, std::vector<double> &b)
       if (std::abs(A[i][k]) > std::abs(A[pivot][k]))
         pivot = i;
     if (!(std::abs(A[pivot][k]) > 0.))
-      throw std::runtime_error("singular matrix in a reference solution");
+      throw InputError("Its equations are singular with the numbers of this case.");
     if (pivot != k)
     {
       std::swap_ranges(A[k] + k, A[k] + n, A[pivot] + k);
