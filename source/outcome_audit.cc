@@ -99,11 +99,8 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
     // fracture had been open all the time.
     const auto &corners = the_case.scene.cracks[0].points;
     const double excess = outcome.inlet_pressure - the_case.in_situ.pore_pressure(corners.front());
-    const double storage =
-      rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient /
-                                    (rock.lame_lambda() + 2. * rock.shear_modulus());
-    const double carter =
-      excess * std::sqrt(rock.permeability * storage / (numbers::PI * fluid.viscosity));
+    const double carter = excess * std::sqrt(rock.permeability * storage_coefficient(rock) /
+                                             (numbers::PI * fluid.viscosity));
     const double duration = the_case.control.end_time - the_case.control.start_time;
     const double share = 4. * carter * std::sqrt(duration) * outcome.length / outcome.injected;
     assumptions.push_back({"impermeable rock: Carter's estimate of leaked / injected", share,

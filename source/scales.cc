@@ -28,20 +28,6 @@ double half_length(const InitialCrack<dim> &crack)
 }
 
 
-/// Compression across a crack [Pa].
-double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack)
-{
-  const Tensor<1, 2> along = crack.points.back() - crack.points.front();
-  const Tensor<1, 2> normal = Point<2>(-along[1], along[0]) / along.norm();
-  return -(normal * (scene.in_situ_stress(crack.points.front() + 0.5 * along) * normal));
-}
-
-double closing_stress(const Scene<3> &scene, const InitialCrack<3> &crack)
-{
-  return -(crack.disc->normal * (scene.in_situ_stress(crack.disc->centre) * crack.disc->normal));
-}
-
-
 /// The pressure that drives a viscous fluid into a fracture of this length [Pa].
 double
 viscous_pressure(const unsigned int dim, const double a, const double E, const double mu, double Q)
@@ -69,6 +55,19 @@ double greatest_traction(const BoundaryConditions<dim> &boundary_conditions)
   return greatest;
 }
 } // namespace
+
+
+double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack)
+{
+  const Tensor<1, 2> along = crack.points.back() - crack.points.front();
+  const Tensor<1, 2> normal = Point<2>(-along[1], along[0]) / along.norm();
+  return -(normal * (scene.in_situ_stress(crack.points.front() + 0.5 * along) * normal));
+}
+
+double closing_stress(const Scene<3> &scene, const InitialCrack<3> &crack)
+{
+  return -(crack.disc->normal * (scene.in_situ_stress(crack.disc->centre) * crack.disc->normal));
+}
 
 
 template <int dim>

@@ -32,6 +32,10 @@ struct Scales
   double aperture;    ///< of the crack under this pressure, 4 p a/E' [m]
 };
 
+/// Compression across a crack by the in-situ stress, at its middle [Pa].
+double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack);
+double closing_stress(const Scene<3> &scene, const InitialCrack<3> &crack);
+
 /// The pressure is the greatest of what toughness and viscosity take at this length (the scaling of
 /// Adachi & Detournay 2002, and for a radial fracture of Savitski & Detournay 2002), of given
 /// pressures over the closing stress, and of the loads on the boundary.

@@ -1,6 +1,7 @@
 #include "scene_audit.h"
 
-#include "verification/analytical/kgd.h"
+#include "scales.h"
+#include "verification/analytical/kgd_leak_off.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -20,6 +21,9 @@ constexpr double density_of_common_rock = 2500.;
 
 /// As long as cohesive cracks make their process zone where the deck gives no strength.
 constexpr double cells_of_process_zone = 8.;
+
+/// Of a box of rollers, in half lengths: there the stress intensity is 5 % smaller.
+constexpr double nearest_walls = 5.;
 } // namespace
 
 
@@ -43,6 +47,13 @@ double distance_to_walls(const Case<dim> &the_case)
 }
 
 
+double storage_coefficient(const RockProperties &rock)
+{
+  const double uniaxial = rock.lame_lambda() + 2. * rock.shear_modulus();
+  return rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient / uniaxial;
+}
+
+
 double rayleigh_speed(const RockProperties &rock)
 {
   const double density = rock.density > 0. ? rock.density : density_of_common_rock;
@@ -53,16 +64,65 @@ double rayleigh_speed(const RockProperties &rock)
 
 namespace
 {
+/// What the first well pumps until it is shut in, or until the run ends.
+struct Pumping
+{
+  double duration = 0.; // s
+  double rate = 0.;     // its mean, of the whole well [m^2/s]
+  bool is_shut_in = false;
+};
+
 template <int dim>
-void add_hydraulic_numbers(const Case<dim> &the_case,
-                           const double rate,
+Pumping first_pumping(const Network<dim> &network, const StepControl &control)
+{
+  Pumping pumping;
+  double volume = 0.;
+  for (double t = control.start_time; t < control.end_time && !pumping.is_shut_in;)
+  {
+    const double next = std::min(network.next_jump(t), control.end_time);
+    const double rate = network.rate_of_first_well(next); // a piece holds until its end
+    if (rate > 0.)
+    {
+      volume += rate * (next - t);
+      pumping.duration = next - control.start_time;
+    }
+    pumping.is_shut_in = volume > 0. && rate <= 0.;
+    t = next;
+  }
+  if (volume > 0.)
+    pumping.rate = volume / pumping.duration;
+  return pumping;
+}
+
+
+/// Of the first crack, as the deck's law of leak-off has it. Where the flow in the rock is
+/// resolved, and in one dimension: C = (p_f - p_0) sqrt(k S/(pi mu)), with S of rock that is held
+/// sideways (Howard & Fast 1957).
+analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case)
+{
+  if (the_case.network.leak_off_law() == LeakOff::carter)
+    return {the_case.network.carter(), 0.};
+  if (the_case.network.leak_off_law() != LeakOff::resolved)
+    return {};
+  const RockProperties &rock = the_case.rock.main();
+  const double per_pressure = std::sqrt(rock.permeability * storage_coefficient(rock) /
+                                        (numbers::PI * the_case.rock.fluid().viscosity));
+  const InitialCrack<2> &crack = the_case.scene.cracks[0];
+  return {per_pressure * (closing_stress(the_case.scene, crack) -
+                          the_case.in_situ.pore_pressure(crack.points.front())),
+          per_pressure};
+}
+
+
+void add_hydraulic_numbers(const Case<2> &the_case,
+                           const Pumping &pumping,
                            const double smallest_cell,
                            std::vector<SceneNumber> &numbers)
 {
   const RockProperties &rock = the_case.rock.main();
   const analytical::KgdParameters parameters{
     rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio,
-    the_case.rock.fluid().viscosity, rock.toughness(), rate};
+    the_case.rock.fluid().viscosity, rock.toughness(), pumping.rate};
   const double K_m = parameters.dimensionless_toughness();
   numbers.push_back(
     {"dimensionless toughness K_m", K_m,
@@ -71,20 +131,35 @@ void add_hydraulic_numbers(const Case<dim> &the_case,
                 : "neither viscosity nor toughness dominates"});
 
   const analytical::Kgd kgd(parameters);
-  const double duration = the_case.control.end_time - the_case.control.start_time;
-  const double length = kgd.half_length(duration);
-  const double speed = kgd.tip_speed(0.01 * duration) / rayleigh_speed(rock);
+  const analytical::LeakOffCoefficient leak_off = leak_off_coefficient(the_case);
+  const auto [length, efficiency] = analytical::leaking_kgd(parameters, leak_off, pumping.duration);
+  const double speed = kgd.tip_speed(0.01 * pumping.duration) / rayleigh_speed(rock);
   numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)", speed,
                      speed < 0.1 ? "inertia left out: waves settle long before the tip moves on"
                                  : "inertia matters: set Time/Inertia = on"});
+
+  const std::string when = pumping.is_shut_in ? "at shut-in" : "at the end";
+  if (leak_off.at_closure != 0. || leak_off.per_net_pressure != 0.)
+  {
+    std::ostringstream text;
+    text << std::setprecision(2) << "about " << 100. * (1. - efficiency)
+         << " % of the fluid has leaked off " << when << ", after " << std::setprecision(3)
+         << pumping.duration << " s of pumping";
+    if (!pumping.is_shut_in)
+      text << " (the well is not shut in)";
+    numbers.push_back({"efficiency " + when, efficiency, text.str()});
+  }
+
   const double walls = distance_to_walls(the_case) / length;
   std::ostringstream text;
   text << "the fracture grows to about " << std::setprecision(3) << length << " m per wing; "
-       << (walls > 10.  ? "the walls are far enough for 1 %"
-           : walls > 4. ? "the walls cost some per cent"
-                        : "the walls govern the answer: enlarge the domain, or compare with a "
-                          "solution that has them");
-  numbers.push_back({"distance to walls / final length", walls, text.str()});
+       << (walls > 10. ? "the walls are far enough for 1 %"
+           : walls > nearest_walls
+             ? "the walls cost some per cent"
+             : "the walls govern the answer: enlarge the domain, or compare with a "
+               "solution that has them");
+  numbers.push_back({"distance to walls / final length", walls, text.str(),
+                     walls <= nearest_walls && !the_case.walls_follow_reference});
 
   // A zone a fifth as long as the wing makes the fracture longer by 1 % (kgd/toughness), and in
   // proportion; less where viscosity dominates.
@@ -121,10 +196,8 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
 
   if (the_case.discretisation.has_pore_pressure)
   {
-    const double uniaxial = rock.lame_lambda() + 2. * rock.shear_modulus();
-    const double storage =
-      rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient / uniaxial;
-    const double diffusivity = rock.permeability / (the_case.rock.fluid().viscosity * storage);
+    const double diffusivity =
+      rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
     const double size = the_case.geometry.diameter();
     const double time = diffusivity * duration / (size * size);
     numbers.push_back({"diffusion c_v T / L^2", time,
@@ -153,6 +226,27 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
     numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});
 
+  const Pumping pumping = first_pumping(the_case.network, the_case.control);
+  if (the_case.network.needs_pore_pressure())
+  {
+    const double diffusivity =
+      rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
+    const double time = pumping.duration > 0. ? pumping.duration : duration;
+    const double reach = std::sqrt(diffusivity * time);
+    const double cells = smallest_cell / reach;
+    std::ostringstream text;
+    text << std::setprecision(3) << "in " << time
+         << " s of pumping the fluid comes about sqrt(c t) = " << reach << " m into the rock; ";
+    if (cells <= 1.)
+      text << "the leak-off is resolved, but for the first " << std::setprecision(2)
+           << cells * cells * time << " s";
+    else
+      text << "cells of " << smallest_cell
+           << " m do not resolve this, and too little leaks off: take smaller cells, or 'Fracture "
+              "flow/Leak-off = carter'";
+    numbers.push_back({"cell size / sqrt(c t)", cells, text.str(), cells > 1.});
+  }
+
   for (const auto &[well, pressure] : the_case.network.least_well_pressures())
     numbers.push_back({"least pressure in '" + well + "' [Pa]", pressure,
                        "at it, what the well takes is what flows (Least pressure)"});
@@ -169,10 +263,10 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
                            ? "resolved"
                            : "not resolved: pressure and width come out too large"});
     }
-    const double rate = the_case.network.rate_of_first_well(the_case.control.end_time);
-    if (dim == 2 && rate > 0.)
-      add_hydraulic_numbers(the_case, rate, smallest_cell, numbers);
-    if (rate > 0. && the_case.scheme.kind() == TimeScheme::Kind::newmark &&
+    if constexpr (dim == 2)
+      if (pumping.rate > 0.)
+        add_hydraulic_numbers(the_case, pumping, smallest_cell, numbers);
+    if (pumping.rate > 0. && the_case.scheme.kind() == TimeScheme::Kind::newmark &&
         !the_case.scheme.damps())
       numbers.push_back({"Newmark gamma", 0.5,
                          "nothing damps the pressure in the fracture, which swings from step to "
@@ -192,6 +286,13 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const double 
     line << "  " << std::left << std::setw(48) << number.name << std::setw(10)
          << std::setprecision(3) << number.value << "  " << number.consequence;
     run.out << line.str() << '\n';
+    if (number.spoils)
+    {
+      std::ostringstream warning;
+      warning << std::setprecision(3) << number.name << " = " << number.value << ": "
+              << number.consequence << ".";
+      run.warn(warning.str());
+    }
   }
   for (const ChosenValue &chosen : the_case.chosen)
     run.out << "  " << chosen.entry << " = " << chosen.value << ": " << chosen.why << '\n';

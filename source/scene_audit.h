@@ -15,6 +15,7 @@ struct SceneNumber
   std::string name;
   double value;
   std::string consequence;
+  bool spoils = false; ///< the answer cannot be trusted: a warning of the run
 };
 
 /// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
@@ -22,12 +23,16 @@ struct SceneNumber
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case);
 
+/// 1/M + alpha^2/(lambda + 2 G): of rock that is held sideways [1/Pa].
+double storage_coefficient(const RockProperties &rock);
+
 /// To 1 %: Viktorov's fit to the shear wave speed [m/s]. Where the deck gives no density, of rock
 /// as heavy as most.
 double rayleigh_speed(const RockProperties &rock);
 
 /// The numbers of a case, computed before the first step. Lengths and speeds of a fracture that is
-/// still to come are those of the plane-strain reference solution (analytical/kgd.h).
+/// still to come are those of the plane-strain fracture when its pumping ends, with leak-off if
+/// there is any (analytical/kgd.h, kgd_leak_off.h).
 ///
 /// @param smallest_cell size of the smallest cell of the initial mesh [m]
 template <int dim>

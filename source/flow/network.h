@@ -129,6 +129,17 @@ public:
     return leak_off == LeakOff::resolved;
   }
 
+  LeakOff leak_off_law() const
+  {
+    return leak_off;
+  }
+
+  /// C_L of one face [m/s^(1/2)]
+  double carter() const
+  {
+    return carter_coefficient;
+  }
+
   /// @throws InputError when a perforation lies on no crack of the deck
   void check_perforations(const std::vector<InitialCrack<dim>> &cracks) const
   {

@@ -1,5 +1,7 @@
 #include "reference_table.h"
+#include "verification/analytical/constants.h"
 #include "verification/analytical/hydraulic_fracture.h"
+#include "verification/analytical/kgd_leak_off.h"
 
 #include <doctest/doctest.h>
 
@@ -131,5 +133,73 @@ TEST_CASE("radial fracture: histories near both vertices")
       last_difference = difference;
     }
   }
+}
+
+TEST_CASE("Carter's length: what is injected is in the fracture or has leaked")
+{
+  const double rate = 2e-4, width = 3e-4, C = 2e-5, end = 500.;
+  // Two wings of two faces: 8 C int_0^l sqrt(t - t0) dx = 4 C int_0^t l(t0)/sqrt(t - t0) dt0.
+  double leaked = 0.;
+  const unsigned int n = 20000;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    // t0 = end (1 - s^2): no singular end
+    const double s = (i + 0.5) / n;
+    leaked += 8. * C * std::sqrt(end) * carter_half_length(rate, width, C, end * (1. - s * s)) / n;
+  }
+  const double stored = 2. * width * carter_half_length(rate, width, C, end);
+  CHECK(stored / (rate * end) < 0.5);
+  CHECK(stored + leaked == doctest::Approx(rate * end).epsilon(1e-4));
+}
+
+TEST_CASE("Carter's length: its limits, and no jump between the series")
+{
+  CHECK(carter_half_length(2e-4, 3e-4, 0., 500.) == doctest::Approx(500. / 3.));
+  CHECK(carter_half_length(2e-4, 3e-4, 1e-12, 500.) == doctest::Approx(500. / 3.).epsilon(1e-6));
+  CHECK(carter_half_length(2e-4, 1e-12, 2e-5, 500.) ==
+        doctest::Approx(carter_half_length(2e-4, 0., 2e-5, 500.)).epsilon(1e-6));
+  for (const double S : {1e-3, 20.})
+  {
+    const double C = 2e-5, t = 500., width = 2. * C * std::sqrt(pi * t) / S;
+    CHECK(carter_half_length(2e-4, width * 1.000001, C, t) * 1.000001 ==
+          doctest::Approx(carter_half_length(2e-4, width / 1.000001, C, t)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("A leaking KGD fracture: beside the solution of Adachi & Detournay")
+{
+  for (const char *name : {"kgd_sun_carter", "kgd_carter_strong"})
+  {
+    CAPTURE(name);
+    const ReferenceTable table(name);
+    const double E = table.parameter("E"), nu = table.parameter("nu");
+    const KgdParameters fluid{E, nu, table.parameter("mu"),
+                              std::sqrt(E / (1. - nu * nu) * table.parameter("Gc")),
+                              table.parameter("Q0")};
+    const auto last = table.rows() - 1;
+    const double t = table(last, "t_s");
+    const auto estimate = leaking_kgd(fluid, {table.parameter("C_L"), 0.}, t);
+    CHECK(estimate.half_length == doctest::Approx(table(last, "l_m")).epsilon(0.03));
+    CHECK(estimate.efficiency ==
+          doctest::Approx(table(last, "V_fracture_m2") / (fluid.rate * t)).epsilon(0.05));
+  }
+}
+
+TEST_CASE("A leaking KGD fracture: without leak-off, and where the net pressure drives it")
+{
+  const KgdParameters fluid{3e10, 0.25, 1e-3, 1e6, 1e-4};
+  const Kgd impermeable(fluid);
+  const auto tight = leaking_kgd(fluid, {}, 100.);
+  CHECK(tight.efficiency == doctest::Approx(1.).epsilon(1e-9));
+  CHECK(tight.half_length == doctest::Approx(impermeable.half_length(100.)).epsilon(1e-9));
+
+  // A coefficient that is the same at the net pressure of the end.
+  const auto constant = leaking_kgd(fluid, {2e-5, 0.}, 100.);
+  const double length = constant.half_length;
+  const double net =
+    impermeable.inlet_pressure(100. * std::pow(length / impermeable.half_length(100.), 1.5));
+  CHECK(constant.efficiency < 0.8);
+  CHECK(leaking_kgd(fluid, {1e-5, 1e-5 / net}, 100.).half_length ==
+        doctest::Approx(length).epsilon(1e-6));
 }
 } // namespace stockwork::analytical_hydraulic_fracture_test

@@ -1,0 +1,35 @@
+# What the scene audit says of a minifrac before it runs: --check prints it and solves nothing.
+# stockwork_audit_test(NAME text that is printed [SET ...] [WITHOUT text that must not be])
+function(stockwork_audit_test name says)
+  cmake_parse_arguments(A "" "WITHOUT" "SET" ${ARGN})
+  if(NOT TARGET stockwork_program)
+    return()
+  endif()
+  set(settings)
+  foreach(setting IN LISTS A_SET)
+    list(APPEND settings --set ${setting})
+  endforeach()
+  add_test(NAME scenes/audit/${name} COMMAND stockwork_program
+    ${CMAKE_SOURCE_DIR}/prm/tutorial/cohesive_xfem.prm --check ${settings})
+  set_tests_properties(scenes/audit/${name} PROPERTIES LABELS "scenes;quick" TIMEOUT 60
+    PASS_REGULAR_EXPRESSION "${says}")
+  if(A_WITHOUT)
+    set_tests_properties(scenes/audit/${name} PROPERTIES FAIL_REGULAR_EXPRESSION "${A_WITHOUT}")
+  endif()
+endfunction()
+
+# The run has 0.XX.
+stockwork_audit_test(efficiency "efficiency at shut-in +0\\.31.*after 720 s of pumping"
+  WITHOUT "Warning: (cell|distance)")
+# Half the coefficient of Carter that the rock has: less leaks off.
+stockwork_audit_test(efficiency_carter "efficiency at shut-in +0\\.[4-6]"
+  SET "Fracture flow/Leak-off=carter" "Fracture flow/Carter coefficient=1e-5 m/s^0.5")
+stockwork_audit_test(no_leak_off "distance to walls" WITHOUT "efficiency"
+  SET "Fracture flow/Leak-off=none")
+stockwork_audit_test(not_shut_in "efficiency at the end .*the well is not shut in"
+  SET "Wells/Well 1/Rate=0.04 bbl/min/m")
+# A hundredth of the permeability: the fluid comes 0.15 m into the rock, and cells are 1 m.
+stockwork_audit_test(cells_exceed_diffusion "Warning: cell size / sqrt.c t. = 6\\.[0-9]+: .* too little leaks off"
+  SET "Rock/Permeability=0.015 md")
+stockwork_audit_test(near_walls "Warning: distance to walls / final length = [34]\\."
+  SET "Mesh/Box/Lower corner=-90 m, -90 m" "Mesh/Box/Upper corner=90 m, 90 m")
