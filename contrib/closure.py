@@ -12,7 +12,8 @@ The shut-in is the last time at which the first well's rate falls to zero. Print
 - the closure pressure by the G function (Nolte 1979; Barree, Barree and Craig 2009, "Holistic fracture
   diagnostics"): while the open fracture leaks by Carter's law, G dp/dG is a straight line through the
   origin; it ends at closure. Taken is the last point before G dp/dG falls for good from within a
-  tenth of its greatest value.
+  tenth of its greatest value. In porous rock a closed fracture still leaks and holds next to nothing, so
+  that G dp/dG leaps: where it gets above four times the line, the last point below twice the line is taken.
 """
 import argparse
 import math
@@ -49,6 +50,18 @@ def crossing(x, y, level):
     return None, 0.
 
 
+def end_of_line(g, rising):
+    """Index into the falloff of the last point on the straight line of G dp/dG; None: it does not end."""
+    peak = rising.index(max(rising))
+    slopes = sorted(value / x for x, value in zip(g[:peak // 2 + 1], rising))
+    line = slopes[len(slopes) // 2]
+    if rising[peak] > 4. * line * g[peak]:
+        ends = [i for i in range(peak) if rising[i] <= 2. * line * g[i]]
+    else:
+        ends = [i for i, value in enumerate(rising) if value >= 0.9 * rising[peak]]
+    return ends[-1] + 1 if ends and ends[-1] + 1 < len(rising) else None
+
+
 def closure(table, shut=None):
     """{quantity: pressure [Pa] or None}, the time of shut-in [s] and by how much the pressure falls
     within the step in which the faces meet [Pa]."""
@@ -73,9 +86,7 @@ def closure(table, shut=None):
     g = [g_function(time / start) for time in since]
     rising = [g[i] * (falloff[i + 1] - falloff[i - 1]) / (g[i - 1] - g[i + 1])
               for i in range(1, len(g) - 1)]
-    peak = max(rising)
-    ends = [i for i, value in enumerate(rising) if value >= 0.9 * peak]
-    closed = ends[-1] + 1 if ends[-1] + 1 < len(rising) else None
+    closed = end_of_line(g[1:-1], rising)
     result["g_function"] = None if closed is None else falloff[closed]
     return result, start, fall
 

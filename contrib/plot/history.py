@@ -29,6 +29,8 @@ QUANTITIES = {
     "load": ("load", "kN/m", 1e-3),
     "dissipated_energy": ("dissipated energy", "J/m", 1.),
 }
+# Of the other columns, by how their names end.
+ENDINGS = {"length": ("m", 1.), "aperture": ("mm", 1e3), "pressure": ("MPa", 1e-6), "volume": ("m²", 1.)}
 PREFIX = "reference_"
 THIN = {"equivalent_length": ("fracture_length", "physical tip")}
 
@@ -42,8 +44,10 @@ def labels(directories, runs):
     names = [", ".join(filter(None, (summary.get("fracture_model", ""), read_deck(d).get("Resolution"))))
              for d, (summary, _) in zip(directories, runs)]
     places = [os.path.normpath(d) for d in directories]
-    shared = len(os.path.commonpath(places)) + 1 if len(set(places)) > 1 else 0
-    return [f"{name} ({place[shared:]})" if names.count(name) > 1 else name
+    shared = os.path.commonpath([os.path.abspath(place) for place in places])
+    if len(set(places)) == 1:
+        shared = os.path.dirname(shared)
+    return [f"{name} ({os.path.relpath(place, shared)})" if names.count(name) > 1 else name
             for name, place in zip(names, places)]
 
 
@@ -56,7 +60,8 @@ def draw(directories, columns, output):
     named = labels(directories, runs)
     figure, axes = plt.subplots(1, len(names), figsize=(4 * len(names), 3.2), squeeze=False)
     for ax, name in zip(axes[0], names):
-        label, unit, factor = QUANTITIES.get(name, (name.replace("_", " "), "SI", 1.))
+        label, unit, factor = QUANTITIES.get(
+            name, (name.replace("_", " "), *ENDINGS.get(name.rsplit("_", 1)[-1], ("SI", 1.))))
         for i, (_, table) in enumerate(runs):
             if name not in table:
                 continue
@@ -72,7 +77,8 @@ def draw(directories, columns, output):
                         label=meaning if i == 0 else None)
         ax.set_xlabel("time [s]")
         ax.set_ylabel(f"{label} [{unit}]")
-        ax.set_ylim(bottom=min(0., ax.get_ylim()[0]))
+        if name in QUANTITIES or unit != "MPa":  # a total pressure is far from zero
+            ax.set_ylim(bottom=min(0., ax.get_ylim()[0]))
         ax.grid(alpha=0.3)
     axes[0][0].legend(frameon=False)
     figure.suptitle(runs[0][0].get("case", ""), fontsize=10)
