@@ -1,0 +1,80 @@
+"""contrib/closure.py on made-up falloffs, contrib/back_stress.py on a made-up field."""
+import os
+import sys
+import unittest
+
+import numpy as np
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "contrib"))
+import back_stress  # noqa: E402
+import closure  # noqa: E402
+
+CLOSES_AT = 18e6
+
+
+def falloff(after):
+    """A well shut in at 100 s: the pressure falls in proportion to G until closure at 150 s, and by
+    after(G past closure) more from there on."""
+    at_closure = closure.g_function(0.5)
+    table = {"time": [], "inlet_pressure": [], "well_1_rate": [], "inlet_aperture": []}
+    for time in range(1, 400):
+        g = closure.g_function(max(0., time / 100. - 1.))
+        lost = 0.4e6 * min(g, at_closure) / at_closure + after(max(0., g - at_closure))
+        for column, value in zip(table, (float(time), CLOSES_AT + 0.4e6 - lost, 1. if time <= 100 else 0.,
+                                         max(0., 1e-3 * (1. - g / at_closure)))):
+            table[column].append(value)
+    return table
+
+
+class Closure(unittest.TestCase):
+    def test_slower_after_closure(self):
+        result = closure.closure(falloff(lambda g: 0.05e6 * g))[0]
+        self.assertLess(abs(result["g_function"] - CLOSES_AT), 0.02 * 0.4e6)
+        self.assertLess(abs(result["first_contact"] - CLOSES_AT), 0.02 * 0.4e6)
+
+    def test_leap_after_closure(self):
+        result = closure.closure(falloff(lambda g: 3e6 * (1. - np.exp(-g / 0.1))))[0]
+        self.assertLess(abs(result["g_function"] - CLOSES_AT), 0.02 * 0.4e6)
+
+    def test_never_closes(self):
+        table = falloff(lambda g: 0.)
+        table = {name: column[:145] for name, column in table.items()}
+        self.assertIsNone(closure.closure(table)[0]["g_function"])
+
+
+class Grid:
+    """Squares of 1 m with one stress; twice the compression within 1 m of a line at 30 degrees."""
+
+    def __init__(self, stress, normal):
+        x, y = np.meshgrid(np.arange(-20., 21.), np.arange(-20., 21.), indexing="ij")
+        self.points = np.stack([x.ravel(), y.ravel(), 0. * x.ravel()], axis=1)
+        number = np.arange(x.size).reshape(x.shape)
+        self.corners = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]],
+                                axis=2).reshape(-1, 4)
+        tensor = np.zeros(9)
+        tensor[[0, 1, 3, 4]] = stress[0], stress[2], stress[2], stress[1]
+        near = np.abs(self.points[self.corners][:, :, :2].mean(axis=1) @ normal) < 1.
+        self.cell_data = {"total_stress": np.where(near[:, None], 2., 1.) * tensor}
+        self.point_data = {"pore_pressure": 3. + 0. * x.ravel()}
+
+    def quadrilaterals(self):
+        return self.corners, np.arange(len(self.corners))
+
+
+class BackStress(unittest.TestCase):
+    def test_compression_across_a_line(self):
+        along = np.array([np.sqrt(3.) / 2., 0.5])
+        normal = np.array([-along[1], along[0]])
+        stress = -24e6 * np.outer(along, along) - 18e6 * np.outer(normal, normal)
+        grid = Grid((stress[0, 0], stress[1, 1], stress[0, 1]), normal)
+        line = np.zeros(2), along, 30.
+        across, pores, n = back_stress.mean_beside(grid, line, (1., 4.), 0.5)
+        self.assertAlmostEqual(across / 18e6, 1.)
+        self.assertAlmostEqual(pores, 3.)
+        self.assertTrue(70 < n < 110)  # two bands of 3 m by 15 m
+        self.assertGreater(back_stress.mean_beside(grid, line, (0., 4.), 0.5)[0], 20e6)
+
+
+if __name__ == "__main__":
+    unittest.main()
