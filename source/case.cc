@@ -119,6 +119,23 @@ void refuse_regions(ParameterHandler &prm,
 }
 
 
+/// Rock of a region that the mesh does not have would be nowhere.
+template <int dim>
+void refuse_absent_regions(ParameterHandler &prm, const Geometry<dim> &geometry)
+{
+  std::vector<std::string> present;
+  for (const std::string &name : geometry.region_names())
+    present.push_back("Rock/Region " + std::to_string(geometry.region(name)));
+  for (const DeclaredEntry &entry : declared_entries(prm))
+    if (entry.section.compare(0, 12, "Rock/Region ") == 0 && !entry.value.empty() &&
+        std::find(present.begin(), present.end(), entry.section) == present.end())
+      throw EntryError(
+        entry.path(), entry.value,
+        "nothing (an empty entry), for the mesh has no such region: see 'Mesh/Region "
+        "boxes'");
+}
+
+
 /// The greatest of the first well within a run, where pieces or a constant give it.
 template <int dim>
 double greatest_rate(const Network<dim> &network, const StepControl &control)
@@ -302,6 +319,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   model = make_model<dim>(prm, registry, scene);
   if (model->requirements().uniform_rock || model->requirements().uniform_strength)
     refuse_regions(prm, model_name, model->requirements());
+  refuse_absent_regions(prm, geometry);
   discretisation =
     parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = discretisation.has_pore_pressure;

@@ -59,9 +59,10 @@ double greatest_traction(const BoundaryConditions<dim> &boundary_conditions)
 
 double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack)
 {
-  const Tensor<1, 2> along = crack.points.back() - crack.points.front();
+  const unsigned int middle = crack.points.size() / 2;
+  const Tensor<1, 2> along = crack.points[middle] - crack.points[middle - 1];
   const Tensor<1, 2> normal = Point<2>(-along[1], along[0]) / along.norm();
-  return -(normal * (scene.in_situ_stress(crack.points.front() + 0.5 * along) * normal));
+  return -(normal * (scene.in_situ_stress(crack.points[middle - 1] + 0.5 * along) * normal));
 }
 
 double closing_stress(const Scene<3> &scene, const InitialCrack<3> &crack)

@@ -32,7 +32,7 @@ struct Scales
   double aperture;    ///< of the crack under this pressure, 4 p a/E' [m]
 };
 
-/// Compression across a crack by the in-situ stress, at its middle [Pa].
+/// Compression by the in-situ stress across a crack, or across the middle one of its pieces [Pa].
 double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack);
 double closing_stress(const Scene<3> &scene, const InitialCrack<3> &crack);
 

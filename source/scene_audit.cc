@@ -150,9 +150,10 @@ void add_hydraulic_numbers(const Case<2> &the_case,
     numbers.push_back({"efficiency " + when, efficiency, text.str()});
   }
 
-  const double walls = distance_to_walls(the_case) / length;
+  const double reach = std::max(length, 0.5 * the_case.scene.cracks[0].size());
+  const double walls = distance_to_walls(the_case) / reach;
   std::ostringstream text;
-  text << "the fracture grows to about " << std::setprecision(3) << length << " m per wing; "
+  text << "the fracture grows to about " << std::setprecision(3) << reach << " m per wing; "
        << (walls > 10. ? "the walls are far enough for 1 %"
            : walls > nearest_walls
              ? "the walls cost some per cent"
@@ -184,6 +185,26 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   }
   numbers.push_back({"process zone / final length", zone / length, effect.str()});
 }
+
+
+/// As people give it, and so that components in a wrong order are seen.
+void add_principal_stresses(const Case<2> &the_case, std::vector<SceneNumber> &numbers)
+{
+  const Point<2> place =
+    the_case.scene.cracks.empty() ? Point<2>() : the_case.scene.cracks[0].points.front();
+  const SymmetricTensor<2, 2> stress = the_case.scene.in_situ_stress(place);
+  if (stress.norm() == 0.)
+    return;
+  const auto principal = eigenvectors(stress); // the greatest first
+  const Tensor<1, 2> &axis = principal[1].second;
+  double angle = std::atan2(axis[1], axis[0]) * 180. / numbers::PI;
+  angle += angle < -1e-6 ? 180. : 0.;
+  std::ostringstream text;
+  text << std::setprecision(4) << "at " << std::abs(angle) << " degrees to x; "
+       << (principal[0].first > 0. ? "tension" : "compression") << " across it of "
+       << to_string(std::abs(principal[0].first), dimension::stress);
+  numbers.push_back({"greatest in-situ compression [Pa]", -principal[1].first, text.str()});
+}
 } // namespace
 
 
@@ -191,6 +212,8 @@ template <int dim>
 std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double smallest_cell)
 {
   std::vector<SceneNumber> numbers;
+  if constexpr (dim == 2)
+    add_principal_stresses(the_case, numbers);
   const RockProperties &rock = the_case.rock.main();
   const double duration = the_case.control.end_time - the_case.control.start_time;
 

@@ -179,8 +179,9 @@ Simulation<dim>::Simulation(RunContext &run,
   schedule.parse_parameters(prm);
   if (options.restart && !checkpoint.exists())
     throw InputError("There is no checkpoint in '" + options.output_directory +
-                     "' to restart from. Run without --restart first, or name the directory of "
-                     "that run with --output.");
+                     "' to restart from. Name the directory of the run with --output; a run that "
+                     "shall be continued after its end must have written one on its way: see "
+                     "'Checkpoint/Steps between' and 'Checkpoint/Time between'.");
 }
 
 
@@ -190,6 +191,9 @@ void Simulation<dim>::open_output(ParameterHandler &prm)
   prepare_output_directory(options.output_directory, run.communicator);
   if (!lock)
     lock = std::make_unique<DirectoryLock>(options.output_directory, run.communicator);
+  // What an earlier run has left here belongs to another table.
+  if (!options.restart)
+    checkpoint.remove();
   fields.open(options.output_directory, run.communicator);
   on_root(run.communicator,
           [&]() { write_effective_deck(prm, options.output_directory + "/effective.prm"); });

@@ -34,9 +34,10 @@ template <int dim>
 void InSitu<dim>::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("In situ");
-  prm.declare_entry("Stress", "", Quantities(dimension::stress),
-                    "Total stress, tension positive: xx, yy[, zz] or with the shear components xy "
-                    "(2-D), xy, xz, yz (3-D) behind them. Empty: none.");
+  prm.declare_entry(
+    "Stress", "", Quantities(dimension::stress),
+    "Total stress, tension positive. In 2-D: xx, yy or xx, yy, xy. In 3-D: xx, yy, zz or xx, "
+    "yy, zz, xy, xz, yz. Empty: none.");
   prm.declare_entry("Stress gradient", "", Quantities(dimension::pressure_gradient),
                     "Change of the components per metre upwards (along the last coordinate).");
   prm.declare_entry("Pore pressure", "0 Pa", Quantity(dimension::pressure), "At the datum.");

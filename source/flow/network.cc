@@ -57,7 +57,8 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
   filter_cake_coefficient =
     get_quantity(prm, "Filter cake coefficient", dimension::leakoff_per_pressure);
-  const std::string law = prm.get("Leak-off");
+  const std::string law = prm.get("Leak-off"), carter_text = prm.get("Carter coefficient"),
+                    cake_text = prm.get("Filter cake coefficient");
   leak_off = law == "carter"        ? LeakOff::carter
              : law == "filter cake" ? LeakOff::filter_cake
              : law == "resolved"    ? LeakOff::resolved
@@ -71,6 +72,12 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   if (leak_off == LeakOff::filter_cake && filter_cake_coefficient == 0.)
     throw EntryError("Fracture flow/Filter cake coefficient", "0",
                      "a value > 0 with leak-off through a filter cake");
+  if (leak_off != LeakOff::carter && carter_coefficient != 0.)
+    throw EntryError("Fracture flow/Carter coefficient", carter_text,
+                     "0 with 'Leak-off = " + law + "': it belongs to 'carter'");
+  if (leak_off != LeakOff::filter_cake && filter_cake_coefficient != 0.)
+    throw EntryError("Fracture flow/Filter cake coefficient", cake_text,
+                     "0 with 'Leak-off = " + law + "': it belongs to 'filter cake'");
   all_wells.parse_parameters(prm, least_pressure);
 }
 

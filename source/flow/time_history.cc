@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "stockwork/base/error.h"
 
@@ -21,6 +22,7 @@ std::string trim(const std::string &text)
 TimeHistory::TimeHistory(const std::string &text,
                          const Dimension &dimension,
                          const std::string &path)
+  : path(path)
 {
   const std::string allowed = "a value, '" + std::string(dimension.example) +
                               "'; pieces, each from its time on, '0 s: " + dimension.example +
@@ -62,10 +64,34 @@ TimeHistory::TimeHistory(const std::string &text,
   }
 }
 
+double TimeHistory::expressed(const double t) const
+{
+  const double value = expression->value(dealii::Point<1>(t));
+  if (!std::isfinite(value))
+  {
+    std::ostringstream text;
+    text << "'" << path << "' is not finite at t = " << t << " s.";
+    throw SolveError(text.str());
+  }
+  return value;
+}
+
+double TimeHistory::mean(const double begin, const double end) const
+{
+  if (!expression || !(end > begin))
+    return (*this)(begin, end);
+  // An expression may jump: many points, of equal weight.
+  constexpr unsigned int n = 64;
+  double sum = 0.;
+  for (unsigned int k = 0; k < n; ++k)
+    sum += expressed(begin + (end - begin) * (k + 0.5) / n);
+  return sum / n;
+}
+
 double TimeHistory::operator()(const double begin, const double end) const
 {
   if (expression)
-    return expression->value(dealii::Point<1>(end));
+    return expressed(end);
 
   double integral = 0.;
   for (unsigned int k = 0; k < times.size(); ++k)

@@ -24,9 +24,13 @@ public:
   /// @throws EntryError
   TimeHistory(const std::string &text, const Dimension &dimension, const std::string &path);
 
-  /// What applies to a step from `begin` to `end`: the mean of pieces, so that no volume is lost
-  /// where a step runs across a change; the value at the end of an expression.
+  /// What applies to a step from `begin` to `end`: the mean of pieces; the value at the end of an
+  /// expression. @throws SolveError where an expression is not finite
   double operator()(double begin, double end) const;
+
+  /// The mean over a step of a quantity that adds up, a rate, so that no volume is lost where a
+  /// step runs across a change. @throws SolveError where an expression is not finite
+  double mean(double begin, double end) const;
 
   /// The greatest magnitude; of an expression, the greatest found at powers of ten of time.
   double magnitude() const;
@@ -39,6 +43,9 @@ public:
   double next_jump(double t) const;
 
 private:
+  double expressed(double t) const;
+
+  std::string path; ///< of the entry
   std::vector<double> times, values;
   std::shared_ptr<dealii::FunctionParser<1>> expression;
 };

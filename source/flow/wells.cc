@@ -60,11 +60,11 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
     prm.declare_entry("Name", "", Patterns::Anything(), "Of the well in the output.");
     const std::string forms = " A value; pieces, each from its time on, as in '0 s: 1e-4; 50 s: "
                               "0'; or an expression in SI units, as in 'f(t) = 1e-4*min(t/10,1)'.";
-    prm.declare_entry("Rate", "0", Patterns::Anything(),
+    prm.declare_entry("Rate", "", Patterns::Anything(),
                       "Of the whole well, both wings [m^3/s; m^2/s in 2-D]; negative: production. "
                       "With control 'rate'." +
                         forms);
-    prm.declare_entry("Pressure", "0", Patterns::Anything(),
+    prm.declare_entry("Pressure", "", Patterns::Anything(),
                       "In the borehole [Pa]. With control 'pressure'." + forms);
     prm.declare_entry("Least pressure", "", Patterns::Anything(),
                       "In the borehole [Pa]. With control 'rate': a well cannot take what is not "
@@ -72,10 +72,11 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
                       "be negative, the 'Least pressure' of 'Fracture flow' if that is finite, "
                       "else 0: vacuum, or in unstressed rock, where pressures are net ones, that "
                       "at which a fracture is closed.");
-    prm.declare_entry("Perforations", "", Patterns::Anything(),
-                      "Points where the well is open to a fracture: coordinates separated by "
-                      "',', points by ';'. Each opens into the nearest segment of a fracture, "
-                      "which must be no farther than the segment is long.");
+    prm.declare_entry(
+      "Perforations", "", Patterns::Anything(),
+      "Points where the well is open to a fracture: coordinates separated by "
+      "',', points by ';'. Each must lie on an initial crack (to 2 % of its length), and "
+      "opens into the segment of the fracture that is nearest.");
     prm.declare_entry("Perforation friction", "0", Patterns::Anything(),
                       "kappa in the pressure drop kappa q^2 of each perforation [Pa s^2/m^6; "
                       "Pa s^2/m^4 in 2-D], q the rate "
@@ -104,6 +105,12 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double bo
     prm.enter_subsection(section(number));
     const std::string path = "Wells/" + section(number) + "/";
     const std::string control = prm.get("Control"), points = prm.get("Perforations");
+    for (const auto &[entry, its_control] :
+         {std::make_pair("Rate", "rate"), std::make_pair("Pressure", "pressure")})
+      if (!prm.get(entry).empty() && control != its_control)
+        throw EntryError(path + "Control", control,
+                         std::string("'") + its_control + "' for a well whose '" + entry +
+                           "' is given");
     if (control == "none")
     {
       if (!points.empty())

@@ -182,7 +182,8 @@ private:
     /// Given rate into the model, or given pressure.
     double given(const StepContext &context) const
     {
-      return value(context.time - context.dt, context.time) * (pressure_control ? 1. : fraction);
+      const double begin = context.time - context.dt, end = context.time;
+      return pressure_control ? value(begin, end) : fraction * value.mean(begin, end);
     }
 
     double

@@ -62,6 +62,16 @@ bool Checkpoint::exists() const
   return Utilities::MPI::max(mine ? 1 : 0, communicator) == 1;
 }
 
+void Checkpoint::remove() const
+{
+  on_root(communicator,
+          [&]()
+          {
+            std::filesystem::remove(path("state"));
+            std::filesystem::remove(path("state.previous"));
+          });
+}
+
 template <int dim>
 void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangulation,
                       const DoFHandler<dim> &dof_handler,

@@ -52,6 +52,9 @@ public:
 
   bool exists() const;
 
+  /// Forget what an earlier run has left in this directory. Collective.
+  void remove() const;
+
   /// The bytes given to save(). @throws InputError if there is no checkpoint, if it is damaged or
   /// of another version, or if the deck has changed since
   std::string read(std::uint64_t fingerprint, const std::string &deck = "");

@@ -61,10 +61,13 @@ struct InitialCrack
     return nearest;
   }
 
-  /// Distance of its ends, or diameter [m].
+  /// Length along it, or diameter [m].
   double size() const
   {
-    return disc ? 2. * disc->radius : points.front().distance(points.back());
+    double length = disc ? 2. * disc->radius : 0.;
+    for (unsigned int i = 0; i + 1 < points.size(); ++i)
+      length += points[i].distance(points[i + 1]);
+    return length;
   }
 };
 
