@@ -3,7 +3,8 @@
 
     contrib/closure.py OUTPUT_DIRECTORY [--shut-in TIME]
 
-The shut-in is the last time at which the first well's rate falls to zero. Printed are
+The shut-in is the last time at which the first well's rate falls to zero. A well that flows back is none.
+Printed are
 
 - ISIP, the instantaneous shut-in pressure: the falloff of the inlet pressure, drawn against the square
   root of the time since shut-in, prolonged in a straight line to shut-in;
@@ -12,8 +13,9 @@ The shut-in is the last time at which the first well's rate falls to zero. Print
 - the closure pressure by the G function (Nolte 1979; Barree, Barree and Craig 2009, "Holistic fracture
   diagnostics"): while the open fracture leaks by Carter's law, G dp/dG is a straight line through the
   origin; it ends at closure. Taken is the last point before G dp/dG falls for good from within a
-  tenth of its greatest value. In porous rock a closed fracture still leaks and holds next to nothing, so
-  that G dp/dG leaps: where it gets above four times the line, the last point below twice the line is taken.
+  tenth of its greatest value, if the faces have met by the end of the run. In porous rock a closed fracture
+  still leaks and holds next to nothing, so that G dp/dG leaps: where it gets above four times the line, the
+  last point below twice the line is taken.
 """
 import argparse
 import math
@@ -21,7 +23,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from results import read_statistics  # noqa: E402
+from results import ResultError, read_statistics, script  # noqa: E402
 
 LABELS = {"isip": "ISIP", "first_contact": "pressure at first contact",
           "g_function": "closure pressure (G function)"}
@@ -31,8 +33,28 @@ def shut_in(times, rates):
     """Index of the last step with a rate before it is zero to the end."""
     flowing = [i for i, rate in enumerate(rates) if rate > 0.]
     if not flowing or flowing[-1] + 3 >= len(times):
-        raise ValueError("the first well is not shut in, or the run ends with it")
+        raise ResultError("the first well is not shut in, or the run ends with it")
     return flowing[-1]
+
+
+def step_at(times, shut):
+    """Index of the last step up to a time."""
+    before = [i for i, time in enumerate(times) if time <= shut * (1. + 1e-9)]
+    if not before or before[-1] + 3 >= len(times):
+        raise ResultError(f"a shut-in at {shut:g} s leaves no step before it or fewer than three after it: "
+                          f"the run is from {times[0]:g} to {times[-1]:g} s")
+    return before[-1]
+
+
+def check_rest(times, rates, last):
+    """That the well rests after a step. Of one that stores fluid, the rate falls bit by bit."""
+    least = 1e-6 * max(map(abs, rates))
+    for time, rate in zip(times[last + 1:], rates[last + 1:]):
+        if rate < -least:
+            raise ResultError(f"the first well flows back, at {time:g} s with {rate:g} m^2/s: that is no shut-in")
+        if rate > max(least, 0.99 * rates[last]):
+            raise ResultError(f"the first well is not shut in at {times[last]:g} s: "
+                              f"at {time:g} s its rate is {rate:g} m^2/s")
 
 
 def g_function(delta):
@@ -66,8 +88,9 @@ def closure(table, shut=None):
     """{quantity: pressure [Pa] or None}, the time of shut-in [s] and by how much the pressure falls
     within the step in which the faces meet [Pa]."""
     times, pressures = table["time"], table["inlet_pressure"]
-    last = (shut_in(times, table["well_1_rate"]) if shut is None else
-            max(i for i, time in enumerate(times) if time <= shut * (1. + 1e-9)))
+    last = shut_in(times, table["well_1_rate"]) if shut is None else step_at(times, shut)
+    if "well_1_rate" in table:
+        check_rest(times, table["well_1_rate"], last)
     start = times[last]
     since = [time - start for time in times[last + 1:]]
     falloff = pressures[last + 1:]
@@ -80,13 +103,16 @@ def closure(table, shut=None):
     result = {"isip": mean_y - slope * mean_x}
 
     aperture = table["inlet_aperture"]
+    if not aperture[last] > 0.:
+        raise ResultError(f"at the shut-in, {start:g} s, the fracture is not open at the well")
     result["first_contact"], fall = crossing(
         [pressures[last]] + falloff, aperture[last:], 0.01 * aperture[last])
 
     g = [g_function(time / start) for time in since]
     rising = [g[i] * (falloff[i + 1] - falloff[i - 1]) / (g[i - 1] - g[i + 1])
               for i in range(1, len(g) - 1)]
-    closed = end_of_line(g[1:-1], rising)
+    # G dp/dG falls in open fractures, too: closed are only faces that have met.
+    closed = None if result["first_contact"] is None else end_of_line(g[1:-1], rising)
     result["g_function"] = None if closed is None else falloff[closed]
     return result, start, fall
 
@@ -97,11 +123,9 @@ def main():
     parser.add_argument("directory")
     parser.add_argument("--shut-in", type=float, help="time [s], where the rate does not say it")
     options = parser.parse_args()
-    try:
-        result, start, fall = closure(read_statistics(options.directory), options.shut_in)
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"{options.directory}: {error}")
-    print(f"shut-in at {start:g} s")
+    result, start, fall = closure(read_statistics(options.directory), options.shut_in)
+    taken = options.shut_in is not None and abs(options.shut_in - start) > 1e-6 * start
+    print(f"shut-in taken at the step at {start:g} s" if taken else f"shut-in at {start:g} s")
     for name, value in result.items():
         print(f"{LABELS[name]}: " + ("not in this run" if value is None else f"{value / 1e6:.4f} MPa"))
     if fall > 0.02 * abs(result["first_contact"] or 0.):
@@ -110,4 +134,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    script(main)

@@ -2,20 +2,64 @@
 import csv
 import json
 import os
+import sys
+
+
+class ResultError(ValueError):
+    """What is asked for is not among the results; the text is a sentence for who asked."""
+
+
+class Table(dict):
+    """Columns of statistics.csv; one that is not there is an error that names those that are."""
+
+    def __init__(self, path, columns):
+        super().__init__(columns)
+        self.path = path
+
+    def __missing__(self, name):
+        raise ResultError(f"{self.path} has no column '{name}'; there is: {', '.join(self)}")
+
+
+def script(main):
+    """Run the main function of a script. Results that are not there are said in a sentence, exit status 1."""
+    try:
+        sys.exit(main())
+    except (OSError, ResultError) as error:
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {error}")
+
+
+def nothing(directory, what):
+    """The error that a directory does not have a file, or a step; why, where that is known."""
+    if not os.path.isdir(directory):
+        return ResultError(f"there is no directory '{directory}'")
+    if not os.path.exists(os.path.join(directory, "summary.json")):
+        return ResultError(f"'{directory}' has no {what}, and no summary.json: no run has ended there")
+    summary = read_summary(directory)
+    why = f": the run has failed. {summary.get('reason', '')}" if summary.get("status") == "failed" else ""
+    return ResultError(f"'{directory}' has no {what}{why}")
 
 
 def read_summary(directory):
     """summary.json of an output directory, as nested dictionaries."""
-    with open(os.path.join(directory, "summary.json"), encoding="utf-8") as file:
+    path = os.path.join(directory, "summary.json")
+    if not os.path.exists(path):
+        raise nothing(directory, "results")
+    with open(path, encoding="utf-8") as file:
         return json.load(file)
 
 
 def read_statistics(directory):
     """statistics.csv as {column: [one number per accepted step]}; text stays text."""
-    with open(os.path.join(directory, "statistics.csv"), encoding="utf-8", newline="") as file:
+    path = os.path.join(directory, "statistics.csv")
+    if not os.path.exists(path):
+        raise nothing(directory, "statistics.csv")
+    with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.reader(line for line in file if line.strip() and not line.startswith("#")))
+    if len(rows) < 2:
+        raise nothing(directory, "step in statistics.csv")
     names = [name.strip() for name in rows[0]]
-    return {name: [_number(row[i] if i < len(row) else "") for row in rows[1:]] for i, name in enumerate(names)}
+    return Table(path, {name: [_number(row[i] if i < len(row) else "") for row in rows[1:]]
+                        for i, name in enumerate(names)})
 
 
 def read_deck(directory):

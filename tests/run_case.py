@@ -37,7 +37,7 @@ import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "contrib"))
 from closure import closure  # noqa: E402
-from results import lookup, read_statistics, read_summary  # noqa: E402
+from results import ResultError, lookup, read_statistics, read_summary  # noqa: E402
 
 MPIRUN = "mpirun --allow-run-as-root --oversubscribe -np"
 
@@ -345,7 +345,7 @@ def _terminate_after(runner, process, name, steps):
     while process.poll() is None:
         try:
             rows = len(next(iter(read_statistics(runner.output(name)).values())))
-        except (OSError, IndexError, StopIteration):
+        except (OSError, ResultError):
             rows = 0
         if rows >= steps:
             # To one rank, not to mpirun, which would end all of them at once.

@@ -9,6 +9,7 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "contrib"))
 import back_stress  # noqa: E402
 import closure  # noqa: E402
+from results import ResultError  # noqa: E402
 
 CLOSES_AT = 18e6
 
@@ -41,6 +42,36 @@ class Closure(unittest.TestCase):
         table = falloff(lambda g: 0.)
         table = {name: column[:145] for name, column in table.items()}
         self.assertIsNone(closure.closure(table)[0]["g_function"])
+
+    def test_open_to_the_end(self):
+        """G dp/dG falls as if at closure, but the faces have not met."""
+        table = falloff(lambda g: 0.05e6 * g)
+        table["inlet_aperture"] = [max(2e-5, aperture) for aperture in table["inlet_aperture"]]
+        result = closure.closure(table)[0]
+        self.assertIsNone(result["first_contact"])
+        self.assertIsNone(result["g_function"])
+
+    def refused(self, table, text, *shut):
+        with self.assertRaisesRegex(ResultError, text):
+            closure.closure(table, *shut)
+
+    def test_what_is_no_shut_in(self):
+        table = falloff(lambda g: 0.05e6 * g)
+        back = [rate if rate > 0. else -1. for rate in table["well_1_rate"]]
+        self.refused({**table, "well_1_rate": back}, "flows back, at 101 s")
+        self.refused({**table, "well_1_rate": back}, "flows back, at 101 s", 100.)
+        self.refused(table, "not shut in at 50 s", 50.)
+        self.refused({**table, "well_1_rate": [1.] * 399}, "not shut in")
+        self.refused({**table, "inlet_aperture": [0.] * 399}, "not open at the well")
+        for outside in (0.5, 500., float("nan")):
+            self.refused(table, "the run is from 1 to 399 s", outside)
+
+    def test_trickle_of_a_well_that_stores(self):
+        table = falloff(lambda g: 0.05e6 * g)
+        table["well_1_rate"] = [rate if rate > 0. else 0.5 ** (i - 99) for i, rate in enumerate(table["well_1_rate"])]
+        result, start, _ = closure.closure(table, 100.)
+        self.assertEqual(start, 100.)
+        self.assertLess(abs(result["g_function"] - CLOSES_AT), 0.02 * 0.4e6)
 
 
 class Grid:
