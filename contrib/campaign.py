@@ -23,6 +23,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
+from arguments import PROGRAM, positive, program, whole_from  # noqa: E402
 from campaign.deck import deck  # noqa: E402
 from campaign.judge import Run, judge  # noqa: E402
 from campaign.scene import FAMILIES, control, draw  # noqa: E402
@@ -110,23 +111,24 @@ def main():
                                      epilog="families:\n" + "\n".join(
                                          f"  {name:16} {text}" for name, text in FAMILIES.items()))
     parser.add_argument("--family", nargs="+", choices=FAMILIES, default=list(FAMILIES), metavar="NAME")
-    parser.add_argument("--n", type=int, default=10, help="scenes of each family")
-    parser.add_argument("--first", type=int, default=0, help="number of the first scene")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--n", type=whole_from(1), default=10, help="scenes of each family")
+    parser.add_argument("--first", type=whole_from(0), default=0, help="number of the first scene")
+    parser.add_argument("--seed", type=whole_from(0), default=1)
     parser.add_argument("--model", default="cohesive_xfem", choices=("cohesive_xfem", "peridynamics"))
-    parser.add_argument("--km-from", type=float, default=0.5)
-    parser.add_argument("--km-to", type=float, default=8.)
-    parser.add_argument("--wing", type=float, default=42., help="length of a wing at the end, in cells")
-    parser.add_argument("--jobs", type=int, default=2, help="scenes at once")
-    parser.add_argument("--timeout", type=float, default=1800., help="seconds per run")
-    parser.add_argument("--program", default=os.path.join(HERE, "..", "build", "source", "stockwork"))
+    parser.add_argument("--km-from", type=positive, default=0.5)
+    parser.add_argument("--km-to", type=positive, default=8.)
+    parser.add_argument("--wing", type=positive, default=42., help="length of a wing at the end, in cells")
+    parser.add_argument("--jobs", type=whole_from(1), default=2, help="scenes at once")
+    parser.add_argument("--timeout", type=positive, default=1800., help="seconds per run")
+    parser.add_argument("--program", type=program, default=PROGRAM)
     parser.add_argument("--set", action="append", default=[], metavar="SECTION/ENTRY=VALUE",
                         help="for scene and control alike")
     parser.add_argument("--keep", default="campaign-failures", metavar="DIR",
                         help="where scenes run, and failures stay")
     parser.add_argument("--keep-all", action="store_true", help="right ones stay, too, with their fields")
     options = parser.parse_args()
-    options.program = os.path.abspath(options.program)
+    if options.km_from > options.km_to:
+        parser.error(f"--km-from {options.km_from:g} is greater than --km-to {options.km_to:g}")
     options.talk = threading.Lock()
 
     tasks = [(family, options.first + i) for family in options.family for i in range(options.n)]

@@ -2,12 +2,15 @@
 """Print what a run ended with, beside the reference where there is one.
 
     contrib/report.py OUTPUT_DIRECTORY
+
+The exit status is 1 if the run has failed.
 """
+import argparse
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from results import read_summary  # noqa: E402
+from results import read_summary, script  # noqa: E402
 
 
 def show(value):
@@ -16,6 +19,10 @@ def show(value):
 
 def percent(value):
     return f"{100 * value:.3g} %" if isinstance(value, (int, float)) else "-"
+
+
+def reached_end(summary):
+    return summary.get("status", "finished") == "finished"
 
 
 def report(summary):
@@ -37,6 +44,8 @@ def report(summary):
     lines = ["  ".join(cell.ljust(w) if i == 0 else cell.rjust(w)
                        for i, (cell, w) in enumerate(zip(row, widths))) for row in rows]
     lines.insert(1, "-" * len(lines[0]))
+    if not reached_end(summary):
+        lines.insert(0, f"status: {summary['status']}. {summary.get('reason', '')}")
     lines += sorted({f"reference: {e['reference']}" for e in errors.values() if e.get("reference")})
     balance = summary.get("fluid_balance", {})
     if balance.get("injected"):
@@ -52,7 +61,14 @@ def report(summary):
     return lines
 
 
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory")
+    summary = read_summary(parser.parse_args().directory)
+    print("\n".join(report(summary)))
+    return 0 if reached_end(summary) else 1
+
+
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    print("\n".join(report(read_summary(sys.argv[1]))))
+    script(main)
