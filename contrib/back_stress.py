@@ -19,7 +19,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "plot")]
 import vtu  # noqa: E402
 from field import pascals  # noqa: E402
-from results import read_deck  # noqa: E402
+from results import ResultError, read_deck, script  # noqa: E402
 
 
 def line_of(fracture):
@@ -42,7 +42,7 @@ def mean_beside(grid, line, distances, middle):
     far = np.abs(offset @ normal)
     chosen = (far >= distances[0]) & (far <= distances[1]) & (np.abs(offset @ along) <= 0.5 * middle * length)
     if not chosen.any():
-        sys.exit("back_stress.py: no cell lies there; widen --from, --to or --middle")
+        raise ResultError("no cell lies there; widen --from, --to or --middle")
     diagonals = polygons[chosen, 2] - polygons[chosen, 0], polygons[chosen, 3] - polygons[chosen, 1]
     area = 0.5 * np.abs(diagonals[0][:, 0] * diagonals[1][:, 1] - diagonals[0][:, 1] * diagonals[1][:, 0])
 
@@ -88,4 +88,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    script(main)

@@ -6,12 +6,13 @@
 For each run with a reference: the amplitude (half of the way from a local extremum of pressure over
 reference to the next), its median and greatest value over the second half of the time [%].
 """
+import argparse
 import os
 import statistics
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from results import read_statistics  # noqa: E402
+from results import read_statistics, script  # noqa: E402
 
 
 def amplitudes(ratios):
@@ -21,14 +22,15 @@ def amplitudes(ratios):
 
 
 def main():
-    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
-        sys.exit(__doc__)
-    for directory in sys.argv[1:]:
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directories", nargs="+", metavar="DIRECTORY")
+    for directory in parser.parse_args().directories:
         columns = read_statistics(directory)
         end = columns["time"][-1]
-        found = amplitudes([p / r for t, p, r in zip(columns["time"], columns["inlet_pressure"],
-                                                     columns["reference_inlet_pressure"])
-                            if t > end / 2])
+        late = [row for row in zip(columns["time"], columns["inlet_pressure"], columns["reference_inlet_pressure"])
+                if row[0] > end / 2]
+        found = amplitudes([p / r for _, p, r in late if isinstance(r, float)])
         if found:
             print(f"{directory}: {100 * statistics.median(found):.2g} (median), "
                   f"{100 * max(found):.2g} (greatest) %")
@@ -37,4 +39,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    script(main)

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Draw a field of the rock, deformed, with the fracture opened by as much.
 
-    field.py DIRECTORY [--field pore_pressure] [--component yy] [--time T...] [--warp FACTOR]
+    field.py DIRECTORY [--field NAME] [--component yy] [--time T...] [--warp FACTOR]
              [--window x0,x1,y0,y1] [--mirror] [--fluid] [--output FILE.png]
 
+Without --field, this is the pore pressure, without one the displacement or the total stress.
 What has a sign (components of stress, displacement, flux) is drawn in colours that part at zero, or
 at the stress in situ where the deck gives one. Cells that the fracture has opened are left grey, as
 are stresses where bonds are broken. Several times are drawn side by side. --fluid fills the opening
@@ -26,11 +27,14 @@ from matplotlib.tri import Triangulation  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..")]
+import arguments  # noqa: E402
 import vtu  # noqa: E402
-from results import read_deck  # noqa: E402
+from results import ResultError, read_deck, script  # noqa: E402
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "xy": 1, "xz": 2, "yx": 3, "yy": 4, "yz": 5,
               "zx": 6, "zy": 7, "zz": 8}
+
+DEFAULTS = ["pore_pressure", "displacement", "total_stress"]
 
 UNITS = {"pore_pressure": ("MPa", 1e-6), "total_stress": ("MPa", 1e-6),
          "effective_stress": ("MPa", 1e-6), "displacement": ("mm", 1e3), "flux": ("m/s", 1.)}
@@ -40,11 +44,20 @@ def choose(grid, name, component):
     """The named array as one value per point or per cell."""
     arrays = {**grid.cell_data, **grid.point_data}
     if name not in arrays:
-        sys.exit(f"field.py: no field '{name}'; there is: {', '.join(sorted(arrays))}")
+        raise ResultError(f"no field '{name}'; there is: {', '.join(sorted(arrays))}")
     values = arrays[name]
+    letters = 0 if values.ndim == 1 else 1 if values.shape[1] == 3 else 2
+    if component and len(component) != letters:
+        raise ResultError(f"no component '{component}' of '{name}', which "
+                          f"{('is a number', 'has x, y and z', 'has xx, xy, yy and so on')[letters]}")
     if values.ndim == 2:
         values = values[:, COMPONENTS[component]] if component else np.linalg.norm(values, axis=1)
     return values, name in grid.point_data
+
+
+def default_field(grid):
+    """What is drawn if nothing is asked for."""
+    return next((name for name in DEFAULTS if name in {**grid.cell_data, **grid.point_data}), DEFAULTS[0])
 
 
 def neutral(options):
@@ -119,6 +132,9 @@ def fracture_values(fracture, name):
     ends, cells = fracture.cells(vtu.LINE)
     if name in fracture.cell_data:
         return fracture.cell_data[name][cells]
+    if name not in fracture.point_data:
+        raise ResultError(f"no '{name}' of the fracture; there is: "
+                          + ", ".join(sorted({**fracture.cell_data, **fracture.point_data})))
     return fracture.point_data[name][ends].mean(axis=1)
 
 
@@ -140,7 +156,9 @@ def window_of(grid, lines, aperture):
 
 def panel(ax, options, time):
     """One picture: its time, its factor on the opening, and what the colours belong to."""
-    time, path = vtu.at_time(vtu.series(options.directory, "fields"), time)
+    asked, (time, path) = time, vtu.at_time(vtu.series(options.directory, "fields"), time)
+    if asked is not None and abs(asked - time) > 1e-6 * abs(time):
+        print(f"no fields were written at {asked:g} s; drawn are those at {time:g} s")
     grid = vtu.read(path)
     lines, aperture, pressure = np.zeros((0, 2, 2)), np.zeros(0), None
     if os.path.exists(os.path.join(options.directory, "fracture.pvd")):
@@ -155,6 +173,8 @@ def panel(ax, options, time):
 
     values, at_points = choose(grid, options.field, options.component)
     corners, cells = grid.quadrilaterals()
+    if not len(cells):
+        raise ResultError(f"the cells of '{options.directory}' are not quadrilaterals: only plane runs are drawn")
     centres = grid.points[corners].mean(axis=1)
     margin = 0.1 * max(window[1] - window[0], window[3] - window[2])
     seen = ((centres[:, 0] > window[0] - margin) & (centres[:, 0] < window[1] + margin)
@@ -221,6 +241,8 @@ def limits(values, middle):
 
 def draw(options):
     times = options.time or [None]
+    if options.field is None:
+        options.field = default_field(vtu.read(vtu.at_time(vtu.series(options.directory, "fields"))[1]))
     figure, axes = plt.subplots(1, len(times), squeeze=False, sharey=True)
     panels = [panel(ax, options, time) for ax, time in zip(axes[0], times)]
     window = panels[0][1]
@@ -247,11 +269,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory")
-    parser.add_argument("--field", default="pore_pressure")
+    parser.add_argument("--field", metavar="NAME")
     parser.add_argument("--component", choices=COMPONENTS)
     parser.add_argument("--time", type=float, nargs="+")
     parser.add_argument("--warp", type=float)
-    parser.add_argument("--window", type=lambda text: tuple(float(x) for x in text.split(",")))
+    parser.add_argument("--window", type=arguments.window)
     parser.add_argument("--mirror", action="store_true")
     parser.add_argument("--fluid", action="store_true")
     parser.add_argument("--output")
@@ -259,4 +281,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    script(main)

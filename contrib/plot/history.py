@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from results import read_deck, read_statistics, read_summary  # noqa: E402
+from results import ResultError, read_deck, read_statistics, read_summary, script  # noqa: E402
 
 # What is drawn, if there: column, label, unit and factor from SI.
 QUANTITIES = {
@@ -55,8 +55,11 @@ def draw(directories, columns, output):
     runs = [(read_summary(d), read_statistics(d)) for d in directories]
     names = columns or [n for n in QUANTITIES
                         if any(any(numbers(table.get(n, []))) for _, table in runs)]
-    if not names:
-        sys.exit("history.py: none of these columns: " + ", ".join(QUANTITIES))
+    there = sorted(set().union(*(table for _, table in runs)))
+    unknown = [name for name in names if name not in there]
+    if unknown or not names:
+        raise ResultError((f"no run has the column '{unknown[0]}'" if unknown else "choose --columns")
+                          + f"; there is: {', '.join(there)}")
     named = labels(directories, runs)
     figure, axes = plt.subplots(1, len(names), figsize=(4 * len(names), 3.2), squeeze=False)
     for ax, name in zip(axes[0], names):
@@ -99,4 +102,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    script(main)

@@ -12,8 +12,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..")]
 import vtu  # noqa: E402
+from arguments import whole_from  # noqa: E402
+from results import script  # noqa: E402
 
 QUANTITIES = {"aperture": ("aperture [mm]", 1e3), "fluid_pressure": ("fluid pressure [MPa]", 1e-6),
               "pressure": ("fluid pressure [MPa]", 1e-6)}
@@ -37,7 +40,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory")
-    parser.add_argument("--times", type=int, default=4)
+    parser.add_argument("--times", type=whole_from(1), default=4)
     parser.add_argument("--output")
     options = parser.parse_args()
 
@@ -68,4 +71,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    script(main)

@@ -3,10 +3,14 @@ or base64 data, plain or zlib-compressed. Nothing else of VTK's formats."""
 import base64
 import os
 import struct
+import sys
 import zlib
 from xml.etree import ElementTree
 
 import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from results import nothing  # noqa: E402
 
 TYPES = {"Int8": "i1", "UInt8": "u1", "Int32": "i4", "UInt32": "u4", "Int64": "i8", "UInt64": "u8",
          "Float32": "f4", "Float64": "f8"}
@@ -60,14 +64,15 @@ def series(directory, name):
     """[(time, file)] of DIRECTORY/NAME.pvd."""
     path = os.path.join(directory, name + ".pvd")
     if not os.path.exists(path):
-        raise FileNotFoundError(f"no {name}.pvd in {directory}")
-    return read_pvd(path)
+        raise nothing(directory, name + ".pvd")
+    entries = read_pvd(path)
+    if not entries:
+        raise nothing(directory, f"file in {name}.pvd")
+    return entries
 
 
 def at_time(entries, time=None):
     """The entry nearest to a time; without one, the last."""
-    if not entries:
-        raise ValueError("the .pvd lists no files")
     return entries[-1] if time is None else min(entries, key=lambda entry: abs(entry[0] - time))
 
 
