@@ -195,11 +195,14 @@ make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const S
   if (!create)
     throw EntryError("Fracture/Model", name,
                      "a model that exists in " + std::to_string(dim) + "-D");
-  prm.enter_subsection(name);
+  const bool has_section = prm.subsection_path_exists({name});
+  if (has_section)
+    prm.enter_subsection(name);
   try
   {
     auto model = create(prm, scene);
-    prm.leave_subsection();
+    if (has_section)
+      prm.leave_subsection();
     prm.leave_subsection();
     return model;
   }
@@ -248,6 +251,11 @@ void declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &
   prm.declare_entry("Model", "none", Patterns::Selection(names), "The fracture model.");
   for (const auto &[name, entry] : registry.all())
   {
+    // An empty section would be printed, and is none when it is read again.
+    ParameterHandler own;
+    entry.declare_parameters(own);
+    if (declared_entries(own).empty())
+      continue;
     prm.enter_subsection(name);
     entry.declare_parameters(prm);
     prm.leave_subsection();

@@ -279,14 +279,8 @@ std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
 
   std::vector<std::pair<Origin, std::string>> errors;
   std::vector<std::string> warnings;
-  // A section without entries drops nothing; effective.prm has one for a model that needs none.
-  const auto has_entries = [this](const std::string &path)
-  {
-    const auto next = entries.lower_bound(path + "/");
-    return next != entries.end() && next->first.compare(0, path.size() + 1, path + "/") == 0;
-  };
   for (const auto &[path, origin] : sections)
-    if (!is_section(path) && is_section(section_of(path)) && has_entries(path))
+    if (!is_section(path) && is_section(section_of(path)))
       errors.emplace_back(origin, "there is no section '" + path + "'" +
                                     hint_for_section(path, section_names));
 

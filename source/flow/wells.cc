@@ -105,19 +105,16 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double bo
     prm.enter_subsection(section(number));
     const std::string path = "Wells/" + section(number) + "/";
     const std::string control = prm.get("Control"), points = prm.get("Perforations");
+    if (control == "none" && !points.empty())
+      throw EntryError(path + "Control", "none",
+                       "'rate' or 'pressure' for a well that has perforations");
     for (const auto &[entry, its_control] :
          {std::make_pair("Rate", "rate"), std::make_pair("Pressure", "pressure")})
       if (!prm.get(entry).empty() && control != its_control)
         throw EntryError(path + "Control", control,
                          std::string("'") + its_control + "' for a well whose '" + entry +
                            "' is given");
-    if (control == "none")
-    {
-      if (!points.empty())
-        throw EntryError(path + "Control", "none",
-                         "'rate' or 'pressure' for a well that has perforations");
-    }
-    else
+    if (control != "none")
     {
       Well well;
       well.number = number;

@@ -460,6 +460,7 @@ TEST_CASE("perforations share the borehole's pressure and rate")
   SUBCASE("at given pressure")
   {
     chain.set_up(entries + Chain::Entries{{"Wells/Well 1/Control", "pressure"},
+                                          {"Wells/Well 1/Rate", ""},
                                           {"Wells/Well 1/Pressure", "0 s: 1 MPa; 1 s: 3 MPa"}});
     chain.step(1.);
     CHECK(chain.extra[1] == Approx(1e6));
