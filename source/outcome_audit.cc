@@ -71,8 +71,9 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
                     "describe this fracture"});
   }
 
-  // Where the deck lets the fluid boil, the lag is part of the model.
-  if (!the_case.network.may_boil())
+  // Where the deck lets the fluid boil, the lag is part of the model; where it gives the pressure,
+  // there is no flow.
+  if (!the_case.network.may_boil() && std::isnan(the_case.scene.crack_pressure))
   {
     const bool suction = outcome.least_pressure < vacuum;
     assumptions.push_back({"no fluid lag: least pressure in the fracture [Pa]",
