@@ -110,7 +110,7 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double bo
                        "'rate' or 'pressure' for a well that has perforations");
     for (const auto &[entry, its_control] :
          {std::make_pair("Rate", "rate"), std::make_pair("Pressure", "pressure")})
-      if (!prm.get(entry).empty() && control != its_control)
+      if (!prm.get(entry).empty() && prm.get(entry) != "0" && control != its_control)
         throw EntryError(path + "Control", control,
                          std::string("'") + its_control + "' for a well whose '" + entry +
                            "' is given");
