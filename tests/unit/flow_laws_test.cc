@@ -118,7 +118,12 @@ TEST_CASE("histories in time")
   CHECK(pieces.next_jump(10.) == 60.);
   CHECK(pieces.next_jump(120.) == std::numeric_limits<double>::infinity());
 
-  CHECK(history("f(t) = 1e-4*min(t/10, 1)")(4., 5.) == Approx(5e-5));
+  const auto ramp = history("f(t) = 1e-4*min(t/10, 1)");
+  CHECK(ramp(4., 5.) == Approx(5e-5));
+  CHECK(ramp.mean(4., 5.) == Approx(4.5e-5));
+  CHECK(pieces.mean(50., 70.) == Approx(2.));
+  CHECK(history("f(t) = if(t < 4.5, 2, 0)").mean(4., 5.) == Approx(1.));
+  CHECK_THROWS_AS(history("f(t) = sqrt(1 - t)").mean(1., 2.), stockwork::SolveError);
 
   for (const std::string bad : {"2 MPa", "fast", "0 s: 1; 1", "2 s: 1; 1 s: 0", "f(t) = 2*x", ""})
     CHECK_THROWS_WITH_AS(history(bad), doctest::Contains("Wells/Well 1/Rate"), EntryError);
