@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace stockwork
 {
@@ -133,6 +134,35 @@ void refuse_absent_regions(ParameterHandler &prm, const Geometry<dim> &geometry)
         entry.path(), entry.value,
         "nothing (an empty entry), for the mesh has no such region: see 'Mesh/Region "
         "boxes'");
+}
+
+
+/// Regions that the deck names and says nothing of.
+template <int dim>
+std::vector<std::string> regions_without_rock(ParameterHandler &prm, const Geometry<dim> &geometry)
+{
+  std::set<std::string> described;
+  for (const DeclaredEntry &entry : declared_entries(prm))
+    if (!entry.value.empty())
+      described.insert(entry.section);
+  std::vector<std::string> others;
+  for (const std::string &name : geometry.region_names())
+    if (described.count("Rock/Region " + std::to_string(geometry.region(name))) == 0)
+      others.push_back(name);
+  return others;
+}
+
+
+/// An open crack from side to side leaves two bodies, each of which must be held.
+std::string body_in_two(const std::vector<InitialCrack<2>> &cracks, const Geometry<2> &geometry)
+{
+  for (const InitialCrack<2> &crack : cracks)
+    if (crack.kind == InitialCrack<2>::Kind::open && geometry.on_side(crack.points.front()) &&
+        geometry.on_side(crack.points.back()))
+      return "The open crack '" + crack.text +
+             "' cuts the rock in two: sides of both parts must be held, or nothing resists the "
+             "motion of one of them.";
+  return "";
 }
 
 
@@ -310,6 +340,9 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   scene.cracks = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
   scene.domain_size = geometry.diameter();
+  if constexpr (dim == 2)
+    if (const std::string text = body_in_two(scene.cracks, geometry); !text.empty())
+      warnings.push_back(text);
   network.check_perforations(scene.cracks);
   scene.crack_pressure = given_crack_pressure(prm);
   control.parse_parameters(prm);
@@ -328,6 +361,11 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   if (model->requirements().uniform_rock || model->requirements().uniform_strength)
     refuse_regions(prm, model_name, model->requirements());
   refuse_absent_regions(prm, geometry);
+  for (const std::string &region : regions_without_rock(prm, geometry))
+    warnings.push_back("Region '" + region +
+                       "' of the mesh is rock as everywhere else: subsection "
+                       "'Rock/Region " +
+                       std::to_string(geometry.region(region)) + "' is empty.");
   discretisation =
     parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = discretisation.has_pore_pressure;
@@ -346,6 +384,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   if (scheme.kind() == TimeScheme::Kind::newmark)
     require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
+  if (std::isfinite(control.error_tolerance) && scheme.kind() != TimeScheme::Kind::bdf2)
+    throw EntryError(
+      "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
+      "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
   if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Least pressure'");

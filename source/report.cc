@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -117,10 +118,16 @@ std::map<std::string, double> Report<dim>::observe()
     }
   for (unsigned int d = 0; d < dim && !network.segments().empty(); ++d)
   {
-    const auto [low, high] =
-      std::minmax_element(network.segments().begin(), network.segments().end(),
-                          [d](const auto &a, const auto &b) { return a.centre[d] < b.centre[d]; });
-    values[std::string("extent_") + "xyz"[d]] = high->centre[d] - low->centre[d];
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto &segment : network.segments())
+    {
+      // So far a segment reaches from its centre, in its plane.
+      const double half =
+        0.5 * segment.size() * std::sqrt(std::max(0., 1. - std::pow(segment.normal[d], 2)));
+      low = std::min(low, segment.centre[d] - half);
+      high = std::max(high, segment.centre[d] + half);
+    }
+    values[std::string("extent_") + "xyz"[d]] = high - low;
   }
   const double time = stepper.last_context().time;
   shown.n_tips = summary.n_tips;

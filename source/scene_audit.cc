@@ -114,9 +114,60 @@ analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case)
 }
 
 
+/// Where the first fracture will end: straight on, or along the greatest compression if that is
+/// another direction.
+std::vector<Point<2>> final_tips(const Case<2> &the_case, const double half_length)
+{
+  const auto &corners = the_case.scene.cracks[0].points;
+  const Geometry<2> &geometry = the_case.geometry;
+  const SymmetricTensor<2, 2> stress = the_case.scene.in_situ_stress(corners.front());
+  std::vector<Point<2>> tips;
+  for (const bool forward : {false, true})
+  {
+    const Point<2> &tip = forward ? corners.back() : corners.front();
+    const Point<2> &other = forward ? corners.front() : corners.back();
+    if (geometry.on_side(tip))
+      continue;
+    Tensor<1, 2> along = (tip - other) / tip.distance(other);
+    const Tensor<1, 2> across = Point<2>(-along[1], along[0]);
+    if (std::abs(along * (stress * across)) > 0.05 * stress.norm())
+    {
+      const Tensor<1, 2> axis = eigenvectors(stress)[1].second;
+      along = axis * along < 0. ? -axis : axis;
+    }
+    tips.push_back((geometry.on_side(other) ? other : other + 0.5 * (tip - other)) +
+                   half_length * along);
+  }
+  return tips;
+}
+
+
+/// A run ends where its fracture comes to cells that do not resolve the process zone.
+void add_cells_ahead(const Case<2> &the_case,
+                     const double half_length,
+                     const double process_zone,
+                     const MeshSizes<2> &mesh,
+                     std::vector<SceneNumber> &numbers)
+{
+  const double here = mesh.unsplit_at(the_case.scene.cracks[0].points.front());
+  double there = 0.;
+  for (const Point<2> &tip : final_tips(the_case, half_length))
+    there = std::max(there, mesh.unsplit_at(tip));
+  const double allowed = std::max(1., 0.25 * process_zone / mesh.smallest);
+  if (there <= allowed * here * (1. + 1e-6))
+    return;
+  std::ostringstream text;
+  text << std::setprecision(3) << "the fracture will stop the run where larger cells than "
+       << allowed * mesh.smallest
+       << " m begin, which do not resolve its process zone; cells alike as far as it shall run: "
+          "Mesh/Box/X spacing and Y spacing, 'size from place to place'";
+  numbers.push_back({"cell size at the final tips / at the start", there / here, text.str(), true});
+}
+
+
 void add_hydraulic_numbers(const Case<2> &the_case,
                            const Pumping &pumping,
-                           const double smallest_cell,
+                           const MeshSizes<2> &mesh,
                            std::vector<SceneNumber> &numbers)
 {
   const RockProperties &rock = the_case.rock.main();
@@ -166,7 +217,7 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   // proportion; less where viscosity dominates.
   const double zone =
     std::isnan(rock.tensile_strength)
-      ? cells_of_process_zone * smallest_cell
+      ? cells_of_process_zone * mesh.smallest
       : rock.plane_modulus() * rock.energy_release_rate / std::pow(rock.tensile_strength, 2);
   std::ostringstream effect;
   effect << std::setprecision(2);
@@ -184,6 +235,7 @@ void add_hydraulic_numbers(const Case<2> &the_case,
       effect << "that is the rock's strength, not the mesh's";
   }
   numbers.push_back({"process zone / final length", zone / length, effect.str()});
+  add_cells_ahead(the_case, reach, zone, mesh, numbers);
 }
 
 
@@ -209,7 +261,7 @@ void add_principal_stresses(const Case<2> &the_case, std::vector<SceneNumber> &n
 
 
 template <int dim>
-std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double smallest_cell)
+std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
   std::vector<SceneNumber> numbers;
   if constexpr (dim == 2)
@@ -227,7 +279,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
                        time < 1e-6  ? "nearly undrained throughout; elastic rock may do"
                        : time > 1e2 ? "drained long before the end"
                                     : "diffusion and deformation are solved together"});
-    const double safe = smallest_cell * smallest_cell / (6. * diffusivity);
+    const double safe = mesh.smallest * mesh.smallest / (6. * diffusivity);
     std::ostringstream text;
     text
       << "the first step is " << std::setprecision(3) << the_case.control.initial_step << " s; "
@@ -258,7 +310,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
       rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
     const double time = pumping.duration > 0. ? pumping.duration : duration;
     const double reach = std::sqrt(diffusivity * time);
-    const double cells = smallest_cell / reach;
+    const double cells = mesh.smallest / reach;
     std::ostringstream text;
     text << std::setprecision(3) << "in " << time
          << " s of pumping the fluid comes about sqrt(c t) = " << reach << " m into the rock; ";
@@ -266,7 +318,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
       text << "the leak-off is resolved, but for the first " << std::setprecision(2)
            << cells * cells * time << " s";
     else
-      text << "cells of " << smallest_cell
+      text << "cells of " << mesh.smallest
            << " m do not resolve this, and too little leaks off: take smaller cells, or 'Fracture "
               "flow/Leak-off = carter'";
     numbers.push_back({"cell size / sqrt(c t)", cells, text.str(), cells > 1.});
@@ -282,7 +334,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
     {
       const double length =
         rock.plane_modulus() * rock.energy_release_rate / std::pow(rock.tensile_strength, 2);
-      const double cells = length / smallest_cell;
+      const double cells = length / mesh.smallest;
       numbers.push_back({"process zone / cell size", cells,
                          cells >= 4. * (1. - 1e-6)
                            ? "resolved"
@@ -290,7 +342,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
     }
     if constexpr (dim == 2)
       if (pumping.rate > 0.)
-        add_hydraulic_numbers(the_case, pumping, smallest_cell, numbers);
+        add_hydraulic_numbers(the_case, pumping, mesh, numbers);
     if (pumping.rate > 0. && the_case.scheme.kind() == TimeScheme::Kind::newmark &&
         !the_case.scheme.damps())
       numbers.push_back({"Newmark gamma", 0.5,
@@ -302,10 +354,10 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const double s
 
 
 template <int dim>
-void print_scene_audit(RunContext &run, const Case<dim> &the_case, const double smallest_cell)
+void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
   run.out << "Scene audit\n";
-  for (const SceneNumber &number : scene_numbers(the_case, smallest_cell))
+  for (const SceneNumber &number : scene_numbers(the_case, mesh))
   {
     std::ostringstream line;
     line << "  " << std::left << std::setw(48) << number.name << std::setw(10)
@@ -329,8 +381,8 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const double 
 
 template double distance_to_walls<2>(const Case<2> &);
 template double distance_to_walls<3>(const Case<3> &);
-template std::vector<SceneNumber> scene_numbers<2>(const Case<2> &, const double);
-template std::vector<SceneNumber> scene_numbers<3>(const Case<3> &, const double);
-template void print_scene_audit<2>(RunContext &, const Case<2> &, const double);
-template void print_scene_audit<3>(RunContext &, const Case<3> &, const double);
+template std::vector<SceneNumber> scene_numbers<2>(const Case<2> &, const MeshSizes<2> &);
+template std::vector<SceneNumber> scene_numbers<3>(const Case<3> &, const MeshSizes<3> &);
+template void print_scene_audit<2>(RunContext &, const Case<2> &, const MeshSizes<2> &);
+template void print_scene_audit<3>(RunContext &, const Case<3> &, const MeshSizes<3> &);
 } // namespace stockwork

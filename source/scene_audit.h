@@ -4,6 +4,7 @@
 
 #include "case.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,17 @@ struct SceneNumber
   double value;
   std::string consequence;
   bool spoils = false; ///< the answer cannot be trusted: a warning of the run
+};
+
+/// What the audit asks of the mesh that a run starts on.
+template <int dim>
+struct MeshSizes
+{
+  double smallest; ///< of its cells [m]
+
+  /// Size that the cell at a place has before it is split [m], so that cells split alike compare; 0
+  /// outside of the mesh. The same on all ranks, which must ask together.
+  std::function<double(const dealii::Point<dim> &)> unsplit_at;
 };
 
 /// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
@@ -33,13 +45,11 @@ double rayleigh_speed(const RockProperties &rock);
 /// The numbers of a case, computed before the first step. Lengths and speeds of a fracture that is
 /// still to come are those of the plane-strain fracture when its pumping ends, with leak-off if
 /// there is any (analytical/kgd.h, kgd_leak_off.h).
-///
-/// @param smallest_cell size of the smallest cell of the initial mesh [m]
 template <int dim>
-std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, double smallest_cell);
+std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSizes<dim> &mesh);
 
 /// Print the numbers with what is left out and why that is safe. Where a number says that the
 /// answer cannot be trusted, that is a warning of the run.
 template <int dim>
-void print_scene_audit(RunContext &run, const Case<dim> &the_case, double smallest_cell);
+void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSizes<dim> &mesh);
 } // namespace stockwork

@@ -57,6 +57,19 @@ double smallest_cell_size(const parallel::distributed::Triangulation<dim> &trian
 }
 
 
+/// Longest edge that the cell at a place has before it is split [m]; 0 if there is none.
+template <int dim>
+double unsplit_cell_size(const parallel::distributed::Triangulation<dim> &triangulation,
+                         const Point<dim> &point)
+{
+  double size = 0.;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->point_inside(point))
+      size = std::max(size, std::ldexp(cell_size(cell), cell->level()));
+  return Utilities::MPI::max(size, triangulation.get_communicator());
+}
+
+
 /// Entries that a restart may give another value.
 const std::vector<std::string> may_change = {"Time/End time", "Output directory", "Output",
                                              "Checkpoint"};
@@ -176,6 +189,13 @@ Simulation<dim>::Simulation(RunContext &run,
   report.model_name = the_case.model_name;
   report.deck = options.deck;
   fields.parse_parameters(prm);
+  std::string never;
+  for (const double time :
+       fields.times_outside(the_case.control.start_time, the_case.control.end_time))
+    never += (never.empty() ? "" : ", ") + to_string(time, dimension::time);
+  if (!never.empty())
+    run.warn("Output/Times of fields: nothing is written at " + never +
+             ", not between 'Time/Start time' and 'Time/End time'.");
   schedule.parse_parameters(prm);
   if (options.restart && !checkpoint.exists())
     throw InputError("There is no checkpoint in '" + options.output_directory +
@@ -208,6 +228,7 @@ void Simulation<dim>::start()
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
   the_case.geometry.create(triangulation);
   adaptation.refine_initial_mesh();
+  the_case.geometry.check_regions(triangulation);
   refuse_too_large();
   the_case.boundary_conditions.check(triangulation,
                                      the_case.scheme.kind() == TimeScheme::Kind::newmark);
@@ -255,7 +276,9 @@ void Simulation<dim>::refuse_too_large() const
 template <int dim>
 void Simulation<dim>::announce()
 {
-  print_scene_audit(run, the_case, smallest_cell_size(triangulation));
+  const MeshSizes<dim> mesh{smallest_cell_size(triangulation), [this](const Point<dim> &point)
+                            { return unsplit_cell_size(triangulation, point); }};
+  print_scene_audit(run, the_case, mesh);
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()

@@ -368,7 +368,7 @@ void Geometry<dim>::parse_regions(ParameterHandler &prm)
         const bool is_number = item.label.find_first_not_of("0123456789") == std::string::npos;
         const auto known = regions.emplace(item.label, is_number ? std::stoul(item.label) : next);
         next = std::max(next, known.first->second + 1);
-        region_boxes.push_back({item.box, known.first->second});
+        region_boxes.push_back({item.box, known.first->second, item.label});
       }
     });
 }
@@ -469,6 +469,28 @@ bool Geometry<dim>::splits(const typename dealii::Triangulation<dim>::cell_itera
 }
 
 template <int dim>
+void Geometry<dim>::check_regions(const Triangulation &triangulation) const
+{
+  std::vector<unsigned int> n_cells(region_boxes.size(), 0);
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (unsigned int i = 0; i < region_boxes.size(); ++i)
+        n_cells[i] += region_boxes[i].box.point_inside(cell->center());
+  Utilities::MPI::sum(n_cells, triangulation.get_communicator(), n_cells);
+  for (unsigned int i = 0; i < region_boxes.size(); ++i)
+    if (n_cells[i] == 0)
+    {
+      const auto corners = region_boxes[i].box.get_boundary_points();
+      std::ostringstream value;
+      value << region_boxes[i].label << ": (" << corners.first << ") to (" << corners.second << ")";
+      throw EntryError("Mesh/Region boxes", value.str(),
+                       "boxes that hold the centre of a cell: this one lies beside the mesh, or is "
+                       "smaller than its cells");
+    }
+}
+
+
+template <int dim>
 void Geometry<dim>::set_regions(Triangulation &triangulation) const
 {
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -564,6 +586,16 @@ template <int dim>
 double Geometry<dim>::diameter() const
 {
   return lower().distance(upper());
+}
+
+template <int dim>
+bool Geometry<dim>::on_side(const Point<dim> &point) const
+{
+  const double tolerance = 1e-8 * diameter();
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::abs(point[d] - lower()[d]) < tolerance || std::abs(point[d] - upper()[d]) < tolerance)
+      return true;
+  return false;
 }
 
 template class Geometry<2>;

@@ -66,12 +66,18 @@ public:
   /// All regions but the unnamed one, 0, that everything else belongs to.
   std::vector<std::string> region_names() const;
 
+  /// @throws EntryError if a region box holds the centre of no cell, in which it would do nothing
+  void check_regions(const Triangulation &triangulation) const;
+
   /// Corners of the bounding box.
   dealii::Point<dim> lower() const;
   dealii::Point<dim> upper() const;
 
   /// Of the bounding box [m].
   double diameter() const;
+
+  /// Whether a point lies on a side of the bounding box.
+  bool on_side(const dealii::Point<dim> &point) const;
 
 private:
   /// Before they are made. @throws EntryError if cells, refined so many times, are too many
@@ -95,6 +101,7 @@ private:
   {
     dealii::BoundingBox<dim> box;
     dealii::types::material_id region;
+    std::string label;
   };
 
   struct SideBox

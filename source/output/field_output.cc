@@ -104,6 +104,17 @@ double FieldOutput<dim>::next_time(const double time) const
 }
 
 template <int dim>
+std::vector<double> FieldOutput<dim>::times_outside(const double start, const double end) const
+{
+  std::vector<double> outside;
+  const double slack = 1e-9 * (end - start);
+  for (const double t : times)
+    if (!(t > start) || t > end + slack)
+      outside.push_back(t);
+  return outside;
+}
+
+template <int dim>
 void FieldOutput<dim>::write(const double time,
                              const Discretization<dim> &discretization,
                              const Scene<dim> &scene,

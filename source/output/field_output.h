@@ -37,6 +37,9 @@ public:
   /// Steps should end there.
   double next_time(double time) const;
 
+  /// Of the times in the deck, those that no step of a run from @p start to @p end comes to.
+  std::vector<double> times_outside(double start, double end) const;
+
   /// Write the fields of state.current and remember that it has been done. Collective.
   /// @throws SolveError naming the field if one has a value that is not a number
   /// @throws OutputError if a file cannot be written; those written before are complete

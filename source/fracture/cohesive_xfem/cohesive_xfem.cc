@@ -13,6 +13,7 @@
 #include "stockwork/fracture/registry.h"
 
 #include <cmath>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 
@@ -82,6 +83,24 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
     for (const auto &piece : path.pieces)
       largest_cell = std::max(largest_cell, piece.cell_size());
   const double size = largest_cell;
+
+  for (unsigned int c = 0; c < scene.cracks.size(); ++c)
+  {
+    const auto &corners = scene.cracks[c].points;
+    double given = 0., held = 0.;
+    for (unsigned int k = 1; k < corners.size(); ++k)
+      given += corners[k].distance(corners[k - 1]);
+    for (const auto &piece : discontinuity.paths()[c].pieces)
+      held += piece.length();
+    if (std::abs(held - given) > 0.02 * given)
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << "Crack " << c + 1 << " is " << held << " m long, not "
+           << given
+           << " m as in the deck: cracks of this model end where their line leaves a cell.";
+      messages.push_back(text.str());
+    }
+  }
 
   const RockProperties &rock = scene.rock.main();
   double strength = rock.tensile_strength;

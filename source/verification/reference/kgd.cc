@@ -1,4 +1,4 @@
-// A plane-strain hydraulic fracture along the x axis, driven at a constant rate; the model holds
+// A plane-strain hydraulic fracture, driven at a constant rate; the model holds
 // both wings, or one beside a plane of symmetry.
 #include "verification/analytical/kgd.h"
 #include "verification/analytical/hydraulic_fracture.h"
@@ -33,8 +33,8 @@ analytical::KgdParameters kgd_parameters(const ReferenceInput<2> &input)
       "The reference solution of the KGD fracture is for in-situ stress without a gradient.");
   if (input.cracks.size() > 1)
     throw InputError("The reference solution of the KGD fracture is for one crack.");
-  return {rock.young_modulus, rock.poisson_ratio, input.rock.fluid().viscosity, rock.toughness(),
-          input.injection_rate};
+  return {rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio,
+          input.rock.fluid().viscosity, rock.toughness(), input.injection_rate};
 }
 
 
@@ -55,10 +55,11 @@ unsigned int n_wings(const ReferenceInput<2> &input)
   if (input.cracks.empty())
     throw InputError("The reference solution of the KGD fracture needs an initial crack.");
   const auto &crack = input.cracks[0];
-  const double small = 1e-8 * (input.upper[0] - input.lower[0]);
+  const double small = 1e-8 * (input.upper - input.lower).norm();
   for (const Point<2> &end : {crack.front(), crack.back()})
-    if (std::abs(end[0] - input.lower[0]) < small || std::abs(end[0] - input.upper[0]) < small)
-      return 1;
+    for (unsigned int d = 0; d < 2; ++d)
+      if (std::abs(end[d] - input.lower[d]) < small || std::abs(end[d] - input.upper[d]) < small)
+        return 1;
   return 2;
 }
 

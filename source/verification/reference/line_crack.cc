@@ -33,6 +33,11 @@ StraightCrack straight_crack(const ReferenceInput<2> &input)
   if (!std::isfinite(input.crack_pressure))
     throw InputError("The reference solution of a pressurised crack needs its pressure given, "
                      "'Cracks/Fluid pressure'.");
+  if (input.layered || input.has_stress_gradient || input.cracks.size() > 1 ||
+      input.cracks[0].size() > 2)
+    throw InputError(
+      "The reference solution of a pressurised crack is for one straight crack, rock "
+      "without regions and in-situ stress without a gradient.");
   const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
   const double small = 1e-8 * (input.upper - input.lower).norm();
   const Tensor<1, 2> along = last - first;

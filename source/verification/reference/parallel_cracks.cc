@@ -56,7 +56,10 @@ Made<2> make_parallel_cracks(const ParameterHandler &, const ReferenceInput<2> &
       "The reference solution of parallel cracks needs at least two initial cracks.");
   if (!std::isfinite(input.crack_pressure))
     throw InputError("The reference solution of parallel cracks needs their pressure given, "
-                     "'Cracks/Pressure'.");
+                     "'Cracks/Fluid pressure'.");
+  if (input.layered || input.has_stress_gradient)
+    throw InputError("The reference solution of parallel cracks is for rock without regions and "
+                     "in-situ stress without a gradient.");
   const double small = 1e-8 * (input.upper - input.lower).norm();
   const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
   const bool one_wing = std::abs(std::min(first[0], last[0]) - input.lower[0]) < small;

@@ -109,6 +109,9 @@ Made<3> make_penny_crack(const ParameterHandler &, const ReferenceInput<3> &inpu
   if (!std::isfinite(input.crack_pressure))
     throw InputError("The reference solution of a pressurised crack needs its pressure given, "
                      "'Cracks/Fluid pressure'.");
+  if (input.layered || input.has_stress_gradient || input.discs.size() > 1)
+    throw InputError("The reference solution of a round crack is for one crack, rock without "
+                     "regions and in-situ stress without a gradient.");
   const RockProperties &rock = input.rock.main();
   const Disc<3> &disc = input.discs[0];
   return std::make_unique<PennyCrackReference>(
