@@ -69,6 +69,14 @@ double FaceContact<dim>::slip(const CrackPiece<dim> &piece) const
 
 
 template <int dim>
+double FaceContact<dim>::carried_by(const CrackPiece<dim> &piece) const
+{
+  const auto found = carried.find(piece.key(domain_size));
+  return found == carried.end() ? 0. : found->second;
+}
+
+
+template <int dim>
 ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinuity,
                                            const unsigned int crack,
                                            const unsigned int index,
@@ -80,9 +88,11 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   Tensor<1, dim> jump;
   for (const auto &[unknown, unit] : patch.jumps)
     jump += extra[unknown] * unit;
-  const ContactLaw law{stiffness * plane_modulus / piece.cell_size(), friction};
+  // A seam that still holds cannot carry on what pressed it (see commit): it is stiffer instead.
+  const double seam = broken < 1. ? 10. : 1.;
+  const ContactLaw law{seam * stiffness * plane_modulus / piece.cell_size(), friction};
   return law.evaluate(jump * piece.normal(), jump * piece.along, has_friction() ? slip(piece) : 0.,
-                      broken);
+                      broken, carried_by(piece));
 }
 
 
@@ -124,6 +134,24 @@ void FaceContact<dim>::assemble(const Discontinuity<dim> &discontinuity,
 
 
 template <int dim>
+bool FaceContact<dim>::press(const Discontinuity<dim> &discontinuity,
+                             const unsigned int crack,
+                             const unsigned int index,
+                             const std::vector<double> &extra,
+                             const double broken)
+{
+  if (broken < 1. || index != patch(discontinuity, crack, index).first)
+    return false;
+  const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  // Faces that have hardly parted so far have no opening to compare with.
+  if (-response.gap <= 0.005 * greatest_opening || -response.gap >= greatest_opening)
+    return false;
+  carried[discontinuity.paths()[crack].pieces[index].key(domain_size)] = response.normal;
+  return true;
+}
+
+
+template <int dim>
 void FaceContact<dim>::commit(const Discontinuity<dim> &discontinuity,
                               const unsigned int crack,
                               const unsigned int index,
@@ -131,12 +159,20 @@ void FaceContact<dim>::commit(const Discontinuity<dim> &discontinuity,
                               const double broken)
 {
   const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  greatest_opening = std::max(greatest_opening, response.gap);
   touched = touched || (response.normal < 0. && broken >= 1.);
   const Patch patch = this->patch(discontinuity, crack, index);
-  if (!has_friction() || index != patch.first)
+  if (index != patch.first)
     return;
-  const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[index];
-  double &committed = slips[piece.key(domain_size)];
+  const std::uint64_t key = discontinuity.paths()[crack].pieces[index].key(domain_size);
+  // What holds in tension, too, would be torn by the step in which this pressure goes.
+  if (response.normal < 0. && broken >= 1.)
+    pressed[key] = response.normal;
+  else
+    pressed.erase(key);
+  if (!has_friction())
+    return;
+  double &committed = slips[key];
   friction_work += patch.length * response.shear * (response.slip - committed);
   committed = response.slip;
 }

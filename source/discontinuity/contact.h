@@ -19,8 +19,8 @@ namespace stockwork
 /// there are independent jumps of displacement along the crack, so that the tractions do not
 /// oscillate. A span that ends in its cell has no jumps of its own but those of the tip's
 /// functions, which reach over half the crack; it shares the gap of the span before. The penalty is
-/// so many times the stiffness of the rock over a cell, s E'/h: under the stress S faces overlap by
-/// h S/(s E').
+/// so many times the stiffness of the rock over a cell, s E'/h: where a step adds S to the pressure
+/// between faces, they overlap by h S/(s E') until the next, or until press().
 template <int dim>
 class FaceContact
 {
@@ -63,7 +63,22 @@ public:
                 Sink &sink,
                 double broken = 1.) const;
 
-  /// The step is accepted: its slip on a piece is what it was.
+  /// A step begins, perhaps anew.
+  void begin_step()
+  {
+    carried = pressed;
+  }
+
+  /// Where the faces of a piece overlap by more than half a per cent of the greatest opening so
+  /// far: let them carry what presses them, for the step to be solved again.
+  /// @return whether they do
+  bool press(const Discontinuity<dim> &discontinuity,
+             unsigned int crack,
+             unsigned int piece,
+             const std::vector<double> &extra,
+             double broken = 1.);
+
+  /// The step is accepted: its slip on a piece is what it was, and its pressure.
   void commit(const Discontinuity<dim> &discontinuity,
               unsigned int crack,
               unsigned int piece,
@@ -82,7 +97,7 @@ public:
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &slips &friction_work &touched &said;
+    archive &slips &pressed &friction_work &greatest_opening &touched &said;
   }
 
 private:
@@ -97,12 +112,17 @@ private:
   patch(const Discontinuity<dim> &discontinuity, unsigned int crack, unsigned int piece) const;
 
   double slip(const CrackPiece<dim> &first_of_patch) const;
+  double carried_by(const CrackPiece<dim> &first_of_patch) const;
 
   double friction, stiffness, plane_modulus, domain_size;
 
   // Committed, the same on all ranks.
-  std::unordered_map<std::uint64_t, double> slips; ///< by key of the first piece [m]
+  std::unordered_map<std::uint64_t, double> slips;   ///< by key of the first piece [m]
+  std::unordered_map<std::uint64_t, double> pressed; ///< likewise, where faces touch [Pa]
   double friction_work = 0.;
+  double greatest_opening = 0.; ///< so far [m]
   bool touched = false, said = false;
+
+  std::unordered_map<std::uint64_t, double> carried; ///< in this step: see press()
 };
 } // namespace stockwork

@@ -40,6 +40,20 @@ TEST_CASE("closed faces stick below the bound and slip at it, either way")
   }
 }
 
+TEST_CASE("under what they carried before, faces hardly overlap, and part with it")
+{
+  double carried = 0., gap = -1e-5;
+  for (unsigned int step = 0; step < 2; ++step)
+  {
+    carried = law.evaluate(gap, 0., 0., 1., carried).normal;
+    CHECK(carried == Approx(-1e7));
+    gap = (-1e7 - carried) / 1e12; // which the same load asks for next
+  }
+  CHECK(gap == Approx(0.));
+  CHECK(law.evaluate(2e-5, 0., 0., 1., carried).normal == 0.);
+  CHECK(law.evaluate(0., 1e-4, 0., 1., carried).shear == Approx(0.6e7)); // rubs by all of it
+}
+
 TEST_CASE("what still holds does not rub")
 {
   CHECK(law.evaluate(-1e-5, 1e-4, 0., 0.25).shear == Approx(0.25 * 0.6e7));

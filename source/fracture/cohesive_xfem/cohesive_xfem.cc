@@ -177,6 +177,8 @@ void CohesiveXFEM<dim>::begin_step(const StepContext &)
 {
   advances.assign(discontinuity.paths().size(), {{0, 0}});
   n_messages_before = messages.size();
+  n_presses = 0;
+  contact.begin_step();
 }
 
 

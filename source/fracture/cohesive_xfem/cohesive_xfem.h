@@ -104,6 +104,9 @@ private:
   /// that of the span before, with the opening x^(2/3) of such a tip (Desroches et al. 1994).
   double reached_length(unsigned int crack, CrackEnd end, const State &) const;
 
+  /// Whether faces overlap too much, which then carry more: the step is to be solved again.
+  bool press_faces(const State &);
+
   /// Why the run has to end although the step has converged: every crack that has grown is blocked
   /// and takes more fluid all the same. Empty if it need not.
   std::string reason_to_stop(const State &) const;
@@ -134,6 +137,7 @@ private:
   bool started = false;     ///< a step has been accepted
 
   // Of the current step.
+  unsigned int n_presses = 0;                        ///< solves for faces that overlapped
   std::size_t n_messages_before = 0;                 ///< messages that a rollback leaves
   std::vector<std::array<unsigned int, 2>> advances; ///< spans, by crack and end
   std::unordered_map<std::uint64_t, double> initial_pressure;

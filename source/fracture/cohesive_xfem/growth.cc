@@ -147,6 +147,22 @@ void CohesiveXFEM<dim>::warn_of_held_tip(const unsigned int crack,
 
 
 template <int dim>
+bool CohesiveXFEM<dim>::press_faces(const State &state)
+{
+  constexpr unsigned int enough = 4; // what is left by then goes with the next step
+  if (n_presses == enough)
+    return false;
+  bool pressed = false;
+  for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+    for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
+      pressed |= contact.press(discontinuity, c, i, state.current.extra,
+                               broken_share(discontinuity.paths()[c].pieces[i]));
+  n_presses += pressed;
+  return pressed;
+}
+
+
+template <int dim>
 Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
                                    const State &state,
                                    const Collectives &collectives)
@@ -163,6 +179,11 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
   {
     verdict.kind = Verdict::Kind::stop;
     verdict.reason = reason;
+    return verdict;
+  }
+  if (press_faces(state))
+  {
+    verdict.kind = Verdict::Kind::topology_changed;
     return verdict;
   }
   std::vector<Advance> tips;
@@ -337,5 +358,6 @@ template void
 CohesiveXFEM<2>::warn_of_held_tip(unsigned int, CrackEnd, double, const std::string &);
 template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
+template bool CohesiveXFEM<2>::press_faces(const State &);
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);
 } // namespace stockwork::cohesive_xfem

@@ -114,6 +114,11 @@ public:
     }
   }
 
+  void begin_step(const StepContext &) override
+  {
+    contact.begin_step();
+  }
+
   void commit(const StepContext &, const State &state) override
   {
     for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
