@@ -331,6 +331,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 {
   geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
   rock.parse_parameters(prm);
+  if (dim == 3 && rock.main().plane_stress)
+    throw EntryError("Rock/Plane state", "plane stress", "'plane strain' (or nothing) in 3-D");
   in_situ.parse_parameters(prm);
   boundary_conditions.parse_parameters(prm, [this](const std::string &side)
                                        { return geometry.side(side); });
@@ -402,6 +404,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
 
   ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
   input.has_pore_pressure = discretisation.has_pore_pressure;
+  input.start_time = control.start_time;
   input.end_time = control.end_time;
   for (const InitialCrack<dim> &crack : scene.cracks)
   {
@@ -412,6 +415,11 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   input.injection_rate = network.rate_of_first_well(control.end_time);
   input.rate_is_constant = std::isinf(network.next_jump(control.start_time));
   input.n_wells = network.n_wells();
+  if (network.has_wells())
+  {
+    input.fraction_in_model = network.fraction_of_first_well();
+    input.perforations = network.perforations_of_first_well();
+  }
   input.layered = !geometry.region_names().empty();
   input.has_stress_gradient = in_situ.has_gradient();
   prm.enter_subsection("Fracture flow");
@@ -423,6 +431,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
     set_crack_load(scene, input);
   input.normal_traction = [this](const std::string &side, const double time)
   { return boundary_conditions.loads().uniform_normal_traction(geometry.side(side), time); };
+  input.is_roller = [this](const std::string &side)
+  { return boundary_conditions.is_roller(geometry.side(side)); };
   input.greatest_displacement = [this](const double time)
   { return boundary_conditions.greatest_displacement(time); };
   reference = make_reference<dim>(prm, input);

@@ -228,7 +228,7 @@ void Simulation<dim>::start()
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
   the_case.geometry.create(triangulation);
   adaptation.refine_initial_mesh();
-  the_case.geometry.check_regions(triangulation);
+  the_case.geometry.check_boxes(triangulation);
   refuse_too_large();
   the_case.boundary_conditions.check(triangulation,
                                      the_case.scheme.kind() == TimeScheme::Kind::newmark);

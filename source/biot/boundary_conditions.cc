@@ -13,6 +13,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/numerics/vector_tools.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -247,6 +248,17 @@ void BoundaryConditions<dim>::parse_parameters(
 
 
 template <int dim>
+bool BoundaryConditions<dim>::is_roller(const types::boundary_id side) const
+{
+  return std::any_of(dirichlet.begin(), dirichlet.end(),
+                     [side](const Dirichlet &condition) {
+                       return condition.side == side &&
+                              (condition.entry == "Roller" || condition.entry == "Fixed");
+                     });
+}
+
+
+template <int dim>
 void BoundaryConditions<dim>::refuse_contradictions(ParameterHandler &prm) const
 {
   const auto refuse = [&prm](const std::string &entry, const std::string &why)
@@ -391,7 +403,16 @@ void BoundaryConditions<dim>::check(const Triangulation<dim> &triangulation,
     if (condition.component == normal_component)
       try
       {
-        normal_axis(triangulation, condition.side);
+        const unsigned int axis = normal_axis(triangulation, condition.side);
+        for (const Dirichlet &other : dirichlet)
+          if (other.side == condition.side && other.component == axis && !other.is_zero)
+            throw EntryError("Boundary conditions/" + other.entry, other.side_name,
+                             "other sides than those of 'Boundary conditions/" + condition.entry +
+                               "', where this one does not move along its normal");
+      }
+      catch (const EntryError &)
+      {
+        throw;
       }
       catch (const InputError &error)
       {

@@ -83,6 +83,9 @@ public:
   /// Is there any condition on pore pressure or flux?
   bool mentions_pore_pressure() const;
 
+  /// Whether a side is a roller, or fixed.
+  bool is_roller(const dealii::types::boundary_id side) const;
+
   /// Whether neither fluid nor a change of volume gets through any of these sides.
   bool seal(const std::vector<dealii::types::boundary_id> &sides) const;
 

@@ -89,6 +89,30 @@ void parse_geometry(const std::string &text, InitialCrack<3> &crack)
   disc.normal /= disc.normal.norm();
   crack.disc = disc;
 }
+
+
+/// Whether the rim of a disc passes through a box; one that does not would cut it in two.
+bool rim_within(const Disc<3> &disc, const Point<3> &lower, const Point<3> &upper)
+{
+  Tensor<1, 3> axis;
+  axis[std::abs(disc.normal[0]) < 0.6 ? 0 : 1] = 1.;
+  const Tensor<1, 3> across =
+    cross_product_3d(disc.normal, axis) / cross_product_3d(disc.normal, axis).norm();
+  const Tensor<1, 3> along = cross_product_3d(disc.normal, across);
+  constexpr unsigned int n = 360;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const double angle = 2. * numbers::PI * i / n;
+    const Point<3> point =
+      disc.centre + disc.radius * (std::cos(angle) * across + std::sin(angle) * along);
+    bool inside = true;
+    for (unsigned int d = 0; d < 3; ++d)
+      inside &= point[d] > lower[d] && point[d] < upper[d];
+    if (inside)
+      return true;
+  }
+  return false;
+}
 } // namespace
 
 
@@ -139,6 +163,12 @@ parse_initial_cracks(ParameterHandler &prm, const Point<dim> &lower, const Point
                                " of (" + where + ") is not between " + std::to_string(lower[d]) +
                                " and " + std::to_string(upper[d]) + " m");
           }
+      if constexpr (dim == 3)
+        if (crack.disc && !rim_within(*crack.disc, lower, upper))
+          throw EntryError(
+            crack.entry, text,
+            "a disc whose rim lies in the domain, in part at least: this one cuts it "
+            "in two");
       cracks.push_back(crack);
     }
   prm.leave_subsection();

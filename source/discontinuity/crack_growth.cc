@@ -8,6 +8,9 @@ namespace stockwork
 {
 namespace
 {
+/// In cells: what is cut off less would be a segment to the fluid, and too short to break.
+constexpr double shortest_span = 0.25;
+
 /// What the owner of a tip's cell found out about the next one.
 template <int dim>
 struct Finding
@@ -31,6 +34,7 @@ Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives
 {
   std::vector<Outcome> outcomes(advances.size());
   std::vector<unsigned int> n_new(advances.size(), 0); // pieces
+  std::vector<double> length(advances.size(), 0.);     // of these [m]
   std::vector<unsigned int> moving;
   for (unsigned int a = 0; a < advances.size(); ++a)
     moving.push_back(a);
@@ -58,7 +62,11 @@ Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives
         ++n_new[a];
         CrackPiece<dim> &piece = last_piece(a);
         piece.joined[1 - end] = n_new[a] > 1;
-        piece.joined[end] = reached[i] == Outcome::grown && !piece.crosses_transverse_face(end);
+        // Where a tip near a corner turns, the next face across its new way may be hardly away.
+        length[a] += piece.length();
+        const bool rests =
+          piece.crosses_transverse_face(end) && length[a] >= shortest_span * piece.cell_size();
+        piece.joined[end] = reached[i] == Outcome::grown && !rests;
         if (piece.joined[end])
           going_on.push_back(a);
       }

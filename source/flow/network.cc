@@ -257,6 +257,10 @@ typename Network<dim>::Exposure Network<dim>::exposure(const unsigned int segmen
     old == history.end()
       ? wetted_share(values.aperture_reference[segment], bare_aperture(segment)).value
       : old->second.wetted;
+  // A face that closes within a long step must not leak what the mean over it asks for: there is
+  // nothing left, and the fracture would be sucked shut.
+  if (now.value < wetted)
+    return {begin, begin + context.dt * now.value, context.dt * now.slope};
   return {begin, begin + 0.5 * context.dt * (wetted + now.value), 0.5 * context.dt * now.slope};
 }
 

@@ -190,6 +190,16 @@ public:
     return all_wells.first_rate(t);
   }
 
+  double fraction_of_first_well() const
+  {
+    return all_wells.first_fraction();
+  }
+
+  std::vector<dealii::Point<dim>> perforations_of_first_well() const
+  {
+    return all_wells.first_perforations();
+  }
+
   void save(boost::archive::binary_oarchive &) const;
 
   void load(boost::archive::binary_iarchive &);

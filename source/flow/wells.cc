@@ -515,6 +515,24 @@ double Wells<dim>::first_rate(const double t) const
 
 
 template <int dim>
+double Wells<dim>::first_fraction() const
+{
+  return wells.empty() ? 1. : wells[0].fraction;
+}
+
+
+template <int dim>
+std::vector<dealii::Point<dim>> Wells<dim>::first_perforations() const
+{
+  std::vector<dealii::Point<dim>> points;
+  if (!wells.empty())
+    for (const Perforation &perforation : wells[0].perforations)
+      points.push_back(perforation.point);
+  return points;
+}
+
+
+template <int dim>
 double Wells<dim>::next_jump(const double t) const
 {
   double next = std::numeric_limits<double>::infinity();

@@ -132,6 +132,10 @@ public:
   /// or its pressure is given.
   double first_rate(double t) const;
 
+  /// "Fraction in model" of the first well, and where it opens into fractures.
+  double first_fraction() const;
+  std::vector<dealii::Point<dim>> first_perforations() const;
+
 private:
   /// A perforation opens into the nearest segment; into several in equal parts where they are
   /// equally near, as on a symmetry point between two of them.

@@ -469,8 +469,20 @@ bool Geometry<dim>::splits(const typename dealii::Triangulation<dim>::cell_itera
 }
 
 template <int dim>
-void Geometry<dim>::check_regions(const Triangulation &triangulation) const
+void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
 {
+  const auto text = [](const BoundingBox<dim> &box)
+  {
+    const auto corners = box.get_boundary_points();
+    std::ostringstream value;
+    value << "(" << corners.first << ") to (" << corners.second << ")";
+    return value.str();
+  };
+  for (const RefinementBox &item : refinement_boxes)
+    for (unsigned int d = 0; d < dim; ++d)
+      if (item.box.upper_bound(d) <= lower()[d] || item.box.lower_bound(d) >= upper()[d])
+        throw EntryError("Mesh/Refinement boxes", text(item.box),
+                         "boxes that hold some of the mesh: this one lies beside it");
   std::vector<unsigned int> n_cells(region_boxes.size(), 0);
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -479,14 +491,10 @@ void Geometry<dim>::check_regions(const Triangulation &triangulation) const
   Utilities::MPI::sum(n_cells, triangulation.get_communicator(), n_cells);
   for (unsigned int i = 0; i < region_boxes.size(); ++i)
     if (n_cells[i] == 0)
-    {
-      const auto corners = region_boxes[i].box.get_boundary_points();
-      std::ostringstream value;
-      value << region_boxes[i].label << ": (" << corners.first << ") to (" << corners.second << ")";
-      throw EntryError("Mesh/Region boxes", value.str(),
+      throw EntryError("Mesh/Region boxes",
+                       region_boxes[i].label + ": " + text(region_boxes[i].box),
                        "boxes that hold the centre of a cell: this one lies beside the mesh, or is "
                        "smaller than its cells");
-    }
 }
 
 

@@ -66,8 +66,9 @@ public:
   /// All regions but the unnamed one, 0, that everything else belongs to.
   std::vector<std::string> region_names() const;
 
-  /// @throws EntryError if a region box holds the centre of no cell, in which it would do nothing
-  void check_regions(const Triangulation &triangulation) const;
+  /// @throws EntryError if a box of regions holds the centre of no cell, or a box of refinement
+  /// lies beside the mesh: it would do nothing
+  void check_boxes(const Triangulation &triangulation) const;
 
   /// Corners of the bounding box.
   dealii::Point<dim> lower() const;

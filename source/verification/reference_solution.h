@@ -60,7 +60,7 @@ struct ReferenceInput
   const Rock &rock;
   dealii::Point<dim> lower, upper; ///< corners of the domain [m]
   bool has_pore_pressure = false;
-  double end_time = 0.; ///< [s]
+  double start_time = 0., end_time = 0.; ///< [s]
 
   /// Corners of the cracks that are there at the start.
   std::vector<std::vector<dealii::Point<dim>>> cracks = {};
@@ -73,6 +73,11 @@ struct ReferenceInput
 
   bool rate_is_constant = true; ///< from the start time on
   unsigned int n_wells = 1;
+  double fraction_in_model = 1.; ///< of the first well
+
+  /// Where the first well opens into fractures.
+  std::vector<dealii::Point<dim>> perforations = {};
+
   bool leaks = false;               ///< by any law
   bool layered = false;             ///< the mesh has regions
   bool has_stress_gradient = false; ///< in situ

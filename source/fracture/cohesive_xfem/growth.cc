@@ -11,6 +11,9 @@ using dealii::Tensor;
 
 namespace
 {
+/// Of what drives a tip that does not move over the strength: it will not move any more.
+constexpr double hopeless = 20.;
+
 /// Unit vector in the direction of v, its angle rounded to 1e-6, so that the noise of a solver
 /// neither tilts a crack nor tells numbers of ranks apart.
 Tensor<1, 2> rounded_direction(const Tensor<1, 2> &v)
@@ -209,6 +212,7 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
   std::vector<Advance> growing;
   std::vector<double> pressures;
   std::vector<bool> broken; // behind the new tip
+  bool held_everywhere = !tips.empty() && std::isnan(scene.crack_pressure);
   for (unsigned int i = 0; i < tips.size(); ++i)
   {
     const unsigned int c = tips[i].crack;
@@ -232,8 +236,10 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
     {
       warn_of_held_tip(c, end, drive, "The cell behind it is cut, but has not begun to break.");
+      held_everywhere &= drive > hopeless * law.strength;
       continue;
     }
+    held_everywhere = false;
     if (!broken_here && fluid_overpowers(c, end, state))
       continue;
     // Suction at the tip and the tension ahead, both many times the strength, leave a difference
@@ -259,6 +265,16 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     growing.push_back(tips[i]);
     broken.push_back(broken_here);
     pressures.push_back(pressure);
+  }
+
+  if (held_everywhere)
+  {
+    verdict.kind = Verdict::Kind::stop;
+    verdict.reason = "every tip is held, although pressure and tension ahead come to more than " +
+                     std::to_string(static_cast<int>(hopeless)) +
+                     " times the strength: the fracture cannot turn as it wants to on this mesh. "
+                     "Smaller cells, a longer notch, or one along the greatest compression may do.";
+    return verdict;
   }
 
   bool grown = false, needs_mesh = false;

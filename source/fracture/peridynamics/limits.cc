@@ -131,8 +131,8 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
         ". Bonds ahead of the crack feel all of it, and what they hold, " +
         megapascals(strength()) + " with cells of " + text(spacing) + " m, is " +
         (unequal > strength() ? "less" : "little more") +
-        ": expect pressures and lengths that are wrong by ten per cent and more, or no "
-        "convergence. Use 'cohesive_xfem'.";
+        ": expect pressures and lengths that are wrong by ten per cent and more, or no " +
+        (dim == 2 ? std::string("convergence. Use 'cohesive_xfem'.") : std::string("convergence."));
     }
   if (!message.empty())
     messages.push_back(message);

@@ -33,6 +33,9 @@ analytical::KgdParameters kgd_parameters(const ReferenceInput<2> &input)
       "The reference solution of the KGD fracture is for in-situ stress without a gradient.");
   if (input.cracks.size() > 1)
     throw InputError("The reference solution of the KGD fracture is for one crack.");
+  if (input.start_time != 0.)
+    throw InputError("The reference solution of the KGD fracture begins with the pumping, at 'Time/"
+                     "Start time = 0'.");
   return {rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio,
           input.rock.fluid().viscosity, rock.toughness(), input.injection_rate};
 }
@@ -49,18 +52,34 @@ analytical::KgdParameters tight_kgd_parameters(const ReferenceInput<2> &input)
 }
 
 
-/// The number of wings in the model: one if a crack begins on the boundary.
+/// The number of wings in the model: one if a crack begins on the boundary. The well must be where
+/// the solution has it, and pump what so many wings take.
 unsigned int n_wings(const ReferenceInput<2> &input)
 {
   if (input.cracks.empty())
     throw InputError("The reference solution of the KGD fracture needs an initial crack.");
-  const auto &crack = input.cracks[0];
+  const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
   const double small = 1e-8 * (input.upper - input.lower).norm();
-  for (const Point<2> &end : {crack.front(), crack.back()})
+  unsigned int wings = 2;
+  Point<2> mouth = first + 0.5 * (last - first);
+  for (const Point<2> &end : {first, last})
     for (unsigned int d = 0; d < 2; ++d)
       if (std::abs(end[d] - input.lower[d]) < small || std::abs(end[d] - input.upper[d]) < small)
-        return 1;
-  return 2;
+      {
+        wings = 1;
+        mouth = end;
+      }
+  if (std::abs(input.fraction_in_model - 0.5 * wings) > 1e-6)
+    throw InputError(
+      wings == 2 ? "The reference solution of the KGD fracture has both wings in the model: "
+                   "'Fraction in model = 1' of the well."
+                 : "The reference solution of the KGD fracture has one wing in the model, for the "
+                   "crack begins on a side: 'Fraction in model = 0.5' of the well.");
+  for (const Point<2> &point : input.perforations)
+    if (point.distance(mouth) > 0.1 * first.distance(last))
+      throw InputError("The reference solution of the KGD fracture is pumped from the middle of "
+                       "the crack, or from the side on which it begins.");
+  return wings;
 }
 
 
@@ -190,6 +209,13 @@ Made<2> make_kgd_box(const ParameterHandler &, const ReferenceInput<2> &input)
   const unsigned int wings = n_wings(input);
   if (input.leaks && !(input.carter_coefficient > 0.))
     throw InputError("The reference solution 'kgd box' knows Carter leak-off only.");
+  const auto &crack = input.cracks[0];
+  if (std::abs(crack.front()[1] - crack.back()[1]) > 1e-3 * crack.front().distance(crack.back()))
+    throw InputError("The reference solution 'kgd box' is for a crack along the x axis.");
+  for (const char *side : {"left", "right", "bottom", "top"})
+    if (input.is_roller && !input.is_roller(side))
+      throw InputError("The reference solution 'kgd box' has rollers all round; '" +
+                       std::string(side) + "' is none.");
   return std::make_unique<KgdHistoryReference>(
     analytical::HydraulicFractureParameters{kgd_parameters(input), input.carter_coefficient,
                                             (input.upper[0] - input.lower[0]) / wings,
