@@ -414,11 +414,12 @@ typename CoupledSystem<dim>::Norms CoupledSystem<dim>::rounding_errors(
   }
   constexpr double epsilon = 1e-14;
   Norms norms;
-  norms.momentum = epsilon * matrix_norms(0, 0) * values.block(0).l2_norm();
+  const auto in_fractures = network.rounding(context, state, communication);
+  norms.momentum = epsilon * matrix_norms(0, 0) * values.block(0).l2_norm() + in_fractures.force;
   if (discretisation.has_pore_pressure)
     norms.mass = epsilon * (matrix_norms(1, 0) * values.block(0).l1_norm() +
                             matrix_norms(1, 1) * values.block(1).l1_norm());
-  norms.fracture_fluid = network.rounding_error(context, state, communication);
+  norms.fracture_fluid = in_fractures.fluid;
   return norms;
 }
 
@@ -431,7 +432,6 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
                                           const Unknowns &acceleration_reference)
 {
   NonlinearReport report;
-
   // Essential conditions hold from the start, so that increments satisfy them with zero values.
   if (context.time != constraints_time && !boundary_conditions.constant_in_time())
   {

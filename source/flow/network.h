@@ -85,10 +85,17 @@ public:
   /// Collective. Of the step, given its unknowns; nothing is committed.
   FluidBalance balance(const StepContext &, const State &, const Collectives &) const;
 
-  /// What rounding leaves of the sum of the segments' residuals [m^dim]: pressures are stored in
-  /// total, so that in deep rock, or in thin fluid, the flow that a last digit of them drives is
-  /// more than a share of what is injected. Collective.
-  double rounding_error(const StepContext &, const State &, const Collectives &) const;
+  /// What rounding leaves: pressures are stored in total, so that in deep rock, or in thin fluid,
+  /// the flow that a last digit of them drives is more than a share of what is injected, and a
+  /// fracture at the pressure that holds it open by nothing is in balance but for last digits.
+  struct Rounding
+  {
+    double fluid; ///< of the sum of the segments' residuals [m^dim]
+    double force; ///< of what the fluid presses the faces with [N], [N/m] in 2-D
+  };
+
+  /// Collective.
+  Rounding rounding(const StepContext &, const State &, const Collectives &) const;
 
   /// The step is accepted. Collective.
   void commit(const StepContext &, const State &, const Collectives &);

@@ -84,15 +84,16 @@ FluidBalance Network<dim>::balance(const StepContext &context,
 
 
 template <int dim>
-double Network<dim>::rounding_error(const StepContext &context,
-                                    const State &state,
-                                    const Collectives &collectives) const
+typename Network<dim>::Rounding Network<dim>::rounding(const StepContext &context,
+                                                       const State &state,
+                                                       const Collectives &collectives) const
 {
   const Values values = evaluate(context, state, collectives);
-  double volume = 0., closed = 0.;
+  double volume = 0., closed = 0., thrust = 0.;
   for (unsigned int i = 0; i < network.size(); ++i)
   {
     closed += network[i].area * minimum_aperture;
+    thrust += network[i].area * std::abs(values.pressure[i]);
     volume +=
       network[i].area * (std::abs(values.aperture[i]) + std::abs(values.aperture_reference[i]));
     for (const Edge &edge : edges[i])
@@ -104,7 +105,8 @@ double Network<dim>::rounding_error(const StepContext &context,
   }
   // A few last digits of each term; and of a closed fracture, whose terms are all zero, what is far
   // below the room that closed faces leave.
-  return 4. * std::numeric_limits<double>::epsilon() * volume + 1e-12 * closed;
+  const double last_digits = 4. * std::numeric_limits<double>::epsilon();
+  return {last_digits * volume + 1e-12 * closed, last_digits * thrust};
 }
 
 
@@ -162,8 +164,8 @@ void Network<dim>::load(boost::archive::binary_iarchive &archive)
 template std::vector<double> Network<2>::leaked_in_step(const StepContext &, const Values &) const;
 template FluidBalance
 Network<2>::balance(const StepContext &, const State &, const Collectives &) const;
-template double
-Network<2>::rounding_error(const StepContext &, const State &, const Collectives &) const;
+template typename Network<2>::Rounding
+Network<2>::rounding(const StepContext &, const State &, const Collectives &) const;
 template void Network<2>::commit(const StepContext &, const State &, const Collectives &);
 template std::vector<double> Network<2>::leaked_volumes() const;
 template void Network<2>::save(boost::archive::binary_oarchive &) const;
@@ -171,8 +173,8 @@ template void Network<2>::load(boost::archive::binary_iarchive &);
 template std::vector<double> Network<3>::leaked_in_step(const StepContext &, const Values &) const;
 template FluidBalance
 Network<3>::balance(const StepContext &, const State &, const Collectives &) const;
-template double
-Network<3>::rounding_error(const StepContext &, const State &, const Collectives &) const;
+template typename Network<3>::Rounding
+Network<3>::rounding(const StepContext &, const State &, const Collectives &) const;
 template void Network<3>::commit(const StepContext &, const State &, const Collectives &);
 template std::vector<double> Network<3>::leaked_volumes() const;
 template void Network<3>::save(boost::archive::binary_oarchive &) const;
