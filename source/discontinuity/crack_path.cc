@@ -385,9 +385,11 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
                        " lies inside one cell. Refine the mesh around it.");
     if (!path.pieces.empty() &&
         path.pieces.back().ends[1].distance(f.piece.ends[0]) > 1e-8 * domain_size)
-      throw InputError(
-        "The cells along the crack change their size, or the crack leaves the mesh, near " +
-        text(f.piece.ends[0]) + "; a crack needs cells of one refinement level along its way.");
+      throw InputError("The crack cannot be followed from cell to cell near " +
+                       text(f.piece.ends[0]) +
+                       ": the cells change their size there, the crack leaves the mesh, or one of "
+                       "its corners lies on a line of the mesh. It needs cells of one refinement "
+                       "level along its way, and corners inside of cells.");
     path.pieces.push_back(f.piece);
   }
   path.is_tip = {{!path.pieces.front().at_boundary[0], !path.pieces.back().at_boundary[1]}};
