@@ -236,7 +236,9 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
     if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
     {
       warn_of_held_tip(c, end, drive, "The cell behind it is cut, but has not begun to break.");
-      held_everywhere &= drive > hopeless * law.strength;
+      // And that was so when the step began.
+      held_everywhere &= drive > hopeless * law.strength && committed_limits.told_of_holding.count(
+                                                              {c, static_cast<unsigned>(end)}) > 0;
       continue;
     }
     held_everywhere = false;
