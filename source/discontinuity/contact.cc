@@ -88,8 +88,10 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   Tensor<1, dim> jump;
   for (const auto &[unknown, unit] : patch.jumps)
     jump += extra[unknown] * unit;
-  // A seam that still holds cannot carry on what pressed it (see commit): it is stiffer instead.
-  const double seam = broken < 1. ? 10. : 1.;
+  // A seam that still holds cannot carry on what pressed it (see commit): once faces touch, it is
+  // stiffer instead. Not before, for the suction at the tip of a growing fracture closes seams,
+  // too.
+  const double seam = broken < 1. && closing ? 10. : 1.;
   const ContactLaw law{seam * stiffness * plane_modulus / piece.cell_size(), friction};
   return law.evaluate(jump * piece.normal(), jump * piece.along, has_friction() ? slip(piece) : 0.,
                       broken, carried_by(piece));

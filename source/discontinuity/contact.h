@@ -67,6 +67,7 @@ public:
   void begin_step()
   {
     carried = pressed;
+    closing = touched;
   }
 
   /// Where the faces of a piece overlap by more than half a per cent of the greatest opening so
@@ -124,5 +125,6 @@ private:
   bool touched = false, said = false;
 
   std::unordered_map<std::uint64_t, double> carried; ///< in this step: see press()
+  bool closing = false; ///< broken faces had touched when the step began
 };
 } // namespace stockwork
