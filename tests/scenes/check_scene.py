@@ -8,9 +8,10 @@
     --every 'COLUMN OP VALUE'             in every row, the last ones of a run that failed as well
     --tips ANGLE,DEGREES                  the last eight cells (of --cell) at both ends of the fracture
                                           point to ANGLE
-    --kink TABLE,NOTCH,SHORT,DEGREES      both wings of a notch through the origin turn from its direction, NOTCH
-                                          degrees, by the kink of the TABLE less SHORT degrees, within DEGREES:
-                                          the chord from the notch's end to the tip
+    --kink TABLE,NOTCH,XX,YY,DEGREES      the chord of each wing of a notch through the origin, from its end to the
+                                          tip, turns from its direction, NOTCH degrees, by as much as linear
+                                          fracture mechanics says for this length and the net stress XX, YY, within
+                                          DEGREES; the first kink of that path is the one of the TABLE
     --symmetric X,Y,LENGTH                each end of the fracture's pieces has its image in (X, Y) no further
                                           than LENGTH [m] from the fracture
     --peak COLUMN=VALUE,SHARE             of the fracture's last file: the greatest of its absolute values
@@ -133,10 +134,9 @@ def kink_of(table, notch):
     return next(float(row[column]) for row in lines[1:] if float(row[0]) == notch)
 
 
-def check_kink(directory, table, notch, short, bound):
+def check_kink(directory, table, notch, xx, yy, bound):
     import numpy as np
-    wanted = kink_of(table, notch)
-    wanted -= math.copysign(short, wanted)
+    from kinked_path import turns
     fracture, ends, _ = last_fracture(directory)
     points = fracture.points[ends][:, :, :2].reshape(-1, 2)
     t = direction(notch)
@@ -147,14 +147,17 @@ def check_kink(directory, table, notch, short, bound):
         old = on_line[np.argmax(sign * (on_line @ t))]
         tip = points[np.argmax(sign * (points @ t))]
         chord = sign * (tip - old)
-        if not np.linalg.norm(chord) > 0:
+        length = np.linalg.norm(chord)
+        if not length > 0:
             failed.append(f"the wing that ends at {old} has not grown")
             continue
         turn = (math.degrees(math.atan2(chord[1], chord[0])) - notch + 180.) % 360. - 180.
-        print(f"  from {old} to {tip}: turned by {turn:.2f} degrees, table {kink_of(table, notch):.2f},"
-              f" expected {wanted:.2f}")
+        first, wanted = turns(np.linalg.norm(old), notch, np.array([xx, yy]), length)
+        print(f"  from {old} to {tip}: turned by {turn:.2f} degrees, expected {wanted:.2f}")
         if not abs(turn - wanted) <= bound:
             failed.append(f"the wing that ends at {tip} turns by {turn:.2f} degrees, not {wanted:.2f}")
+        if not abs(first - kink_of(table, notch)) <= 0.02:
+            failed.append(f"the path that is compared with begins with {first:.2f} degrees, not {kink_of(table, notch):.2f}")
     return failed
 
 
