@@ -11,6 +11,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "mesh/box.h"
 #include "mesh/gmsh_file.h"
 #include "mesh/partition.h"
 #include "mesh/refinement.h"
@@ -599,11 +600,7 @@ double Geometry<dim>::diameter() const
 template <int dim>
 bool Geometry<dim>::on_side(const Point<dim> &point) const
 {
-  const double tolerance = 1e-8 * diameter();
-  for (unsigned int d = 0; d < dim; ++d)
-    if (std::abs(point[d] - lower()[d]) < tolerance || std::abs(point[d] - upper()[d]) < tolerance)
-      return true;
-  return false;
+  return on_side_of_box(point, lower(), upper());
 }
 
 template class Geometry<2>;

@@ -5,6 +5,7 @@
 
 #include "stockwork/base/error.h"
 
+#include "mesh/box.h"
 #include "verification/reference/problems.h"
 
 namespace stockwork::reference
@@ -59,16 +60,14 @@ unsigned int n_wings(const ReferenceInput<2> &input)
   if (input.cracks.empty())
     throw InputError("The reference solution of the KGD fracture needs an initial crack.");
   const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
-  const double small = 1e-8 * (input.upper - input.lower).norm();
   unsigned int wings = 2;
   Point<2> mouth = first + 0.5 * (last - first);
   for (const Point<2> &end : {first, last})
-    for (unsigned int d = 0; d < 2; ++d)
-      if (std::abs(end[d] - input.lower[d]) < small || std::abs(end[d] - input.upper[d]) < small)
-      {
-        wings = 1;
-        mouth = end;
-      }
+    if (on_side_of_box(end, input.lower, input.upper))
+    {
+      wings = 1;
+      mouth = end;
+    }
   if (std::abs(input.fraction_in_model - 0.5 * wings) > 1e-6)
     throw InputError(
       wings == 2 ? "The reference solution of the KGD fracture has both wings in the model: "

@@ -5,6 +5,7 @@
 
 #include "stockwork/base/error.h"
 
+#include "mesh/box.h"
 #include "verification/reference/problems.h"
 
 #include <cmath>
@@ -39,13 +40,11 @@ StraightCrack straight_crack(const ReferenceInput<2> &input)
       "The reference solution of a pressurised crack is for one straight crack, rock "
       "without regions and in-situ stress without a gradient.");
   const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
-  const double small = 1e-8 * (input.upper - input.lower).norm();
   const Tensor<1, 2> along = last - first;
   StraightCrack crack{(first + last) / 2., along.norm() / 2., std::atan2(along[1], along[0]), 2};
   for (const auto &[end, other] : {std::make_pair(first, last), std::make_pair(last, first)})
-    for (unsigned int d = 0; d < 2; ++d)
-      if (std::abs(end[d] - input.lower[d]) < small || std::abs(end[d] - input.upper[d]) < small)
-        return {end, (other - end).norm(), crack.angle, 1};
+    if (on_side_of_box(end, input.lower, input.upper))
+      return {end, (other - end).norm(), crack.angle, 1};
   return crack;
 }
 
