@@ -21,6 +21,9 @@ constexpr double high_pressure = 0.5;
 /// In-situ stress along a crack less that across it, over the strength, below which pressure and
 /// length are off by less than 1 %.
 constexpr double equal_stress = 0.1;
+/// That above which bonds break without end in the first step, or faces overlap, whatever its
+/// length.
+constexpr double hopeless_stress = 5.;
 /// Overlap of faces over the extent of the fracture that is no rounding error of a closed one.
 constexpr double overlap = 1e-7;
 /// Attempts at a step in which a fracture jumps, before it is believed that it does at any length.
@@ -124,6 +127,15 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
       if (unequal <= worst)
         continue;
       worst = unequal;
+      if (unequal > hopeless_stress * strength())
+        throw InputError(
+          "In situ/Stress: along the crack '" + crack.text + "' it is " + megapascals(along) +
+          ", across it " + megapascals(across) +
+          (shear > 1e-6 * unequal ? ", with a shear stress of " + megapascals(shear) : "") +
+          ". Bonds ahead of the crack feel the difference, and hold " + megapascals(strength()) +
+          " with cells of " + text(spacing) + " m. With more than " + text(hopeless_stress) +
+          " times that, runs fail in their first step. Use a smaller difference" +
+          (dim == 2 ? ", smaller cells, or 'cohesive_xfem'." : " or smaller cells."));
       message =
         "The in-situ stress along the crack '" + crack.text + "', " + megapascals(along) +
         ", is not that across it, " + megapascals(across) +
