@@ -140,13 +140,15 @@ bool FaceContact<dim>::press(const Discontinuity<dim> &discontinuity,
                              const unsigned int crack,
                              const unsigned int index,
                              const std::vector<double> &extra,
+                             const double opening,
                              const double broken)
 {
   if (broken < 1. || index != patch(discontinuity, crack, index).first)
     return false;
   const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  const double greatest = std::max(opening, greatest_opening), gap = std::abs(response.gap);
   // Faces that have hardly parted so far have no opening to compare with.
-  if (-response.gap <= 0.005 * greatest_opening || -response.gap >= greatest_opening)
+  if (response.normal == 0. || gap <= 0.005 * greatest || gap >= greatest)
     return false;
   carried[discontinuity.paths()[crack].pieces[index].key(domain_size)] = response.normal;
   return true;

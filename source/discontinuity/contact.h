@@ -70,13 +70,16 @@ public:
     closing = touched;
   }
 
-  /// Where the faces of a piece overlap by more than half a per cent of the greatest opening so
-  /// far: let them carry what presses them, for the step to be solved again.
+  /// Where the faces of a piece press one another though they overlap, or are apart, by more than
+  /// half a per cent of the greatest opening: let them carry what presses them, for the step to be
+  /// solved again.
+  /// @param opening the greatest now [m]
   /// @return whether they do
   bool press(const Discontinuity<dim> &discontinuity,
              unsigned int crack,
              unsigned int piece,
              const std::vector<double> &extra,
+             double opening,
              double broken = 1.);
 
   /// The step is accepted: its slip on a piece is what it was, and its pressure.

@@ -155,11 +155,16 @@ bool CohesiveXFEM<dim>::press_faces(const State &state)
   constexpr unsigned int enough = 4; // what is left by then goes with the next step
   if (n_presses == enough)
     return false;
+  const auto &paths = discontinuity.paths();
+  const auto &extra = state.current.extra;
+  double opening = 0.;
+  for (unsigned int c = 0; c < paths.size(); ++c)
+    for (unsigned int i = 0; i < paths[c].pieces.size(); ++i)
+      opening = std::max(opening, contact.traction(discontinuity, c, i, extra).gap);
   bool pressed = false;
-  for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
-    for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
-      pressed |= contact.press(discontinuity, c, i, state.current.extra,
-                               broken_share(discontinuity.paths()[c].pieces[i]));
+  for (unsigned int c = 0; c < paths.size(); ++c)
+    for (unsigned int i = 0; i < paths[c].pieces.size(); ++i)
+      pressed |= contact.press(discontinuity, c, i, extra, opening, broken_share(paths[c].pieces[i]));
   n_presses += pressed;
   return pressed;
 }
