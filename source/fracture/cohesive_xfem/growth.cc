@@ -164,7 +164,8 @@ bool CohesiveXFEM<dim>::press_faces(const State &state)
   bool pressed = false;
   for (unsigned int c = 0; c < paths.size(); ++c)
     for (unsigned int i = 0; i < paths[c].pieces.size(); ++i)
-      pressed |= contact.press(discontinuity, c, i, extra, opening, broken_share(paths[c].pieces[i]));
+      pressed |=
+        contact.press(discontinuity, c, i, extra, opening, broken_share(paths[c].pieces[i]));
   n_presses += pressed;
   return pressed;
 }
