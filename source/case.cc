@@ -348,6 +348,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   network.check_perforations(scene.cracks);
   scene.crack_pressure = given_crack_pressure(prm);
   control.parse_parameters(prm);
+  network.check_wells(control.start_time, control.end_time);
   scene.injection_rate = greatest_rate(network, control);
   in_situ.check(prm, rock.main().density,
                 std::isnan(scene.crack_pressure) ? scene.cracks : std::vector<InitialCrack<dim>>(),

@@ -160,6 +160,12 @@ void InSitu<dim>::check(ParameterHandler &prm,
                          "compression (negative) across cracks that fluid is to fill; across '" +
                            crack.text + "' there is a tension of " +
                            to_string(across, dimension::stress));
+      const double tension = eigenvalues(stress(place))[0];
+      if (tension > 1e-9 * stress(place).norm())
+        throw EntryError("In situ/Stress", stress_text,
+                         "compression in every direction where fluid is to fill cracks; at '" +
+                           crack.text + "' there is a tension of " +
+                           to_string(tension, dimension::stress) + " in one");
       pressed_open = pressed_open || (across < 0. && pore_pressure(place) > -across);
     }
   if (pressed_open)

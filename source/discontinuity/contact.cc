@@ -146,9 +146,10 @@ bool FaceContact<dim>::press(const Discontinuity<dim> &discontinuity,
   if (broken < 1. || index != patch(discontinuity, crack, index).first)
     return false;
   const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
-  const double greatest = std::max(opening, greatest_opening), gap = std::abs(response.gap);
-  // Faces that have hardly parted so far have no opening to compare with.
-  if (response.normal == 0. || gap <= 0.005 * greatest || gap >= greatest)
+  const double gap = std::abs(response.gap);
+  // Where faces have not parted yet, what is left of a penalty's overlap is the measure.
+  if (response.normal == 0. || gap <= 0.005 * std::max(opening, greatest_opening) ||
+      gap * response.tangent[0][0] <= -0.01 * response.normal)
     return false;
   carried[discontinuity.paths()[crack].pieces[index].key(domain_size)] = response.normal;
   return true;

@@ -71,8 +71,8 @@ public:
   }
 
   /// Where the faces of a piece press one another though they overlap, or are apart, by more than
-  /// half a per cent of the greatest opening: let them carry what presses them, for the step to be
-  /// solved again.
+  /// half a per cent of the greatest opening, and by more than a hundredth of what the penalty
+  /// alone would leave: let them carry what presses them, for the step to be solved again.
   /// @param opening the greatest now [m]
   /// @return whether they do
   bool press(const Discontinuity<dim> &discontinuity,

@@ -153,6 +153,12 @@ public:
     all_wells.check(cracks);
   }
 
+  /// See Wells::check.
+  void check_wells(const double start_time, const double end_time) const
+  {
+    all_wells.check(start_time, end_time, needs_pore_pressure());
+  }
+
   /// The fluid may lag behind the tips.
   bool may_boil() const
   {

@@ -23,6 +23,7 @@ TimeHistory::TimeHistory(const std::string &text,
                          const Dimension &dimension,
                          const std::string &path)
   : path(path)
+  , text(text)
 {
   const std::string allowed = "a value, '" + std::string(dimension.example) +
                               "'; pieces, each from its time on, '0 s: " + dimension.example +
@@ -106,6 +107,24 @@ double TimeHistory::operator()(const double begin, const double end) const
   return end > begin ? integral / (end - begin) : 0.;
 }
 
+void TimeHistory::check(const double begin, const double end) const
+{
+  if (!expression)
+    return;
+  constexpr unsigned int n = 4096;
+  for (unsigned int k = 0; k <= n; ++k)
+  {
+    const double t = begin + (end - begin) * k / n;
+    if (!std::isfinite(expression->value(dealii::Point<1>(t))))
+    {
+      std::ostringstream allowed;
+      allowed << "an expression that is finite from " << begin << " s to " << end
+              << " s; at t = " << t << " s it is not";
+      refuse(allowed.str());
+    }
+  }
+}
+
 double TimeHistory::magnitude() const
 {
   double largest = 0.;
@@ -125,6 +144,17 @@ double TimeHistory::least() const
 {
   return expression ? -std::numeric_limits<double>::infinity()
                     : *std::min_element(values.begin(), values.end());
+}
+
+double TimeHistory::greatest() const
+{
+  return expression ? std::numeric_limits<double>::infinity()
+                    : *std::max_element(values.begin(), values.end());
+}
+
+void TimeHistory::refuse(const std::string &allowed) const
+{
+  throw EntryError(path, text, allowed);
 }
 
 double TimeHistory::next_jump(const double t) const

@@ -32,11 +32,21 @@ public:
   /// step runs across a change. @throws SolveError where an expression is not finite
   double mean(double begin, double end) const;
 
+  /// Whether an expression is finite at many times of a run.
+  /// @throws EntryError where it is not
+  void check(double begin, double end) const;
+
   /// The greatest magnitude; of an expression, the greatest found at powers of ten of time.
   double magnitude() const;
 
   /// The least value; of an expression, unknown: minus infinity.
   double least() const;
+
+  /// The greatest value; of an expression, unknown: infinity.
+  double greatest() const;
+
+  /// @throws EntryError with what is allowed instead
+  [[noreturn]] void refuse(const std::string &allowed) const;
 
   /// The next time after t at which the value jumps [s]; infinity if there is none. Steps should
   /// end there.
@@ -45,7 +55,7 @@ public:
 private:
   double expressed(double t) const;
 
-  std::string path; ///< of the entry
+  std::string path, text; ///< of the entry
   std::vector<double> times, values;
   std::shared_ptr<dealii::FunctionParser<1>> expression;
 };

@@ -98,6 +98,22 @@ public:
   /// @throws EntryError naming the point
   void check(const std::vector<InitialCrack<dim>> &cracks) const;
 
+  /// What the wells are to do is finite from the start of the run to its end, and a single well
+  /// does not only take fluid from cracks that hold none.
+  /// @param rock_gives the pores have fluid for the cracks
+  /// @throws EntryError
+  void check(const double start_time, const double end_time, const bool rock_gives) const
+  {
+    for (const Well &well : wells)
+      well.value.check(start_time, end_time);
+    if (!rock_gives && wells.size() == 1 && !wells[0].pressure_control &&
+        wells[0].value.least() < 0. && wells[0].value.greatest() <= 0.)
+      wells[0].value.refuse(
+        "a rate that is positive at some time: in rock whose pores give no fluid "
+        "('Fracture flow/Leak-off' is not 'resolved') a closed crack holds "
+        "nothing that could be produced");
+  }
+
   std::vector<ExtraUnknown> unknowns() const;
 
   /// Index of the first of unknowns().

@@ -10,6 +10,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
 #include "stockwork/fracture/registry.h"
 
 #include <cmath>
@@ -87,10 +88,17 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
   {
     const auto &corners = scene.cracks[c].points;
+    const auto &pieces = discontinuity.paths()[c].pieces;
+    // Its jumps would be those of the corners at its two ends, which are none.
+    if (discontinuity.spans(c).size() < 2 && !pieces.front().at_boundary[0] &&
+        !pieces.back().at_boundary[1])
+      throw EntryError(scene.cracks[c].entry, scene.cracks[c].text,
+                       "a crack through two cells or more; this one lies in one of " +
+                         to_string(pieces.front().cell_size(), dimension::length));
     double given = 0., held = 0.;
     for (unsigned int k = 1; k < corners.size(); ++k)
       given += corners[k].distance(corners[k - 1]);
-    for (const auto &piece : discontinuity.paths()[c].pieces)
+    for (const auto &piece : pieces)
       held += piece.length();
     if (std::abs(held - given) > 0.02 * given)
     {
