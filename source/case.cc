@@ -217,11 +217,11 @@ const auto &create_function(const FractureModelEntry &entry)
 
 template <int dim>
 std::unique_ptr<FractureModel<dim>>
-make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const Scene<dim> &scene)
+make_model(ParameterHandler &prm, const PlugIns &plug_ins, const Scene<dim> &scene)
 {
   prm.enter_subsection("Fracture");
   const std::string name = prm.get("Model");
-  const auto &create = create_function<dim>(registry.find(name));
+  const auto &create = create_function<dim>(plug_ins.fracture_models.find(name));
   if (!create)
     throw EntryError("Fracture/Model", name,
                      "a model that exists in " + std::to_string(dim) + "-D");
@@ -249,7 +249,7 @@ make_model(ParameterHandler &prm, const FractureModelRegistry &registry, const S
 } // namespace
 
 
-void declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &registry)
+void declare_all_parameters(ParameterHandler &prm, const PlugIns &plug_ins)
 {
   Deck::declare_parameters(prm);
   prm.declare_entry("Title", "", Patterns::Anything(), "For people; appears in the log.");
@@ -260,6 +260,7 @@ void declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &
                     "Files, separated by commas, that bring fracture models of their own; relative "
                     "to the deck.");
   Rock::declare_parameters(prm);
+  RockLaws::declare_parameters(prm, plug_ins.rock_laws);
   declare_for_dimension<2>(prm);
   TimeScheme::declare_parameters(prm);
   StepControl::declare_parameters(prm);
@@ -276,10 +277,10 @@ void declare_all_parameters(ParameterHandler &prm, const FractureModelRegistry &
 
   prm.enter_subsection("Fracture");
   std::string names;
-  for (const auto &[name, entry] : registry.all())
+  for (const auto &[name, entry] : plug_ins.fracture_models.all())
     names += (names.empty() ? "" : "|") + name;
   prm.declare_entry("Model", "none", Patterns::Selection(names), "The fracture model.");
-  for (const auto &[name, entry] : registry.all())
+  for (const auto &[name, entry] : plug_ins.fracture_models.all())
   {
     // An empty section would be printed, and is none when it is read again.
     ParameterHandler own;
@@ -320,19 +321,25 @@ void set_crack_load(const Scene<dim> &scene, ReferenceInput<dim> &input)
 
 
 template <int dim>
-Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegistry &registry)
+Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins)
   : name(deck.name())
   , scene{rock,
           {},
           false,
           [this](const Point<dim> &x) { return in_situ.stress(x); },
           [this](const Point<dim> &x) { return in_situ.pore_pressure(x); },
+          [this](const Point<dim> &x, const RockProperties &properties)
+          { return in_situ.tensor(x, properties); },
           0.}
 {
   geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
   rock.parse_parameters(prm);
   if (dim == 3 && rock.main().plane_stress)
     throw EntryError("Rock/Plane state", "plane stress", "'plane strain' (or nothing) in 3-D");
+  std::vector<types::material_id> regions;
+  for (const std::string &region : geometry.region_names())
+    regions.push_back(geometry.region(region));
+  laws.parse_parameters(prm, plug_ins.rock_laws, rock, regions);
   in_situ.parse_parameters(prm);
   boundary_conditions.parse_parameters(prm, [this](const std::string &side)
                                        { return geometry.side(side); });
@@ -360,7 +367,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   const std::vector<ChosenValue> chosen_for_flow = set_flow_scales(prm, *this);
   if (solves_for_flow)
     chosen = chosen_for_flow;
-  model = make_model<dim>(prm, registry, scene);
+  model = make_model<dim>(prm, plug_ins, scene);
   if (model->requirements().uniform_rock || model->requirements().uniform_strength)
     refuse_regions(prm, model_name, model->requirements());
   refuse_absent_regions(prm, geometry);
@@ -383,7 +390,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
   if (discretisation.has_pore_pressure)
     refuse_incompressible(prm, rock, geometry, boundary_conditions);
 
-  scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure);
+  scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure &&
+                                 laws.are_linear());
 
   if (scheme.kind() == TimeScheme::Kind::newmark)
     require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
@@ -391,6 +399,11 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const FractureModelRegi
     throw EntryError(
       "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
       "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
+  if (!laws.are_linear() && discretisation.has_pore_pressure &&
+      scheme.kind() != TimeScheme::Kind::backward_euler)
+    throw EntryError("Time/Scheme", *deck.peek("Time/Scheme"),
+                     "backward Euler (or auto) where 'Rock/Law' has a history and there is a pore "
+                     "pressure: the fluid in the pores is balanced from one step to the next");
   if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Least pressure'");

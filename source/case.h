@@ -3,7 +3,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include "stockwork/base/deck.h"
-#include "stockwork/fracture/registry.h"
+#include "plug_ins.h"
 
 #include "biot/boundary_conditions.h"
 #include "biot/in_situ.h"
@@ -12,6 +12,7 @@
 #include "coupling/time_scheme.h"
 #include "flow/network.h"
 #include "mesh/geometry.h"
+#include "rock/laws.h"
 #include "scales.h"
 #include "verification/reference_solution.h"
 
@@ -21,7 +22,7 @@
 namespace stockwork
 {
 /// Declares every entry of a deck, those of all registered fracture models included.
-void declare_all_parameters(dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
+void declare_all_parameters(dealii::ParameterHandler &prm, const PlugIns &plug_ins);
 
 /// A deck turned into objects. Whatever can be wrong with a deck is found when this is made, before
 /// anything is computed.
@@ -29,11 +30,12 @@ template <int dim>
 struct Case
 {
   /// Throws InputError.
-  Case(const Deck &deck, dealii::ParameterHandler &prm, const FractureModelRegistry &registry);
+  Case(const Deck &deck, dealii::ParameterHandler &prm, const PlugIns &plug_ins);
 
   std::string name, model_name;
   Geometry<dim> geometry;
   Rock rock;
+  RockLaws laws;
   InSitu<dim> in_situ;
   BoundaryConditions<dim> boundary_conditions;
   Network<dim> network;

@@ -4,11 +4,10 @@
 #include "stockwork/base/parameters.h"
 #include "stockwork/base/run_context.h"
 #include "stockwork/base/version.h"
-#include "stockwork/fracture/registry.h"
 
 #include "base/catalogue.h"
 #include "case.h"
-#include "fracture/plug_ins.h"
+#include "plug_ins.h"
 #include "simulation.h"
 
 #include <deal.II/base/mpi.h>
@@ -19,15 +18,12 @@
 
 namespace stockwork
 {
-/// Written by the build from the folders of source/fracture.
-void register_all_fracture_models(FractureModelRegistry &registry);
 
 namespace
 {
 int run_program(const CommandLine &command_line, RunContext &run)
 {
-  FractureModelRegistry registry;
-  register_all_fracture_models(registry);
+  PlugIns plug_ins = PlugIns::own();
   dealii::ParameterHandler prm;
 
   switch (command_line.action)
@@ -42,7 +38,7 @@ int run_program(const CommandLine &command_line, RunContext &run)
     if (run.rank == 0)
     {
       std::cout << "Fracture models\n";
-      for (const auto &[name, entry] : registry.all())
+      for (const auto &[name, entry] : plug_ins.fracture_models.all())
         std::cout << "  " << std::left << std::setw(32) << name << ' ' << entry.description << '\n';
       std::cout << '\n';
       print_cases(std::cout);
@@ -51,7 +47,7 @@ int run_program(const CommandLine &command_line, RunContext &run)
   case CommandLine::Action::print_parameters:
     if (command_line.deck.empty())
     {
-      declare_all_parameters(prm, registry);
+      declare_all_parameters(prm, plug_ins);
       if (run.rank == 0)
         print_parameters(prm, command_line.parameter_format, std::cout);
       return 0;
@@ -67,8 +63,8 @@ int run_program(const CommandLine &command_line, RunContext &run)
   const Deck deck = Deck::read(command_line.deck, overrides);
   try
   {
-    load_plug_ins(deck, registry);
-    declare_all_parameters(prm, registry);
+    plug_ins.load(deck);
+    declare_all_parameters(prm, plug_ins);
     const std::vector<std::string> warnings = deck.parse_into(prm);
     if (command_line.action == CommandLine::Action::print_parameters)
     {
@@ -85,9 +81,9 @@ int run_program(const CommandLine &command_line, RunContext &run)
     options.check_only = command_line.action == CommandLine::Action::check;
     options.restart = command_line.restart;
     if (prm.get("Dimension") == "2")
-      simulate<2>(run, deck, prm, registry, options);
+      simulate<2>(run, deck, prm, plug_ins, options);
     else
-      simulate<3>(run, deck, prm, registry, options);
+      simulate<3>(run, deck, prm, plug_ins, options);
   }
   catch (const EntryError &error)
   {

@@ -160,7 +160,8 @@ Simulation<dim>::Simulation(RunContext &run,
   , system(run,
            triangulation,
            *mapping,
-           the_case.rock,
+           the_case.scene,
+           the_case.laws,
            the_case.boundary_conditions,
            *the_case.model,
            the_case.network,
@@ -311,8 +312,13 @@ void Simulation<dim>::save()
   std::vector<const TrilinosWrappers::MPI::BlockVector *> vectors;
   for (const auto *vector : stepper.bulk_vectors())
     vectors.push_back(vector);
+  NonlinearRock<dim> *const rock = system.nonlinear_rock();
+  if (rock != nullptr)
+    rock->history().prepare_for_save(triangulation);
   checkpoint.save(triangulation, system.bulk_dofs(), vectors, bytes.str(), deck_fingerprint,
-                  comparable_deck);
+                  comparable_deck, rock != nullptr ? rock->history().bytes() : 0);
+  if (rock != nullptr)
+    rock->history().finish_save();
 }
 
 
@@ -346,6 +352,9 @@ void Simulation<dim>::resume()
 
   system.setup_mesh(clock.time);
   system.adopt_extra(ExtraNumbering(unknowns), stepper.extra_vectors());
+  // In the order in which they were saved.
+  if (NonlinearRock<dim> *const rock = system.nonlinear_rock())
+    rock->history().load(triangulation);
   const auto targets = stepper.bulk_vectors();
   std::vector<TrilinosWrappers::MPI::BlockVector> values(targets.size(), system.owned_vector());
   std::vector<TrilinosWrappers::MPI::BlockVector *> loaded;
@@ -423,10 +432,10 @@ template <int dim>
 void run_case(RunContext &run,
               const Deck &deck,
               ParameterHandler &prm,
-              const FractureModelRegistry &registry,
+              const PlugIns &plug_ins,
               const SimulationOptions &options)
 {
-  Case<dim> the_case(deck, prm, registry);
+  Case<dim> the_case(deck, prm, plug_ins);
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
   for (const std::string &warning : the_case.warnings)
@@ -459,12 +468,12 @@ template <int dim>
 void simulate(RunContext &run,
               const Deck &deck,
               ParameterHandler &prm,
-              const FractureModelRegistry &registry,
+              const PlugIns &plug_ins,
               const SimulationOptions &options)
 {
   try
   {
-    run_case<dim>(run, deck, prm, registry, options);
+    run_case<dim>(run, deck, prm, plug_ins, options);
   }
   catch (const std::bad_alloc &)
   {
@@ -485,11 +494,11 @@ void simulate(RunContext &run,
 template void simulate<2>(RunContext &,
                           const Deck &,
                           ParameterHandler &,
-                          const FractureModelRegistry &,
+                          const PlugIns &,
                           const SimulationOptions &);
 template void simulate<3>(RunContext &,
                           const Deck &,
                           ParameterHandler &,
-                          const FractureModelRegistry &,
+                          const PlugIns &,
                           const SimulationOptions &);
 } // namespace stockwork

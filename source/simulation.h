@@ -4,7 +4,7 @@
 
 #include "stockwork/base/deck.h"
 #include "stockwork/base/run_context.h"
-#include "stockwork/fracture/registry.h"
+#include "plug_ins.h"
 
 #include <string>
 
@@ -24,6 +24,6 @@ template <int dim>
 void simulate(RunContext &run,
               const Deck &deck,
               dealii::ParameterHandler &prm,
-              const FractureModelRegistry &registry,
+              const PlugIns &plug_ins,
               const SimulationOptions &options);
 } // namespace stockwork

@@ -9,12 +9,10 @@
 #include "case.h"
 #include "coupling/mesh_adaptation.h"
 #include "coupling/stepper.h"
-#include "fracture/plug_ins.h"
+#include "plug_ins.h"
 
 namespace stockwork
 {
-/// Written by the build from the folders of source/fracture.
-void register_all_fracture_models(FractureModelRegistry &registry);
 
 /// A deck's coupled system of equations, for tests that look at residual and matrix. One rank.
 template <int dim>
@@ -33,7 +31,8 @@ public:
     , system(run,
              triangulation,
              *mapping,
-             the_case->rock,
+             the_case->scene,
+             the_case->laws,
              the_case->boundary_conditions,
              *the_case->model,
              the_case->network,
@@ -154,12 +153,11 @@ public:
 private:
   std::unique_ptr<Case<dim>> make_case()
   {
-    FractureModelRegistry registry;
-    register_all_fracture_models(registry);
-    load_plug_ins(deck, registry);
-    declare_all_parameters(prm, registry);
+    PlugIns plug_ins = PlugIns::own();
+    plug_ins.load(deck);
+    declare_all_parameters(prm, plug_ins);
     deck.parse_into(prm);
-    return std::make_unique<Case<dim>>(deck, prm, registry);
+    return std::make_unique<Case<dim>>(deck, prm, plug_ins);
   }
 };
 

@@ -3,7 +3,7 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/sink.h"
 #include "stockwork/fracture/state.h"

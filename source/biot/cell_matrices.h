@@ -4,7 +4,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/state.h"
 

@@ -38,6 +38,9 @@ void InSitu<dim>::declare_parameters(ParameterHandler &prm)
     "Stress", "", Quantities(dimension::stress),
     "Total stress, tension positive. In 2-D: xx, yy or xx, yy, xy. In 3-D: xx, yy, zz or xx, "
     "yy, zz, xy, xz, yz. Empty: none.");
+  prm.declare_entry("Stress across the plane", "", Quantity(dimension::stress, Range::finite(), ""),
+                    "Total zz in 2-D, the same everywhere; empty: that of plane strain, nu (xx + "
+                    "yy) of the effective stress. Rock that yields asks for it.");
   prm.declare_entry("Stress gradient", "", Quantities(dimension::pressure_gradient),
                     "Change of the components per metre upwards (along the last coordinate).");
   prm.declare_entry("Pore pressure", "0 Pa", Quantity(dimension::pressure), "At the datum.");
@@ -55,6 +58,10 @@ void InSitu<dim>::parse_parameters(ParameterHandler &prm)
   prm.enter_subsection("In situ");
   stress_0 = parse_stress<dim>(prm, "Stress", dimension::stress);
   stress_gradient = parse_stress<dim>(prm, "Stress gradient", dimension::pressure_gradient);
+  across_plane = get_optional_quantity(prm, "Stress across the plane", dimension::stress);
+  if (dim == 3 && across_plane)
+    throw EntryError("In situ/Stress across the plane", prm.get("Stress across the plane"),
+                     "nothing (an empty entry) in 3-D: 'In situ/Stress' has a zz");
   pressure_0 = get_quantity(prm, "Pore pressure", dimension::pressure);
   pressure_gradient = get_quantity(prm, "Pore pressure gradient", dimension::pressure_gradient);
   datum = get_quantity(prm, "Datum", dimension::length);
@@ -66,6 +73,24 @@ template <int dim>
 SymmetricTensor<2, dim> InSitu<dim>::stress(const Point<dim> &point) const
 {
   return stress_0 + (point[dim - 1] - datum) * stress_gradient;
+}
+
+
+template <int dim>
+SymmetricTensor<2, 3> InSitu<dim>::tensor(const Point<dim> &point, const RockProperties &rock) const
+{
+  const SymmetricTensor<2, dim> known = stress(point);
+  SymmetricTensor<2, 3> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      result[i][j] = known[i][j];
+  if (dim == 2)
+    result[2][2] = across_plane.value_or(
+      rock.plane_stress ? 0.
+                        : rock.poisson_ratio * trace(known) -
+                            (1. - 2. * rock.poisson_ratio) * rock.biot_coefficient *
+                              pore_pressure(point));
+  return result;
 }
 
 

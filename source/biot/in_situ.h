@@ -5,7 +5,9 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include "stockwork/fracture/scene.h"
+#include "stockwork/rock/rock.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,12 @@ public:
 
   /// Total stress, tension positive [Pa].
   dealii::SymmetricTensor<2, dim> stress(const dealii::Point<dim> &point) const;
+
+  /// Total stress in three dimensions, tension positive [Pa]. Where the case has two and the deck
+  /// says nothing of the stress across the plane, it is that of plane strain: nu (s_xx + s_yy) of
+  /// Biot's effective stress.
+  dealii::SymmetricTensor<2, 3> tensor(const dealii::Point<dim> &point,
+                                       const RockProperties &rock) const;
 
   /// Pore pressure [Pa].
   double pore_pressure(const dealii::Point<dim> &point) const;
@@ -52,6 +60,7 @@ public:
 
 private:
   dealii::SymmetricTensor<2, dim> stress_0, stress_gradient;
+  std::optional<double> across_plane; ///< in two dimensions [Pa]
   double pressure_0 = 0., pressure_gradient = 0., datum = 0.;
 };
 } // namespace stockwork

@@ -8,11 +8,13 @@
 
 #include "biot/boundary_conditions.h"
 #include "biot/bulk_assembly.h"
+#include "biot/nonlinear_rock.h"
 #include "coupling/extra_numbering.h"
 #include "coupling/split_scheme.h"
 #include "flow/network.h"
 #include "solvers/linear_solver.h"
 #include "solvers/linear_system.h"
+#include "solvers/tangent_solver.h"
 
 #include <algorithm>
 #include <functional>
@@ -41,9 +43,10 @@ struct NonlinearReport
 /// All unknowns of the run and the one nonlinear system that couples them: bulk, fracture model
 /// and fracture fluid, solved monolithically by Newton's method.
 ///
-/// The bulk is linear, so its matrix is kept from one iteration, and where possible one step, to
-/// the next, and its residual is updated instead of assembled again; only the terms of the fracture
-/// are assembled in every iteration.
+/// The bulk is linear but for cells whose rock has left its linear range. Its matrix is kept from
+/// one iteration, and where possible one step, to the next, and its residual is updated instead of
+/// assembled again; only the terms of the fracture and of those cells are assembled in every
+/// iteration.
 template <int dim>
 class CoupledSystem
 {
@@ -53,7 +56,8 @@ public:
   CoupledSystem(RunContext &run,
                 dealii::parallel::distributed::Triangulation<dim> &triangulation,
                 const dealii::Mapping<dim> &mapping,
-                const Rock &rock,
+                const Scene<dim> &scene,
+                const RockLaws &laws,
                 const BoundaryConditions<dim> &boundary_conditions,
                 FractureModel<dim> &model,
                 Network<dim> &network,
@@ -113,6 +117,19 @@ public:
     return dof_handler.n_dofs() + numbering.size();
   }
 
+  /// Rock that may leave its linear range; null: there is none.
+  NonlinearRock<dim> *nonlinear_rock() const
+  {
+    return nonlinear.get();
+  }
+
+  /// The converged state of a step is accepted.
+  void commit(const State &state)
+  {
+    if (nonlinear)
+      nonlinear->commit(state, [this](const auto &cell) { return model.role(cell); });
+  }
+
   const Collectives &collectives() const
   {
     return communication;
@@ -148,6 +165,9 @@ private:
   void assemble_linear(const StepContext &context, const State &state);
 
   void assemble_nonlinear(const StepContext &context, const State &state);
+
+  /// Add what rock beyond its linear range does.
+  void assemble_rock(const StepContext &context, const State &state);
 
   /// The unknowns have moved by a step times an increment.
   void update_linear_residual(double step,
@@ -191,7 +211,7 @@ private:
   RunContext &run;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const dealii::Mapping<dim> &mapping;
-  const Rock &rock;
+  const Scene<dim> &scene;
   const BoundaryConditions<dim> &boundary_conditions;
   FractureModel<dim> &model;
   Network<dim> &network;
@@ -216,7 +236,10 @@ private:
   std::unique_ptr<BulkAssembly<dim>> bulk;
   LinearSolverParameters solver_parameters;
   CouplingParameters coupling_parameters;
-  std::unique_ptr<LinearSolver> solver;
+  std::unique_ptr<TangentSolver> solver;
+  std::unique_ptr<NonlinearRock<dim>> nonlinear; ///< null: the rock is linear whatever happens
+  dealii::TrilinosWrappers::BlockSparseMatrix rock_change; ///< see LinearSystem
+  bool has_rock_change = false;                            ///< memory, that is
 
   LinearSystem system;
   SystemStamps stamps;

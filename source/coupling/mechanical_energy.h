@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/collectives.h"
 #include "stockwork/fracture/state.h"

@@ -104,7 +104,12 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
       system.bulk_dofs());
     triangulation.prepare_coarsening_and_refinement();
     transfer.prepare_for_coarsening_and_refinement(sources);
+    NonlinearRock<dim> *const rock = system.nonlinear_rock();
+    if (rock != nullptr)
+      rock->history().prepare_for_refinement(triangulation);
     triangulation.execute_coarsening_and_refinement();
+    if (rock != nullptr)
+      rock->history().finish_refinement(triangulation);
     if (triangulation.n_global_active_cells() > max_cells)
       throw SolveError("The mesh has grown to more than " + std::to_string(max_cells) +
                        " cells ('Mesh/Maximum number of cells').");

@@ -3,7 +3,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 
 #include "coupling/split_block.h"
 

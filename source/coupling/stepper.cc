@@ -179,6 +179,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     {
       const State state = last_state();
       balance = network.balance(context, state, system.collectives());
+      system.commit(state);
       network.commit(context, state, system.collectives());
       model.commit(context, state);
       // The history follows the numbering that has come out of the step.

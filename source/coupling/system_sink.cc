@@ -23,12 +23,14 @@ void resolve(const AffineConstraints<double> &constraints,
 
 SystemSink::SystemSink(const AffineConstraints<double> &constraints,
                        LinearSystem &system,
+                       TrilinosWrappers::BlockSparseMatrix &bulk,
                        TrilinosWrappers::MPI::BlockVector &residual_bulk,
                        std::vector<double> &residual_extra,
                        Triplets &extra_extra,
                        const bool wants_matrix)
   : constraints(constraints)
   , system(system)
+  , bulk(bulk)
   , residual_bulk(residual_bulk)
   , residual_extra(residual_extra)
   , extra_extra(extra_extra)
@@ -61,7 +63,7 @@ void SystemSink::add(const LocalSystem &local)
                 {
                   resolve(constraints, local.bulk[j],
                           [&](const auto column, const double weight) {
-                            system.bulk.add(row, column, row_weight * weight * local.matrix(i, j));
+                            bulk.add(row, column, row_weight * weight * local.matrix(i, j));
                           });
                 });
       }

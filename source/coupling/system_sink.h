@@ -19,6 +19,7 @@ public:
   /// The residual of the extra rows is added to `residual_extra`, this rank's part only.
   SystemSink(const dealii::AffineConstraints<double> &constraints,
              LinearSystem &system,
+             dealii::TrilinosWrappers::BlockSparseMatrix &bulk,
              dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk,
              std::vector<double> &residual_extra,
              Triplets &extra_extra,
@@ -36,6 +37,7 @@ public:
 private:
   const dealii::AffineConstraints<double> &constraints;
   LinearSystem &system;
+  dealii::TrilinosWrappers::BlockSparseMatrix &bulk;
   dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk;
   std::vector<double> &residual_extra;
   Triplets &extra_extra;

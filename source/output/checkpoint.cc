@@ -78,9 +78,11 @@ void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangula
                       const std::vector<const Vector *> &vectors,
                       const std::string &bytes,
                       const std::uint64_t fingerprint,
-                      const std::string &deck)
+                      const std::string &deck,
+                      std::uint64_t attached_bytes)
 {
   std::string set;
+  attached_bytes = Utilities::MPI::sum(attached_bytes, communicator);
   on_root(communicator,
           [&]()
           {
@@ -103,7 +105,7 @@ void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangula
               vectors.size() * dof_handler.get_fe().n_dofs_per_cell() * sizeof(double) + 64.;
             reserve_space(
               static_cast<std::uint64_t>(triangulation.n_global_active_cells() * cell_bytes) +
-              bytes.size() + 65536);
+              bytes.size() + attached_bytes + 65536);
           });
   set = Utilities::MPI::broadcast(communicator, set, 0);
 
@@ -345,13 +347,15 @@ template void Checkpoint::save<2>(const parallel::distributed::Triangulation<2> 
                                   const std::vector<const Vector *> &,
                                   const std::string &,
                                   std::uint64_t,
-                                  const std::string &);
+                                  const std::string &,
+                                  std::uint64_t);
 template void Checkpoint::save<3>(const parallel::distributed::Triangulation<3> &,
                                   const DoFHandler<3> &,
                                   const std::vector<const Vector *> &,
                                   const std::string &,
                                   std::uint64_t,
-                                  const std::string &);
+                                  const std::string &,
+                                  std::uint64_t);
 template void Checkpoint::load_mesh<2>(parallel::distributed::Triangulation<2> &) const;
 template void Checkpoint::load_mesh<3>(parallel::distributed::Triangulation<3> &) const;
 template void Checkpoint::load_vectors<2>(const DoFHandler<2> &,

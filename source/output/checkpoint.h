@@ -41,6 +41,7 @@ public:
   /// @param bytes the rest, the same on all ranks (rank 0's is written)
   /// @param fingerprint of the deck
   /// @param deck its comparable_text(), to say later what has changed
+  /// @param attached_bytes of this rank, that somebody else has attached to the mesh
   /// @throws OutputError if it cannot be written; the previous checkpoint is left as it was
   template <int dim>
   void save(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
@@ -48,7 +49,8 @@ public:
             const std::vector<const Vector *> &vectors,
             const std::string &bytes,
             std::uint64_t fingerprint,
-            const std::string &deck = "");
+            const std::string &deck = "",
+            std::uint64_t attached_bytes = 0);
 
   bool exists() const;
 

@@ -46,6 +46,12 @@ struct Triplets
 struct LinearSystem
 {
   dealii::TrilinosWrappers::BlockSparseMatrix bulk;
+
+  /// What the tangent of rock beyond its linear range adds to `bulk`, with its pattern; null:
+  /// nothing. Solvers of the linear system do not look at it, TangentSolver does.
+  const dealii::TrilinosWrappers::BlockSparseMatrix *rock_change = nullptr;
+  bool rock_change_is_symmetric = true;
+
   Triplets bulk_extra;
   Triplets extra_bulk;
   Triplets extra_extra;

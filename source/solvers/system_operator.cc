@@ -248,6 +248,8 @@ void SystemOperator::scale_extra()
 void SystemOperator::vmult(SystemVector &dst, const SystemVector &src) const
 {
   linear_system->bulk.vmult(dst.bulk, src.bulk);
+  if (linear_system->rock_change != nullptr)
+    linear_system->rock_change->vmult_add(dst.bulk, src.bulk);
   if (n_extra() == 0)
     return;
 

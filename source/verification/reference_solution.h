@@ -3,7 +3,7 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/parameter_handler.h>
 
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/scene.h"
 
 #include <functional>

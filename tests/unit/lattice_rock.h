@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 
 namespace stockwork::peridynamics
 {

@@ -3,7 +3,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +83,11 @@ struct Scene
   std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> in_situ_stress;
   /// In-situ pore pressure at a point [Pa].
   std::function<double(const dealii::Point<dim> &)> in_situ_pore_pressure;
+
+  /// The same in three dimensions also where the case has two; what is not given across the plane
+  /// is that of plane strain in this rock.
+  std::function<dealii::SymmetricTensor<2, 3>(const dealii::Point<dim> &, const RockProperties &)>
+    in_situ_tensor;
 
   /// Diameter of the domain [m], for tolerances.
   double domain_size;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fracture/peridynamics/bond_law.h"
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 
 namespace stockwork::peridynamics
 {

@@ -60,6 +60,9 @@ struct Fluid
 class Rock
 {
 public:
+  /// Regions that a deck can describe, numbered from 1.
+  static constexpr unsigned int max_regions = 8;
+
   static void declare_parameters(dealii::ParameterHandler &prm);
 
   /// Throws InputError for constants that contradict one another.

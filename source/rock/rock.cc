@@ -1,4 +1,4 @@
-#include "stockwork/biot/rock.h"
+#include "stockwork/rock/rock.h"
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -11,8 +11,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int max_regions = 8;
-
 std::string region_section(const unsigned int region)
 {
   return "Region " + std::to_string(region);

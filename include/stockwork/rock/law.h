@@ -1,0 +1,95 @@
+#pragma once
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <string>
+#include <vector>
+
+namespace stockwork
+{
+/// The state of the rock at a point. Tensors have three dimensions always: in plane strain the
+/// strain zz is zero, the stress zz is not.
+struct RockState
+{
+  dealii::SymmetricTensor<2, 3> strain;         ///< since in situ
+  double pressure = 0.;                         ///< pore pressure over in situ [Pa]
+  dealii::SymmetricTensor<2, 3> in_situ_stress; ///< total, tension positive [Pa]
+  double in_situ_pressure = 0.;                 ///< [Pa]
+  const double *history = nullptr;              ///< committed, RockLaw::n_history() numbers
+};
+
+/// What the rock answers, and how that changes with strain and pressure.
+struct RockResponse
+{
+  dealii::SymmetricTensor<2, 3> stress; ///< total, over in situ [Pa]
+  double content = 0.;                  ///< fluid over in situ, per volume of rock
+  double energy = 0.; ///< stored over in situ by the skeleton and the fluid in it [J/m^3]
+
+  dealii::SymmetricTensor<4, 3> stress_by_strain;
+  dealii::SymmetricTensor<2, 3> stress_by_pressure; ///< minus alpha times unity where isotropic
+  dealii::SymmetricTensor<2, 3> content_by_strain;
+  double content_by_pressure = 0.; ///< 1/M [1/Pa]
+
+  double *history = nullptr; ///< gets what becomes history when the step is accepted
+};
+
+/// One number, or the six of a symmetric tensor (xx, yy, zz, xy, xz, yz), of a law's history, for
+/// the output of fields.
+struct HistoryField
+{
+  std::string name; ///< as in the files: "plastic_strain"
+  bool is_tensor = false;
+};
+
+/// How a rock deforms and stores fluid. Made for one region of the rock, whose constants hold in
+/// its linear range.
+///
+/// A law is a pure function of state and committed history, so it may be evaluated any number of
+/// times; the core keeps the history and decides what becomes of it.
+class RockLaw
+{
+public:
+  virtual ~RockLaw() = default;
+
+  /// Whether the rock is linear whatever happens; nothing else is asked of such a law.
+  virtual bool is_linear() const
+  {
+    return false;
+  }
+
+  /// Whether stress_by_strain is symmetric, and stress_by_pressure minus content_by_strain.
+  virtual bool is_symmetric() const
+  {
+    return true;
+  }
+
+  /// The history of a point; it begins with zeros.
+  virtual std::vector<HistoryField> history() const
+  {
+    return {};
+  }
+
+  unsigned int n_history() const
+  {
+    unsigned int n = 0;
+    for (const HistoryField &field : history())
+      n += field.is_tensor ? 6 : 1;
+    return n;
+  }
+
+  /// For all points of a cell.
+  virtual void evaluate(dealii::ArrayView<const RockState> states,
+                        dealii::ArrayView<RockResponse> responses) const = 0;
+
+  /// How much of the linear range a state without history has used up: below 1, evaluate() would
+  /// give what linear rock gives.
+  virtual double used(const RockState &) const = 0;
+
+  /// The strength in words, for the scene audit: "c = 3 MPa, phi = 27 deg".
+  virtual std::string describe() const
+  {
+    return {};
+  }
+};
+} // namespace stockwork

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/fe/fe_values.h>
+
+#include "stockwork/fracture/cell_role.h"
+#include "stockwork/fracture/state.h"
+
+#include "biot/cell_integrals.h"
+
+#include <memory>
+#include <vector>
+
+namespace stockwork
+{
+/// Points of a cell, cut or not, and everything that the unknowns are there. The displacement is a
+/// sum of functions of one component each: those of the cell's nodes, and where a crack cuts the
+/// cell those that jump in it.
+template <int dim>
+class CellEvaluator
+{
+public:
+  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  CellEvaluator(const dealii::Mapping<dim> &mapping,
+                const dealii::FiniteElement<dim> &fe,
+                const dealii::Quadrature<dim> &quadrature);
+
+  /// @param cut null: an ordinary cell
+  void reinit(const CellIterator &cell, const CutCell<dim> *cut);
+
+  unsigned int n_points() const
+  {
+    return values->n_quadrature_points;
+  }
+
+  const std::vector<dealii::Point<dim>> &unit_points() const
+  {
+    return values->get_quadrature().get_points();
+  }
+
+  const dealii::Point<dim> &point(const unsigned int q) const
+  {
+    return values->quadrature_point(q);
+  }
+
+  /// Its share of the cell's volume.
+  double weight(const unsigned int q) const
+  {
+    return cut_cell != nullptr ? cut_cell->weights[q] : values->JxW(q);
+  }
+
+  /// Functions of the displacement: first layout.u of the cell's dofs, then the extra columns.
+  unsigned int n_functions() const
+  {
+    return layout.u.size() + n_extra();
+  }
+
+  unsigned int n_extra() const
+  {
+    return cut_cell != nullptr ? cut_cell->n_columns() : 0;
+  }
+
+  unsigned int component(const unsigned int function) const
+  {
+    return function < layout.u.size() ? function % dim
+                                      : cut_cell->component[function - layout.u.size()];
+  }
+
+  dealii::Tensor<1, dim> gradient(const unsigned int function, const unsigned int q) const
+  {
+    return function < layout.u.size()
+             ? values->shape_grad(layout.u[function], q)
+             : cut_cell->gradients[q * n_extra() + function - layout.u.size()];
+  }
+
+  /// Of pressure node a.
+  double pressure_value(const unsigned int a, const unsigned int q) const
+  {
+    return values->shape_value(layout.p[a], q);
+  }
+
+  /// The cell's dofs, in the order of the element.
+  const std::vector<dealii::types::global_dof_index> &dofs() const
+  {
+    return dof_indices;
+  }
+
+  /// Indices of the extra unknowns.
+  const std::vector<unsigned int> &extra() const
+  {
+    return cut_cell != nullptr ? cut_cell->extra : none;
+  }
+
+  /// At all points.
+  void strain(const Unknowns &unknowns, std::vector<dealii::SymmetricTensor<2, dim>> &result) const;
+  void pressure(const Unknowns &unknowns, std::vector<double> &result) const;
+
+  const BulkLayout<dim> layout;
+
+private:
+  dealii::FEValues<dim> ordinary;
+  std::unique_ptr<dealii::FEValues<dim>> of_cut; ///< the last cut cell's
+  const dealii::FEValues<dim> *values = nullptr;
+  const CutCell<dim> *cut_cell = nullptr;
+  std::vector<dealii::types::global_dof_index> dof_indices;
+  const std::vector<unsigned int> none;
+};
+} // namespace stockwork

@@ -1,0 +1,355 @@
+#include "biot/nonlinear_rock.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+QGauss<dim> quadrature_of(const FiniteElement<dim> &fe)
+{
+  return QGauss<dim>(fe.base_element(0).degree + 1);
+}
+
+
+template <int dim>
+SymmetricTensor<2, 3> in_space(const SymmetricTensor<2, dim> &t)
+{
+  SymmetricTensor<2, 3> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      result[i][j] = t[i][j];
+  return result;
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim> in_plane(const SymmetricTensor<2, 3> &t)
+{
+  SymmetricTensor<2, dim> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      result[i][j] = t[i][j];
+  return result;
+}
+
+
+template <int dim>
+SymmetricTensor<4, dim> in_plane(const SymmetricTensor<4, 3> &t)
+{
+  SymmetricTensor<4, dim> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      for (unsigned int k = 0; k < dim; ++k)
+        for (unsigned int l = k; l < dim; ++l)
+          result[i][j][k][l] = t[i][j][k][l];
+  return result;
+}
+
+
+/// What rock in its linear range answers.
+RockResponse linear_response(const RockProperties &rock, const RockState &state)
+{
+  const auto identity = unit_symmetric_tensor<3>();
+  RockResponse response;
+  response.stress_by_strain = rock.lame_lambda() * outer_product(identity, identity) +
+                              2. * rock.shear_modulus() * identity_tensor<3>();
+  response.stress_by_pressure = -rock.biot_coefficient * identity;
+  response.content_by_strain = rock.biot_coefficient * identity;
+  response.content_by_pressure = rock.inverse_biot_modulus;
+  response.stress = rock.lame_lambda() * trace(state.strain) * identity +
+                    2. * rock.shear_modulus() * state.strain +
+                    state.pressure * response.stress_by_pressure;
+  response.content =
+    rock.biot_coefficient * trace(state.strain) + rock.inverse_biot_modulus * state.pressure;
+  return response;
+}
+} // namespace
+
+
+template <int dim>
+NonlinearRock<dim>::NonlinearRock(const RockLaws &laws, const Scene<dim> &scene)
+  : laws(laws)
+  , scene(scene)
+{
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::setup(const Discretization<dim> &new_discretization)
+{
+  discretization = std::make_unique<const Discretization<dim>>(new_discretization);
+  const auto &fe = discretization->dof_handler.get_fe();
+  const auto quadrature = quadrature_of(fe);
+  evaluator = std::make_unique<CellEvaluator<dim>>(discretization->mapping, fe, quadrature);
+  if (!points)
+  {
+    unsigned int n = 0;
+    for (const auto &[region, law] : laws.all())
+      n = std::max(n, law->n_history());
+    points = std::make_unique<PointHistory<dim>>(n_core + n, quadrature.get_points());
+    points->reinit(discretization->dof_handler.get_triangulation().n_active_cells());
+  }
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::states_at(const CellIterator &cell, const Unknowns &unknowns)
+{
+  const RockProperties &rock = scene.rock(cell->material_id());
+  evaluator->strain(unknowns, strains);
+  evaluator->pressure(unknowns, pressures);
+  states.resize(evaluator->n_points());
+  for (unsigned int q = 0; q < states.size(); ++q)
+  {
+    const Point<dim> &x = evaluator->point(q);
+    states[q].strain = in_space(strains[q]);
+    states[q].pressure = pressures[q];
+    states[q].in_situ_stress = scene.in_situ_tensor(x, rock);
+    states[q].in_situ_pressure = scene.in_situ_pore_pressure(x);
+    states[q].history = committed[q] != nullptr ? committed[q] + n_core : nullptr;
+  }
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::find_history(const CellIterator &cell)
+{
+  const unsigned int index = cell->active_cell_index();
+  committed.assign(evaluator->n_points(), nullptr);
+  if (points->has(index))
+    for (unsigned int q = 0; q < committed.size(); ++q)
+      committed[q] = points->nearest(index, evaluator->unit_points()[q]);
+}
+
+
+template <int dim>
+bool NonlinearRock<dim>::takes_part(const CellIterator &cell, double &greatest_used) const
+{
+  if (points->has(cell->active_cell_index()))
+    return true;
+  const RockLaw &law = laws(cell->material_id());
+  double used = 0.;
+  for (const RockState &state : states)
+    used = std::max(used, law.used(state));
+  greatest_used = std::max(greatest_used, used);
+  return used >= 1.;
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::add_cell(const CellIterator &cell,
+                                  const bool with_matrix,
+                                  LocalSystem &local)
+{
+  const RockProperties &rock = scene.rock(cell->material_id());
+  const auto &layout = evaluator->layout;
+  const unsigned int n_bulk = evaluator->dofs().size(), n = evaluator->n_functions();
+  const auto place = [&](const unsigned int function)
+  { return function < layout.u.size() ? layout.u[function] : n_bulk + function - layout.u.size(); };
+
+  local.bulk = evaluator->dofs();
+  local.extra = evaluator->extra();
+  local.reinit();
+  responses.assign(states.size(), RockResponse());
+  laws(cell->material_id())
+    .evaluate(make_array_view(states.cbegin(), states.cend()),
+              make_array_view(responses.begin(), responses.end()));
+
+  for (unsigned int q = 0; q < states.size(); ++q)
+  {
+    const double w = evaluator->weight(q);
+    const RockResponse &response = responses[q], linear = linear_response(rock, states[q]);
+    const Tensor<2, dim> stress = in_plane<dim>(response.stress - linear.stress);
+    for (unsigned int i = 0; i < n; ++i)
+      local.residual(place(i)) += stress[evaluator->component(i)] * evaluator->gradient(i, q) * w;
+    const double content = response.content - linear.content -
+                           (committed[q] != nullptr ? committed[q][content_beyond] : 0.);
+    for (unsigned int a = 0; a < layout.n_p; ++a)
+      local.residual(layout.p[a]) -= evaluator->pressure_value(a, q) * content * w;
+    if (!with_matrix)
+      continue;
+
+    const auto stiffness = in_plane<dim>(response.stress_by_strain - linear.stress_by_strain);
+    const Tensor<2, dim> by_pressure =
+      in_plane<dim>(response.stress_by_pressure - linear.stress_by_pressure);
+    const Tensor<2, dim> by_strain =
+      in_plane<dim>(response.content_by_strain - linear.content_by_strain);
+    const double storage = response.content_by_pressure - linear.content_by_pressure;
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      Tensor<2, dim> gradient;
+      gradient[evaluator->component(j)] = evaluator->gradient(j, q);
+      const Tensor<2, dim> change = w * (stiffness * symmetrize(gradient));
+      for (unsigned int i = 0; i < n; ++i)
+        local.matrix(place(i), place(j)) +=
+          change[evaluator->component(i)] * evaluator->gradient(i, q);
+      const double along = w * (by_pressure[evaluator->component(j)] * evaluator->gradient(j, q)),
+                   gained = w * (by_strain[evaluator->component(j)] * evaluator->gradient(j, q));
+      for (unsigned int a = 0; a < layout.n_p; ++a)
+      {
+        local.matrix(place(j), layout.p[a]) += along * evaluator->pressure_value(a, q);
+        local.matrix(layout.p[a], place(j)) -= gained * evaluator->pressure_value(a, q);
+      }
+    }
+    for (unsigned int a = 0; a < layout.n_p; ++a)
+      for (unsigned int b = 0; b < layout.n_p; ++b)
+        local.matrix(layout.p[a], layout.p[b]) -=
+          w * storage * evaluator->pressure_value(a, q) * evaluator->pressure_value(b, q);
+  }
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::assemble(const StepContext &,
+                                  const State &state,
+                                  const Role &role,
+                                  Sink &sink)
+{
+  LocalSystem local;
+  symmetric = true;
+  active_in_assembly = 0;
+  double greatest_used = 0.;
+  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && answers(cell))
+    {
+      evaluator->reinit(cell, role(cell).cut);
+      find_history(cell);
+      states_at(cell, state.current);
+      if (!takes_part(cell, greatest_used))
+        continue;
+      add_cell(cell, sink.wants_matrix(), local);
+      sink.add(local);
+      symmetric = symmetric && laws(cell->material_id()).is_symmetric();
+      ++active_in_assembly;
+    }
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::for_each_active_cell(const State &state,
+                                              const Role &role,
+                                              const std::function<void(const LocalSystem &)> &use)
+{
+  LocalSystem local;
+  double greatest_used = 0.;
+  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && answers(cell))
+    {
+      evaluator->reinit(cell, role(cell).cut);
+      find_history(cell);
+      states_at(cell, state.current);
+      if (!takes_part(cell, greatest_used))
+        continue;
+      add_cell(cell, false, local);
+      use(local);
+    }
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::commit(const State &state, const Role &role)
+{
+  last_totals = Totals();
+  std::vector<RockState> states_before;
+  std::vector<RockResponse> before;
+  std::vector<double> values;
+  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && answers(cell))
+    {
+      const RockLaw &law = laws(cell->material_id());
+      const RockProperties &rock = scene.rock(cell->material_id());
+      evaluator->reinit(cell, role(cell).cut);
+      find_history(cell);
+      states_at(cell, state.current);
+      if (!takes_part(cell, last_totals.greatest_used))
+        continue;
+      const std::vector<RockState> now = states;
+      const auto evaluate = [&](const std::vector<RockState> &at, std::vector<RockResponse> &result)
+      {
+        law.evaluate(make_array_view(at.cbegin(), at.cend()),
+                     make_array_view(result.begin(), result.end()));
+      };
+      const unsigned int n = points->n_values();
+      values.assign(now.size() * n, 0.);
+      responses.assign(now.size(), RockResponse());
+      for (unsigned int q = 0; q < now.size(); ++q)
+        responses[q].history = &values[q * n + n_core];
+      evaluate(now, responses);
+      states_at(cell, state.committed);
+      before.assign(now.size(), RockResponse());
+      evaluate(states, before);
+
+      for (unsigned int q = 0; q < now.size(); ++q)
+      {
+        const double w = evaluator->weight(q);
+        double *core = &values[q * n];
+        const double content_before = committed[q] != nullptr ? committed[q][content_beyond] : 0.;
+        core[content_beyond] =
+          responses[q].content - linear_response(rock, now[q]).content;
+        // What the work of stress and pressure leaves beside the stored energy, by the trapezoidal
+        // rule.
+        const auto mean_stress =
+          now[q].in_situ_stress + 0.5 * (before[q].stress + responses[q].stress);
+        const double mean_pressure =
+          now[q].in_situ_pressure + 0.5 * (states[q].pressure + now[q].pressure);
+        core[dissipated] = (committed[q] != nullptr ? committed[q][dissipated] : 0.) +
+                           mean_stress * (now[q].strain - states[q].strain) +
+                           mean_pressure * (responses[q].content - before[q].content) -
+                           (responses[q].energy - before[q].energy);
+        last_totals.content += w * core[content_beyond];
+        last_totals.content_change += w * (core[content_beyond] - content_before);
+        last_totals.dissipated_energy += w * core[dissipated];
+        if (std::any_of(core + n_core, core + n, [](const double v) { return v != 0.; }))
+          last_totals.yielded_volume += w;
+        else
+          last_totals.greatest_used = std::max(last_totals.greatest_used, law.used(now[q]));
+      }
+      points->set(cell->active_cell_index(), evaluator->unit_points(), values);
+    }
+}
+
+
+template <int dim>
+typename NonlinearRock<dim>::Answer
+NonlinearRock<dim>::at(const CellIterator &cell,
+                       const Point<dim> &unit_point,
+                       const Point<dim> &point,
+                       const SymmetricTensor<2, dim> &strain,
+                       const double pressure) const
+{
+  const RockLaw &law = laws(cell->material_id());
+  const double *known = points->nearest(cell->active_cell_index(), unit_point);
+  RockState state;
+  state.strain = in_space(strain);
+  state.pressure = pressure;
+  state.in_situ_stress = scene.in_situ_tensor(point, scene.rock(cell->material_id()));
+  state.in_situ_pressure = scene.in_situ_pore_pressure(point);
+  state.history = known != nullptr ? known + n_core : nullptr;
+  Answer answer;
+  answer.history.assign(law.n_history(), 0.);
+  if (known == nullptr && law.used(state) < 1.)
+  {
+    answer.stress = linear_response(scene.rock(cell->material_id()), state).stress;
+    return answer;
+  }
+  RockResponse response;
+  law.evaluate(ArrayView<const RockState>(&state, 1), ArrayView<RockResponse>(&response, 1));
+  answer.stress = response.stress;
+  if (known != nullptr)
+  {
+    answer.history.assign(known + n_core, known + n_core + answer.history.size());
+    answer.dissipated_energy = known[dissipated];
+  }
+  return answer;
+}
+
+
+template class NonlinearRock<2>;
+template class NonlinearRock<3>;
+} // namespace stockwork

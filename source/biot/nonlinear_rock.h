@@ -1,0 +1,139 @@
+#pragma once
+
+#include "stockwork/fracture/scene.h"
+#include "stockwork/fracture/sink.h"
+#include "stockwork/mesh/discretization.h"
+
+#include "biot/cell_evaluator.h"
+#include "biot/point_history.h"
+#include "rock/laws.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace stockwork
+{
+/// The cells in which the rock has left its linear range, and its history there.
+///
+/// BulkAssembly treats all rock as linear and keeps its matrix. This adds what the laws of the rock
+/// say beyond that, in the cells where they do:
+///
+///   R_u(v) += int (sigma - sigma_linear) : eps(v)
+///   R_p(q) -= int q [ (zeta - zeta_linear) - the same at the last accepted step ]
+///
+/// with the derivative of both. A cell takes part while it has a history or a point of it has used
+/// up its linear range.
+template <int dim>
+class NonlinearRock
+{
+public:
+  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+  using Role = std::function<CellRole<dim>(const CellIterator &)>;
+
+  NonlinearRock(const RockLaws &laws, const Scene<dim> &scene);
+
+  /// The mesh is new; the history has moved along with it, or is none yet.
+  void setup(const Discretization<dim> &discretization);
+
+  /// Add residual and derivative.
+  void
+  assemble(const StepContext &context, const State &state, const Role &role, Sink &sink);
+
+  /// The step is accepted: what the converged state says becomes history.
+  void commit(const State &state, const Role &role);
+
+  /// Whether the derivative that was assembled last is symmetric, and whether it was zero; of the
+  /// owned cells.
+  bool is_symmetric() const
+  {
+    return symmetric;
+  }
+
+  /// Cells that took part in the last assembly, of the owned ones.
+  unsigned int n_active() const
+  {
+    return active_in_assembly;
+  }
+
+  /// What the rows of the pore pressure get besides those of linear rock, for each owned cell that
+  /// takes part: to find what flows out where the pressure is prescribed.
+  void for_each_active_cell(const State &state,
+                            const Role &role,
+                            const std::function<void(const LocalSystem &)> &use);
+
+  struct Totals
+  {
+    double content_change = 0.;    ///< fluid beyond linear rock's, gained in the step [m^3 (/m)]
+    double content = 0.;           ///< the same since in situ
+    double yielded_volume = 0.;    ///< of points with a history [m^3 (/m)]
+    double greatest_used = 0.;     ///< of points without
+    double dissipated_energy = 0.; ///< in the rock [J (/m)]
+  };
+
+  /// Of the owned cells; after commit(), the change is that of the step before it.
+  const Totals &totals() const
+  {
+    return last_totals;
+  }
+
+  /// The state of the rock at a place in a cell, with the nearest history.
+  struct Answer
+  {
+    dealii::SymmetricTensor<2, 3> stress; ///< total, over in situ
+    std::vector<double> history;
+    double dissipated_energy = 0.; ///< [J/m^3]
+  };
+  bool answers(const CellIterator &cell) const
+  {
+    return !laws(cell->material_id()).is_linear();
+  }
+  Answer at(const CellIterator &cell,
+            const dealii::Point<dim> &unit_point,
+            const dealii::Point<dim> &point,
+            const dealii::SymmetricTensor<2, dim> &strain,
+            double pressure) const;
+
+  /// Stored energy in a cell, over in situ, and stress times strain as the audit of work wants them.
+  PointHistory<dim> &history()
+  {
+    return *points;
+  }
+  const RockLaws &laws;
+
+private:
+  /// Numbers of the core at the start of a point's history, before the law's own.
+  enum CoreNumber : unsigned int
+  {
+    content_beyond, ///< fluid content beyond linear rock's
+    dissipated,     ///< energy [J/m^3]
+    n_core
+  };
+
+  /// States at the points of the cell that the evaluator is at.
+  void states_at(const CellIterator &cell, const Unknowns &unknowns);
+
+  /// What is committed at the points of the cell.
+  void find_history(const CellIterator &cell);
+
+  bool takes_part(const CellIterator &cell, double &greatest_used) const;
+
+  void add_cell(const CellIterator &cell, bool with_matrix, LocalSystem &local);
+
+  const Scene<dim> &scene;
+  std::unique_ptr<const Discretization<dim>> discretization;
+  std::unique_ptr<PointHistory<dim>> points;
+  std::unique_ptr<CellEvaluator<dim>> evaluator;
+
+  bool symmetric = true;
+  unsigned int active_in_assembly = 0;
+  Totals last_totals;
+
+  // Of the cell at hand.
+  std::vector<dealii::SymmetricTensor<2, dim>> strains;
+  std::vector<double> pressures;
+  std::vector<const double *> committed; ///< null: none
+  std::vector<RockState> states;
+  std::vector<RockResponse> responses;
+};
+} // namespace stockwork

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include "stockwork/rock/registry.h"
+
+#include <map>
+#include <memory>
+
+namespace stockwork
+{
+/// The law of the rock in each region, as `Rock/Law` and `Rock/Region k/Law` choose.
+class RockLaws
+{
+public:
+  /// Inside nothing; after Rock::declare_parameters().
+  static void declare_parameters(dealii::ParameterHandler &prm, const RockLawRegistry &registry);
+
+  /// @param regions that the mesh has, besides region 0
+  /// @throws EntryError, also for entries of a law that no region has
+  void parse_parameters(dealii::ParameterHandler &prm,
+                        const RockLawRegistry &registry,
+                        const Rock &rock,
+                        const std::vector<dealii::types::material_id> &regions);
+
+  const RockLaw &operator()(const dealii::types::material_id region) const
+  {
+    return *laws.at(region);
+  }
+
+  /// Name of the law in a region.
+  const std::string &name(const dealii::types::material_id region) const
+  {
+    return names.at(region);
+  }
+
+  /// Whether all rock is linear whatever happens.
+  bool are_linear() const;
+
+  /// By region, 0 for the rock at large.
+  const std::map<dealii::types::material_id, std::unique_ptr<RockLaw>> &all() const
+  {
+    return laws;
+  }
+
+private:
+  std::map<dealii::types::material_id, std::unique_ptr<RockLaw>> laws;
+  std::map<dealii::types::material_id, std::string> names;
+};
+} // namespace stockwork

@@ -1,0 +1,171 @@
+#include "solvers/tangent_solver.h"
+
+#include "solvers/krylov.h"
+#include "stockwork/base/error.h"
+
+#include <utility>
+
+namespace stockwork
+{
+namespace
+{
+/// A factor costs ten to thirty back-substitutions; beyond this many it is worth a new one.
+constexpr unsigned int most_iterations = 15;
+/// A preconditioner need not be exact; a factor is at once.
+constexpr double inner_tolerance = 1e-2;
+
+using BlockMatrix = dealii::TrilinosWrappers::BlockSparseMatrix;
+
+void copy(BlockMatrix &to, const BlockMatrix &from, const bool anew)
+{
+  if (anew)
+    to.reinit(from.n_block_rows(), from.n_block_cols());
+  for (unsigned int i = 0; i < from.n_block_rows(); ++i)
+    for (unsigned int j = 0; j < from.n_block_cols(); ++j)
+      to.block(i, j).copy_from(from.block(i, j));
+  if (anew)
+    to.collect_sizes();
+}
+} // namespace
+
+
+TangentSolver::TangentSolver(const Make &make, const MPI_Comm communicator)
+  : make(make)
+  , communicator(communicator)
+  , linear(make())
+{
+}
+
+
+void TangentSolver::form_tangent(const LinearSystem &system, const SystemStamps &stamps)
+{
+  const bool new_mesh = !has_tangent || formed_at.mesh != stamps.mesh;
+  copy(tangent.bulk, system.bulk, new_mesh);
+  for (unsigned int i = 0; i < system.bulk.n_block_rows(); ++i)
+    for (unsigned int j = 0; j < system.bulk.n_block_cols(); ++j)
+      tangent.bulk.block(i, j).add(1., system.rock_change->block(i, j));
+  if (new_mesh)
+  {
+    tangent.residual_bulk.reinit(system.residual_bulk);
+    if (system.fixed_stress_mass.m() > 0)
+      tangent.fixed_stress_mass.copy_from(system.fixed_stress_mass);
+    tangent.displacement_hierarchy = system.displacement_hierarchy;
+  }
+  tangent.n_mechanical_extra = system.n_mechanical_extra;
+  tangent.elastic = system.elastic;
+  tangent.symmetric = system.symmetric && system.rock_change_is_symmetric;
+  tangent.definite = tangent.definite_displacement = false;
+  tangent_stamps.mesh += new_mesh;
+  ++tangent_stamps.bulk_values;
+  ++tangent_stamps.displacement_values;
+  formed_at = stamps;
+  has_tangent = true;
+}
+
+
+LinearReport TangentSolver::iterate(
+  LinearSystem &system,
+  const std::function<LinearReport(SystemVector &z, SystemVector &r)> &precondition,
+  const double tolerance,
+  const unsigned int max_iterations,
+  SystemVector &dx)
+{
+  LinearReport report;
+  const SystemOperator op(system, communicator);
+  dx = op.make_vector();
+  const auto action = [&](SystemVector &z, SystemVector &r)
+  {
+    const LinearReport inner = precondition(z, r);
+    report.setup_seconds += inner.setup_seconds;
+    report.factorised = report.factorised || inner.factorised;
+    // J z = -r is what a solver solves.
+    z.bulk *= -1.;
+    for (double &value : z.extra)
+      value = -value;
+  };
+  solve_by_krylov(op, communicator, action, {tolerance, max_iterations, max_iterations + 1}, dx,
+                  report);
+  return report;
+}
+
+
+LinearReport TangentSolver::solve(LinearSystem &system,
+                                  const SystemStamps &stamps,
+                                  const double tolerance,
+                                  dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                                  std::vector<double> &dx_extra)
+{
+  if (system.rock_change == nullptr)
+    return linear->solve(system, stamps, tolerance, dx_bulk, dx_extra);
+
+  const BlockMatrix *const change = system.rock_change;
+  const auto by_linear = [&](SystemVector &z, SystemVector &r)
+  {
+    std::swap(system.residual_bulk, r.bulk);
+    std::swap(system.residual_extra, r.extra);
+    system.rock_change = nullptr;
+    const auto restore = [&]()
+    {
+      system.rock_change = change;
+      std::swap(system.residual_bulk, r.bulk);
+      std::swap(system.residual_extra, r.extra);
+    };
+    try
+    {
+      const LinearReport report =
+        linear->solve(system, stamps, inner_tolerance, z.bulk, z.extra);
+      restore();
+      return report;
+    }
+    catch (const SolveError &)
+    {
+      restore();
+      throw;
+    }
+  };
+  const auto by_tangent = [&](SystemVector &z, SystemVector &r)
+  {
+    tangent.residual_bulk = r.bulk;
+    tangent.residual_extra = r.extra;
+    return of_tangent->solve(tangent, tangent_stamps, inner_tolerance, z.bulk, z.extra);
+  };
+  const auto take_fracture = [&]()
+  {
+    tangent.bulk_extra = system.bulk_extra;
+    tangent.extra_bulk = system.extra_bulk;
+    tangent.extra_extra = system.extra_extra;
+    ++tangent_stamps.extra;
+    ++tangent_stamps.extra_values;
+  };
+
+  SystemVector dx;
+  LinearReport report;
+  const bool tangent_is_good = has_tangent && formed_at.mesh == stamps.mesh &&
+                               formed_at.bulk_values == stamps.bulk_values;
+  if (tangent_is_good)
+  {
+    take_fracture();
+    report = iterate(system, by_tangent, tolerance, most_iterations, dx);
+  }
+  else
+  {
+    has_tangent = false;
+    report = iterate(system, by_linear, tolerance, most_iterations, dx);
+  }
+  if (!report.converged)
+  {
+    if (!of_tangent)
+      of_tangent = make();
+    form_tangent(system, stamps);
+    take_fracture();
+    const unsigned int before = report.iterations;
+    const double setup_before = report.setup_seconds;
+    report = iterate(system, by_tangent, tolerance, most_iterations, dx);
+    report.iterations += before;
+    report.setup_seconds += setup_before;
+  }
+  dx_bulk = dx.bulk;
+  dx_extra = dx.extra;
+  return report;
+}
+} // namespace stockwork
