@@ -449,6 +449,11 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   { return boundary_conditions.is_roller(geometry.side(side)); };
   input.greatest_displacement = [this](const double time)
   { return boundary_conditions.greatest_displacement(time); };
+  const Point<dim> centre = geometry.lower() + 0.5 * (geometry.upper() - geometry.lower());
+  input.law = &laws(0);
+  input.in_situ_stress = in_situ.tensor(centre, rock.main());
+  input.in_situ_pressure = in_situ.pore_pressure(centre);
+  input.hole_radius = geometry.hole_radius();
   reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
   const bool moved = boundary_conditions.greatest_displacement(control.end_time) > 0.;

@@ -2,8 +2,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include "stockwork/base/deck.h"
 #include "plug_ins.h"
+#include "stockwork/base/deck.h"
 
 #include "biot/boundary_conditions.h"
 #include "biot/in_situ.h"

@@ -6,6 +6,8 @@
 #include "stockwork/base/progress.h"
 #include "stockwork/base/quantity.h"
 
+#include <deal.II/numerics/vector_tools.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -106,6 +108,24 @@ std::map<std::string, double> Report<dim>::observe()
                                                 energy.kinetic - summary.dissipated_energy) /
                                        external_work;
   }
+  if (const NonlinearRock<dim> *rock_beyond = system.nonlinear_rock())
+  {
+    const auto &mine = rock_beyond->totals();
+    std::vector<double> sums{mine.yielded_volume, mine.dissipated_energy};
+    system.collectives().sum(sums);
+    values["yielded_volume"] = sums[0];
+    values["dissipated_in_rock"] = sums[1];
+    values["greatest_share_of_strength"] =
+      std::max(system.collectives().max(mine.greatest_used), sums[0] > 0. ? 1. : 0.);
+  }
+  if (reference && reference->place_of_displacement())
+  {
+    const auto displacement = displacement_at(*reference->place_of_displacement());
+    for (unsigned int d = 0; d < dim; ++d)
+      values[std::string("displacement_") + "xyz"[d]] = displacement[d];
+  }
+  if (reference)
+    reference->add_derived(values);
   if constexpr (dim == 2)
     if (!network.segments().empty())
     {
@@ -186,6 +206,28 @@ std::map<std::string, double> Report<dim>::observe()
     }
   }
   return values;
+}
+
+
+template <int dim>
+Tensor<1, dim> Report<dim>::displacement_at(const Point<dim> &point) const
+{
+  const DoFHandler<dim> &dofs = system.bulk_dofs();
+  std::vector<double> found(dim, -std::numeric_limits<double>::infinity());
+  Vector<double> values(dofs.get_fe().n_components());
+  try
+  {
+    VectorTools::point_value(mapping, dofs, stepper.committed.bulk, point, values);
+    for (unsigned int d = 0; d < dim; ++d)
+      found[d] = values(d);
+  }
+  catch (const VectorTools::ExcPointNotAvailableHere &)
+  {
+  }
+  Tensor<1, dim> displacement;
+  for (unsigned int d = 0; d < dim; ++d)
+    displacement[d] = system.collectives().max(found[d]);
+  return displacement;
 }
 
 

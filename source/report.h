@@ -83,6 +83,9 @@ private:
   /// Scalars of the last step by column name.
   std::map<std::string, double> observe();
 
+  /// At a place, of the last accepted step. Collective.
+  dealii::Tensor<1, dim> displacement_at(const dealii::Point<dim> &point) const;
+
   RunContext &run;
   const CoupledSystem<dim> &system;
   const Stepper<dim> &stepper;

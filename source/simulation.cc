@@ -491,14 +491,8 @@ void simulate(RunContext &run,
 }
 
 
-template void simulate<2>(RunContext &,
-                          const Deck &,
-                          ParameterHandler &,
-                          const PlugIns &,
-                          const SimulationOptions &);
-template void simulate<3>(RunContext &,
-                          const Deck &,
-                          ParameterHandler &,
-                          const PlugIns &,
-                          const SimulationOptions &);
+template void simulate<2>(
+  RunContext &, const Deck &, ParameterHandler &, const PlugIns &, const SimulationOptions &);
+template void simulate<3>(
+  RunContext &, const Deck &, ParameterHandler &, const PlugIns &, const SimulationOptions &);
 } // namespace stockwork

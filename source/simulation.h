@@ -2,9 +2,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include "plug_ins.h"
 #include "stockwork/base/deck.h"
 #include "stockwork/base/run_context.h"
-#include "plug_ins.h"
 
 #include <string>
 

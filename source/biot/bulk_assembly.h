@@ -3,11 +3,11 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 
-#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/sink.h"
 #include "stockwork/fracture/state.h"
 #include "stockwork/mesh/discretization.h"
+#include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
 #include "biot/cell_matrices.h"

@@ -48,9 +48,8 @@ void CellEvaluator<dim>::strain(const Unknowns &unknowns,
   std::vector<Tensor<2, dim>> gradients(n_points());
   for (unsigned int k = 0; k < n_functions(); ++k)
   {
-    const double value = k < layout.u.size()
-                           ? unknowns.bulk(dof_indices[layout.u[k]])
-                           : unknowns.extra[cut_cell->extra[k - layout.u.size()]];
+    const double value = k < layout.u.size() ? unknowns.bulk(dof_indices[layout.u[k]])
+                                             : unknowns.extra[cut_cell->extra[k - layout.u.size()]];
     for (unsigned int q = 0; q < n_points(); ++q)
       gradients[q][component(k)] += value * gradient(k, q);
   }

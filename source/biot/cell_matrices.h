@@ -4,9 +4,9 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/state.h"
+#include "stockwork/rock/rock.h"
 
 #include "biot/cell_integrals.h"
 

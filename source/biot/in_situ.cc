@@ -85,11 +85,11 @@ SymmetricTensor<2, 3> InSitu<dim>::tensor(const Point<dim> &point, const RockPro
     for (unsigned int j = i; j < dim; ++j)
       result[i][j] = known[i][j];
   if (dim == 2)
-    result[2][2] = across_plane.value_or(
-      rock.plane_stress ? 0.
-                        : rock.poisson_ratio * trace(known) -
-                            (1. - 2. * rock.poisson_ratio) * rock.biot_coefficient *
-                              pore_pressure(point));
+    result[2][2] =
+      across_plane.value_or(rock.plane_stress ? 0.
+                                              : rock.poisson_ratio * trace(known) -
+                                                  (1. - 2. * rock.poisson_ratio) *
+                                                    rock.biot_coefficient * pore_pressure(point));
   return result;
 }
 

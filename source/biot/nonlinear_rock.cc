@@ -290,8 +290,7 @@ void NonlinearRock<dim>::commit(const State &state, const Role &role)
         const double w = evaluator->weight(q);
         double *core = &values[q * n];
         const double content_before = committed[q] != nullptr ? committed[q][content_beyond] : 0.;
-        core[content_beyond] =
-          responses[q].content - linear_response(rock, now[q]).content;
+        core[content_beyond] = responses[q].content - linear_response(rock, now[q]).content;
         // What the work of stress and pressure leaves beside the stored energy, by the trapezoidal
         // rule.
         const auto mean_stress =
@@ -316,12 +315,11 @@ void NonlinearRock<dim>::commit(const State &state, const Role &role)
 
 
 template <int dim>
-typename NonlinearRock<dim>::Answer
-NonlinearRock<dim>::at(const CellIterator &cell,
-                       const Point<dim> &unit_point,
-                       const Point<dim> &point,
-                       const SymmetricTensor<2, dim> &strain,
-                       const double pressure) const
+typename NonlinearRock<dim>::Answer NonlinearRock<dim>::at(const CellIterator &cell,
+                                                           const Point<dim> &unit_point,
+                                                           const Point<dim> &point,
+                                                           const SymmetricTensor<2, dim> &strain,
+                                                           const double pressure) const
 {
   const RockLaw &law = laws(cell->material_id());
   const double *known = points->nearest(cell->active_cell_index(), unit_point);

@@ -37,8 +37,7 @@ public:
   void setup(const Discretization<dim> &discretization);
 
   /// Add residual and derivative.
-  void
-  assemble(const StepContext &context, const State &state, const Role &role, Sink &sink);
+  void assemble(const StepContext &context, const State &state, const Role &role, Sink &sink);
 
   /// The step is accepted: what the converged state says becomes history.
   void commit(const State &state, const Role &role);
@@ -94,7 +93,8 @@ public:
             const dealii::SymmetricTensor<2, dim> &strain,
             double pressure) const;
 
-  /// Stored energy in a cell, over in situ, and stress times strain as the audit of work wants them.
+  /// Stored energy in a cell, over in situ, and stress times strain as the audit of work wants
+  /// them.
   PointHistory<dim> &history()
   {
     return *points;

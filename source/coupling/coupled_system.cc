@@ -167,8 +167,9 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   if (model.requirements().changes_bulk)
     changes.coefficients = [this](const auto &cell, const auto &points, auto &coefficients)
     { model.bulk_coefficients(cell, points, coefficients); };
-  bulk = std::make_unique<BulkAssembly<dim>>(
-    scene.rock, boundary_conditions.loads(), discretisation.stabilisation, discretization(), changes);
+  bulk =
+    std::make_unique<BulkAssembly<dim>>(scene.rock, boundary_conditions.loads(),
+                                        discretisation.stabilisation, discretization(), changes);
   if (!solver)
   {
     BulkStructure structure;
@@ -270,8 +271,8 @@ void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
                    discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
   {
     const auto scope = run.timers.scope("fracture");
-    SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk, linear_residual_extra,
-                    linear_extra_extra, true);
+    SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
+                    linear_residual_extra, linear_extra_extra, true);
     model.assemble_bulk(context, sink);
     if (communication.max(sink.bulk_touched ? 1. : 0.) > 0.)
       system.bulk.compress(VectorOperation::add);
@@ -309,8 +310,8 @@ void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State
   linear_residual_extra.assign(numbering.size(), 0.);
   if (n_model_extra > 0)
   {
-    SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk, linear_residual_extra,
-                    linear_extra_extra, true);
+    SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
+                    linear_residual_extra, linear_extra_extra, true);
     bulk->cut_cells(context, state, role, sink);
     system.residual_bulk.compress(VectorOperation::add);
     communication.sum(linear_residual_extra);
@@ -334,8 +335,8 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
   system.residual_bulk = 0.;
   system.residual_extra.assign(numbering.size(), 0.);
 
-  SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk, system.residual_extra,
-                  system.extra_extra, true);
+  SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
+                  system.residual_extra, system.extra_extra, true);
   model.assemble(context, state, sink);
   network.assemble(context, state, communication, sink);
   if (nonlinear)

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/collectives.h"
 #include "stockwork/fracture/state.h"
 #include "stockwork/mesh/discretization.h"
+#include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
 

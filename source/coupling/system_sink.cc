@@ -62,9 +62,8 @@ void SystemSink::add(const LocalSystem &local)
                 [&](const auto row, const double row_weight)
                 {
                   resolve(constraints, local.bulk[j],
-                          [&](const auto column, const double weight) {
-                            bulk.add(row, column, row_weight * weight * local.matrix(i, j));
-                          });
+                          [&](const auto column, const double weight)
+                          { bulk.add(row, column, row_weight * weight * local.matrix(i, j)); });
                 });
       }
   for (unsigned int i = 0; i < n_bulk; ++i)

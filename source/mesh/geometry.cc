@@ -2,17 +2,15 @@
 
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
 #include "mesh/box.h"
-#include "mesh/gmsh_file.h"
+#include "mesh/interpret_entry.h"
 #include "mesh/partition.h"
 #include "mesh/refinement.h"
 #include "mesh/spacing.h"
@@ -25,41 +23,6 @@ using namespace dealii;
 
 namespace
 {
-/// Manifold of the cells of a quarter disc or octant of a ball; 0 is that of the surface.
-constexpr types::manifold_id interior_manifold = 1;
-
-const std::array<const char *, 3> spacing_entry{{"X spacing", "Y spacing", "Z spacing"}};
-
-/// Names of the two sides of a box across each axis.
-template <int dim>
-std::array<std::string, 2> box_sides(const unsigned int axis)
-{
-  if (axis == 0)
-    return {{"left", "right"}};
-  if (axis == dim - 1)
-    return {{"bottom", "top"}};
-  return {{"front", "back"}};
-}
-
-/// Call @p interpret on an entry and turn what it throws into an error that names the entry.
-template <class Interpret>
-auto interpret_entry(const ParameterHandler &prm,
-                     const std::string &section,
-                     const std::string &entry,
-                     const std::string &allowed,
-                     const Interpret &interpret)
-{
-  const std::string text = prm.get(entry);
-  try
-  {
-    return interpret(text);
-  }
-  catch (const InputError &error)
-  {
-    throw EntryError(section + "/" + entry, text, allowed + " (" + error.what() + ")");
-  }
-}
-
 /// The cell of the coarse mesh that a cell has come from. (The number in its id is not that of the
 /// coarse mesh but of p4est, which numbers coarse cells along a curve.)
 template <int dim>
@@ -97,11 +60,12 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
   // The same in two and three dimensions: there is one manual, and a deck is read before its
   // dimension is known.
   prm.declare_entry("Shape", "box",
-                    Patterns::Selection("box|quarter disc|octant of ball|gmsh file"),
+                    Patterns::Selection("box|quarter disc|octant of ball|quarter ring|gmsh file"),
                     "Shape of the domain. Sides of a box are called left, right (across x), "
                     "bottom, top (the last coordinate) and in 3-D front, back (y); those of a "
                     "quarter disc (2-D) or octant of a ball (3-D) by the same names where it is "
-                    "cut, and surface; those of a gmsh file by its physical groups.");
+                    "cut, and surface; those of a quarter ring (2-D) likewise, and wall inside; "
+                    "those of a gmsh file by its physical groups.");
   prm.declare_entry("Uniform refinements", "0", Patterns::Integer(0, 20),
                     "How many times every cell is halved in each direction.");
   prm.declare_entry("Refinement boxes", "", Patterns::Anything(),
@@ -138,6 +102,17 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
                     "Radius of the quarter disc or octant of a ball [m]. Required for these.");
   prm.leave_subsection();
 
+  prm.enter_subsection("Ring");
+  prm.declare_entry("Inner radius", "", Quantity(dimension::length, Range::positive(), ""),
+                    "Of the quarter ring, a borehole's. Required for it.");
+  prm.declare_entry("Outer radius", "", Quantity(dimension::length, Range::positive(), ""),
+                    "Required for a quarter ring.");
+  prm.declare_entry("Cells along the radius", "8 cells", Patterns::Anything(),
+                    "As those of a box along an axis: '1 cm at 10 cm, growth 1.2, largest 20 m'.");
+  prm.declare_entry("Cells along the arc", "8", Patterns::Integer(1, 100000),
+                    "Of a quarter of a circle.");
+  prm.leave_subsection();
+
   prm.enter_subsection("Gmsh");
   prm.declare_entry("File", "", Patterns::Anything(),
                     "Mesh of quadrilaterals or hexahedra written by gmsh (.msh); a relative name "
@@ -165,9 +140,11 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
     read_gmsh(prm, deck_directory);
   else if (shape == (dim == 2 ? "quarter disc" : "octant of ball"))
     make_ball(prm);
+  else if (dim == 2 && shape == "quarter ring")
+    make_ring(prm);
   else
     throw EntryError("Mesh/Shape", shape,
-                     dim == 2 ? "box, quarter disc or gmsh file in two dimensions"
+                     dim == 2 ? "box, quarter disc, quarter ring or gmsh file in two dimensions"
                               : "box, octant of ball or gmsh file in three dimensions");
   bounds = GridTools::compute_bounding_box(*coarse);
   if (shape != "box")
@@ -187,140 +164,6 @@ void Geometry<dim>::refuse_cells(const double n_coarse, const unsigned int refin
   text << "at least " << n << ", the cells of the initial mesh, unless their spacing is a mistake";
   if (n > max_cells)
     throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells), text.str());
-}
-
-template <int dim>
-void Geometry<dim>::make_box(ParameterHandler &prm)
-{
-  prm.enter_subsection("Box");
-  const auto corner = [&prm](const std::string &entry)
-  {
-    auto coordinates = get_quantities(prm, entry, dimension::length);
-    if (coordinates.empty() && entry == "Lower corner")
-      coordinates.assign(dim, 0.);
-    if (coordinates.size() != dim)
-      throw EntryError("Mesh/Box/" + entry, prm.get(entry),
-                       std::to_string(dim) + " coordinates, as many as the case has dimensions");
-    return coordinates;
-  };
-  const auto lower = corner("Lower corner"), upper = corner("Upper corner");
-  for (unsigned int d = 0; d < dim; ++d)
-    if (!(lower[d] < upper[d]))
-      throw EntryError("Mesh/Box/Upper corner", prm.get("Upper corner"),
-                       "a corner above the lower one, " + prm.get("Lower corner") +
-                         ", in every coordinate");
-
-  // Equal cells are halved from coarser ones as far as that goes: p4est orders and stores them
-  // better than coarse cells, and the mesh is the same.
-  std::array<unsigned int, dim> equal_cells;
-  std::vector<std::vector<double>> lines(dim);
-  for (unsigned int d = 0; d < dim; ++d)
-    interpret_entry(prm, "Mesh/Box", spacing_entry[d],
-                    "'16 cells', '0.5 m', 'lines 0, 1, 2.5' or '1 cm at 0 m, 2 cm from 3 m to 5 m, "
-                    "1 cm around 8 m, growth 1.2, largest 10 m'",
-                    [&](const std::string &text)
-                    {
-                      equal_cells[d] = parse_equal_cells(text, lower[d], upper[d]);
-                      lines[d] = parse_lines(text, lower[d], upper[d]);
-                    });
-  const auto all_even = [&equal_cells]()
-  {
-    return std::all_of(equal_cells.begin(), equal_cells.end(),
-                       [](const unsigned int n) { return n > 0 && n % 2 == 0; });
-  };
-  for (; all_even(); ++uniform_refinements)
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      equal_cells[d] /= 2;
-      for (unsigned int i = 0; i <= equal_cells[d]; ++i)
-        lines[d][i] = lines[d][2 * i];
-      lines[d].resize(equal_cells[d] + 1);
-    }
-
-  std::vector<unsigned int> n_cells(dim);
-  double n_all = 1.;
-  Point<dim> index_of_upper;
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    n_cells[d] = lines[d].size() - 1;
-    index_of_upper[d] = n_cells[d];
-    n_all *= n_cells[d];
-  }
-  refuse_cells(n_all, uniform_refinements);
-
-  // First a box of unit cells, whose vertices are the indices of the mesh lines: the lines come
-  // out exactly where the deck wants them.
-  GridGenerator::subdivided_hyper_rectangle(*coarse, n_cells, Point<dim>(), index_of_upper, true);
-  for (const auto &cell : coarse->active_cell_iterators())
-    cell->set_material_id(0); // which "colorize" has set to the quadrant
-  GridTools::transform(
-    [&lines](const Point<dim> &index)
-    {
-      Point<dim> p;
-      for (unsigned int d = 0; d < dim; ++d)
-        p[d] = lines[d][static_cast<std::size_t>(std::lround(index[d]))];
-      return p;
-    },
-    *coarse);
-  cells = Cells::cartesian;
-
-  for (unsigned int d = 0; d < dim; ++d)
-    for (unsigned int end = 0; end < 2; ++end)
-      sides[box_sides<dim>(d)[end]] = 2 * d + end;
-  prm.leave_subsection();
-}
-
-template <int dim>
-void Geometry<dim>::make_ball(ParameterHandler &prm)
-{
-  prm.enter_subsection("Ball");
-  if (prm.get("Radius").empty())
-    throw EntryError("Mesh/Ball/Radius", "", "a length > 0 m, such as '5 cm'");
-  const double radius = get_quantity(prm, "Radius", dimension::length);
-  prm.leave_subsection();
-
-  GridGenerator::quarter_hyper_ball(*coarse, Point<dim>(), radius);
-  cells = Cells::curved;
-
-  // All cells bend with the surface, not only those beside it: halving them leaves them regular.
-  coarse->set_all_manifold_ids(interior_manifold);
-  for (const auto &face : coarse->active_face_iterators())
-    if (face->at_boundary() && std::abs(face->vertex(0).norm() - radius) < 1e-10 * radius &&
-        std::all_of(face->vertex_indices().begin(), face->vertex_indices().end(),
-                    [&](const unsigned int v)
-                    { return std::abs(face->vertex(v).norm() - radius) < 1e-10 * radius; }))
-      face->set_all_manifold_ids(0);
-
-  const types::boundary_id surface = 1;
-  for (unsigned int d = 0; d < dim; ++d)
-    sides[box_sides<dim>(d)[0]] = 2 * d;
-  sides["surface"] = surface;
-  for (const auto &face : coarse->active_face_iterators())
-    if (face->at_boundary())
-    {
-      face->set_boundary_id(surface);
-      for (unsigned int d = 0; d < dim; ++d)
-        if (std::abs(face->center()[d]) < 1e-10 * radius)
-          face->set_boundary_id(2 * d);
-    }
-}
-
-template <int dim>
-void Geometry<dim>::read_gmsh(ParameterHandler &prm, const std::string &deck_directory)
-{
-  prm.enter_subsection("Gmsh");
-  interpret_entry(prm, "Mesh/Gmsh", "File",
-                  std::string("a mesh of ") + (dim == 2 ? "quadrilaterals" : "hexahedra") +
-                    " written by gmsh",
-                  [&](const std::string &name)
-                  {
-                    GmshGroups groups = read_gmsh_file(name, deck_directory, *coarse);
-                    sides = std::move(groups.sides);
-                    regions = std::move(groups.regions);
-                  });
-  GridTools::scale(get_quantity(prm, "Scale", dimension::number), *coarse);
-  cells = Cells::straight;
-  prm.leave_subsection();
 }
 
 namespace
@@ -406,6 +249,9 @@ void Geometry<dim>::create_coarse(Triangulation &triangulation) const
     interior.initialize(triangulation);
     triangulation.set_manifold(interior_manifold, interior);
   }
+  if constexpr (dim == 2)
+    if (cells == Cells::ring)
+      triangulation.set_manifold(0, PolarManifold<dim>());
   if (region_boxes.empty() && side_boxes.empty())
     return;
   const auto set = [this, &triangulation]()

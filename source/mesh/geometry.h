@@ -7,6 +7,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/mapping.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -80,12 +81,19 @@ public:
   /// Whether a point lies on a side of the bounding box.
   bool on_side(const dealii::Point<dim> &point) const;
 
+  /// Of the hole of a ring [m]; zero: no hole.
+  double hole_radius() const
+  {
+    return inner_radius;
+  }
+
 private:
   /// Before they are made. @throws EntryError if cells, refined so many times, are too many
   void refuse_cells(double n_coarse, unsigned int refinements) const;
 
   void make_box(dealii::ParameterHandler &prm);
   void make_ball(dealii::ParameterHandler &prm);
+  void make_ring(dealii::ParameterHandler &prm);
   void read_gmsh(dealii::ParameterHandler &prm, const std::string &deck_directory);
   void parse_refinement(dealii::ParameterHandler &prm);
   void parse_regions(dealii::ParameterHandler &prm);
@@ -115,11 +123,19 @@ private:
   {
     cartesian,
     straight,
-    curved
+    curved,
+    ring
   };
+
+  /// Manifold of the cells of a quarter disc or octant of a ball; 0 is that of the surface.
+  static constexpr dealii::types::manifold_id interior_manifold = 1;
+
+  static constexpr std::array<const char *, 3> spacing_entry{
+    {"X spacing", "Y spacing", "Z spacing"}};
 
   std::shared_ptr<dealii::Triangulation<dim>> coarse;
   Cells cells = Cells::cartesian;
+  double inner_radius = 0.; ///< of a ring
   unsigned int uniform_refinements = 0;
   unsigned int max_cells = 0;
   std::vector<RefinementBox> refinement_boxes;

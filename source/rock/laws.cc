@@ -32,7 +32,8 @@ std::vector<DeclaredEntry> own_entries(const RockLawEntry &entry)
 
 
 /// The value of an entry anywhere in the deck.
-std::string value_of(ParameterHandler &prm, const std::vector<std::string> &sections, const std::string &name)
+std::string
+value_of(ParameterHandler &prm, const std::vector<std::string> &sections, const std::string &name)
 {
   for (const std::string &section : sections)
     prm.enter_subsection(section);
@@ -144,10 +145,10 @@ void RockLaws::parse_parameters(ParameterHandler &prm,
         sections.push_back(name);
         const std::string value = value_of(prm, sections, e.name);
         const bool is_given = value != (region == 0 ? e.default_value : "");
-        const bool is_used =
-          region == 0 ? std::any_of(names.begin(), names.end(),
-                                    [&](const auto &law) { return law.second == name; })
-                      : names.count(region) > 0 && names.at(region) == name;
+        const bool is_used = region == 0
+                               ? std::any_of(names.begin(), names.end(),
+                                             [&](const auto &law) { return law.second == name; })
+                               : names.count(region) > 0 && names.at(region) == name;
         if (is_given && !is_used)
           throw EntryError(path_of(sections) + "/" + e.name, value,
                            "nothing (an empty entry), for no rock has the law '" + name +

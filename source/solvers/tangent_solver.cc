@@ -112,8 +112,7 @@ LinearReport TangentSolver::solve(LinearSystem &system,
     };
     try
     {
-      const LinearReport report =
-        linear->solve(system, stamps, inner_tolerance, z.bulk, z.extra);
+      const LinearReport report = linear->solve(system, stamps, inner_tolerance, z.bulk, z.extra);
       restore();
       return report;
     }
@@ -140,8 +139,8 @@ LinearReport TangentSolver::solve(LinearSystem &system,
 
   SystemVector dx;
   LinearReport report;
-  const bool tangent_is_good = has_tangent && formed_at.mesh == stamps.mesh &&
-                               formed_at.bulk_values == stamps.bulk_values;
+  const bool tangent_is_good =
+    has_tangent && formed_at.mesh == stamps.mesh && formed_at.bulk_values == stamps.bulk_values;
   if (tangent_is_good)
   {
     take_fracture();

@@ -37,11 +37,12 @@ private:
   void form_tangent(const LinearSystem &system, const SystemStamps &stamps);
 
   /// FGMRES with one of the two as preconditioner.
-  LinearReport iterate(LinearSystem &system,
-                       const std::function<LinearReport(SystemVector &z, SystemVector &r)> &precondition,
-                       double tolerance,
-                       unsigned int max_iterations,
-                       SystemVector &dx);
+  LinearReport
+  iterate(LinearSystem &system,
+          const std::function<LinearReport(SystemVector &z, SystemVector &r)> &precondition,
+          double tolerance,
+          unsigned int max_iterations,
+          SystemVector &dx);
 
   Make make;
   MPI_Comm communicator;

@@ -3,8 +3,8 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/parameter_handler.h>
 
-#include "stockwork/rock/rock.h"
 #include "stockwork/fracture/scene.h"
+#include "stockwork/rock/rock.h"
 
 #include <functional>
 #include <limits>
@@ -16,6 +16,8 @@
 
 namespace stockwork
 {
+class RockLaw;
+
 /// The analytical solution of a case, evaluated from the parsed deck.
 template <int dim>
 class ReferenceSolution
@@ -37,6 +39,17 @@ public:
   virtual std::optional<dealii::Point<dim>> observation_point() const
   {
     return {};
+  }
+
+  /// Where the displacement shall be observed (columns displacement_x, …).
+  virtual std::optional<dealii::Point<dim>> place_of_displacement() const
+  {
+    return {};
+  }
+
+  /// Add what follows from the statistics of a step and this solution speaks of.
+  virtual void add_derived(std::map<std::string, double> &) const
+  {
   }
 
   /// Scalars at a time, by the names of the columns of the statistics.
@@ -98,6 +111,11 @@ struct ReferenceInput
 
   /// The greatest displacement that the deck prescribes at a time [m]. Empty: not known.
   std::function<double(double time)> greatest_displacement = {};
+
+  const RockLaw *law = nullptr;                    ///< of the rock at large
+  dealii::SymmetricTensor<2, 3> in_situ_stress = {}; ///< at the centre of the domain, total [Pa]
+  double in_situ_pressure = 0.;                    ///< there [Pa]
+  double hole_radius = 0.;                         ///< of a ring; 0: no hole [m]
 
   /// Whether the deck makes a side a roller or plane of symmetry. Empty: not known.
   std::function<bool(const std::string &side)> is_roller = {};

@@ -73,8 +73,7 @@ void MohrCoulomb::evaluate(const ArrayView<const RockState> states,
 
     // The plastic strain is what the return has taken from the stress, by the elastic compliance.
     const Tensor2 lost = trial - back.stress;
-    const Tensor2 flow =
-      deviator(lost) / (2. * mu) + trace(lost) / (9. * bulk) * identity;
+    const Tensor2 flow = deviator(lost) / (2. * mu) + trace(lost) / (9. * bulk) * identity;
     const Tensor2 plastic = before + flow, elastic = trial_strain - flow;
 
     response.stress =
@@ -94,8 +93,7 @@ void MohrCoulomb::evaluate(const ArrayView<const RockState> states,
     response.content_by_strain = identity - (1. - alpha) / (3. * bulk) * (identity * back.tangent);
     // d(tr e)/dp = tr(C^-1 d(stress)) - (1 - alpha)/K, with d(stress) = T (1 - alpha)/(3 K) 1.
     const double strain_by_pressure =
-      (1. - alpha) / bulk *
-      (identity * (back.tangent * identity) / (9. * bulk) - 1.);
+      (1. - alpha) / bulk * (identity * (back.tangent * identity) / (9. * bulk) - 1.);
     response.content_by_pressure = inverse_biot_modulus - (1. - alpha) * strain_by_pressure;
 
     if (response.history != nullptr)

@@ -31,6 +31,11 @@ public:
 
   std::string describe() const override;
 
+  const Strength &surface() const
+  {
+    return strength;
+  }
+
 private:
   using Tensor2 = dealii::SymmetricTensor<2, 3>;
 

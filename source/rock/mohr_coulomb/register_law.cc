@@ -32,8 +32,8 @@ std::unique_ptr<RockLaw> create(const dealii::ParameterHandler &prm,
                                 const std::string &path,
                                 const RockProperties &properties)
 {
-  const auto get = [&](const std::string &entry, const Dimension &dimension,
-                       const std::string &allowed)
+  const auto get =
+    [&](const std::string &entry, const Dimension &dimension, const std::string &allowed)
   {
     const auto value = get_optional_quantity(prm, entry, dimension);
     if (!value)

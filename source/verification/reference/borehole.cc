@@ -1,0 +1,131 @@
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+#include "rock/laws.h"
+#include "rock/mohr_coulomb/law.h"
+#include "verification/analytical/mohr_coulomb_cavity.h"
+#include "verification/reference/problems.h"
+
+namespace stockwork::reference
+{
+using namespace dealii;
+
+namespace
+{
+class BoreholeField : public Field<2>
+{
+public:
+  BoreholeField(const analytical::MohrCoulombCavity::Parameters &parameters,
+                const std::function<double(double)> &wall_pressure)
+    : Field<2>(false)
+    , cavity(parameters)
+    , wall_pressure(wall_pressure)
+  {
+  }
+
+  void set_time(const double time) override
+  {
+    Function<2>::set_time(time);
+    cavity.set_wall_pressure(wall_pressure(time));
+  }
+
+  analytical::MohrCoulombCavity cavity;
+
+protected:
+  void evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
+  {
+    const double r = point.norm();
+    displacement = cavity.displacement(r) / r * point;
+    pressure = 0.;
+  }
+
+private:
+  std::function<double(double)> wall_pressure;
+};
+
+
+class Borehole : public ReferenceSolution<2>
+{
+public:
+  Borehole(const analytical::MohrCoulombCavity::Parameters &parameters,
+           const std::function<double(double)> &wall_pressure)
+    : solution(std::make_shared<BoreholeField>(parameters, wall_pressure))
+    , radius(parameters.radius)
+  {
+  }
+
+  std::string name() const override
+  {
+    return "borehole in Mohr-Coulomb rock";
+  }
+
+  std::shared_ptr<Function<2>> field() const override
+  {
+    return solution;
+  }
+
+  std::map<std::string, double> values(const double time) const override
+  {
+    solution->set_time(time);
+    return {{"plastic_radius", solution->cavity.plastic_radius()},
+            {"wall_displacement", solution->cavity.displacement(radius)}};
+  }
+
+  std::optional<Point<2>> place_of_displacement() const override
+  {
+    return Point<2>(radius, 0.);
+  }
+
+  void add_derived(std::map<std::string, double> &values) const override
+  {
+    // Of the quarter ring; along the x axis the displacement is its first component.
+    values["plastic_radius"] =
+      std::sqrt(radius * radius + 4. / numbers::PI * values["yielded_volume"]);
+    values["wall_displacement"] = values["displacement_x"];
+  }
+
+private:
+  std::shared_ptr<BoreholeField> solution;
+  double radius;
+};
+} // namespace
+
+
+Made<2> make_borehole(const ParameterHandler &, const ReferenceInput<2> &input)
+{
+  const auto *law = dynamic_cast<const mohr_coulomb::MohrCoulomb *>(input.law);
+  if (law == nullptr)
+    throw InputError("'borehole' is of rock with 'Rock/Law = mohr coulomb'");
+  if (!(input.hole_radius > 0.))
+    throw InputError("'borehole' is in a 'Mesh/Shape = quarter ring'");
+  if (input.has_pore_pressure)
+    throw InputError("'borehole' knows no pore pressure: 'Rock/Bulk model = elastic'");
+  if (input.layered || input.has_stress_gradient)
+    throw InputError("'borehole' is in uniform rock and stress");
+  const SymmetricTensor<2, 3> stress = input.in_situ_stress;
+  const double mean = trace(stress) / 3.;
+  if (!(deviator(stress).norm() <= 1e-9 * std::abs(mean)) || !(mean < 0.))
+    throw InputError("'borehole' is in compression that is the same in all directions, also "
+                     "'In situ/Stress across the plane'");
+  const RockProperties &rock = input.rock.main();
+  const mohr_coulomb::Strength &strength = law->surface();
+  const analytical::MohrCoulombCavity::Parameters parameters{
+    rock.young_modulus,    rock.poisson_ratio,      strength.cohesion, strength.friction_angle,
+    strength.dilation_angle, -mean - input.in_situ_pressure, input.hole_radius};
+  // Loads are over in situ; a pull on the wall takes pressure from it.
+  const auto wall_pressure = [parameters, traction = input.normal_traction](const double time)
+  { return std::max(0., parameters.in_situ - traction("wall", time)); };
+  double last = wall_pressure(input.start_time), sense = 0.;
+  for (unsigned int i = 1; i <= 100; ++i)
+  {
+    const double now =
+      wall_pressure(input.start_time + 0.01 * i * (input.end_time - input.start_time));
+    if ((now - last) * sense < 0.)
+      throw InputError("'borehole' is of a wall pressure that only falls or only rises; the normal "
+                       "traction on 'wall' turns back");
+    sense = now != last ? now - last : sense;
+    last = now;
+  }
+  return std::make_unique<Borehole>(parameters, wall_pressure);
+}
+} // namespace stockwork::reference
