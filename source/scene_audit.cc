@@ -285,12 +285,48 @@ void add_principal_stresses(const Case<2> &the_case, std::vector<SceneNumber> &n
 } // namespace
 
 
+namespace
+{
+/// How near the rock is to the end of its linear range, in situ and beside the tip of a crack that
+/// carries the tensile strength across it.
+template <int dim>
+void add_strength(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
+{
+  const RockLaw &law = the_case.laws(0);
+  const RockProperties &rock = the_case.rock.main();
+  const Point<dim> place = the_case.scene.cracks.empty() || the_case.scene.cracks[0].points.empty()
+                             ? Point<dim>()
+                             : the_case.scene.cracks[0].points.front();
+  RockState state;
+  state.in_situ_stress = the_case.scene.in_situ_tensor(place, rock);
+  state.in_situ_pressure = the_case.scene.in_situ_pore_pressure(place);
+  numbers.push_back({"share of the rock's strength used in situ", law.used(state),
+                     law.describe() + "; from 1 on the rock yields"});
+  if (the_case.scene.cracks.empty() || std::isnan(rock.tensile_strength))
+    return;
+  // The least compression in the plane gives way to the strength.
+  const auto principal = eigenvectors(state.in_situ_stress);
+  const SymmetricTensor<2, 3> across =
+    symmetrize(outer_product(principal[0].second, principal[0].second));
+  state.in_situ_stress +=
+    (rock.tensile_strength - state.in_situ_pressure - principal[0].first) * across;
+  const double at_tip = law.used(state);
+  numbers.push_back({"the same beside the tip of a crack", at_tip,
+                     at_tip < 0.5  ? "nowhere near yield: the rock stays linear"
+                     : at_tip < 1. ? "the rock may yield where stresses concentrate"
+                                   : "the rock yields around the tips"});
+}
+} // namespace
+
+
 template <int dim>
 std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
   std::vector<SceneNumber> numbers;
   if constexpr (dim == 2)
     add_principal_stresses(the_case, numbers);
+  if (!the_case.laws(0).is_linear())
+    add_strength(the_case, numbers);
   const RockProperties &rock = the_case.rock.main();
   const double duration = the_case.control.end_time - the_case.control.start_time;
 
@@ -400,7 +436,9 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
     run.out << "  " << chosen.entry << " = " << chosen.value << ": " << chosen.why << '\n';
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
     run.out << "  left out: inertia (Time/Inertia = off)\n";
-  run.out << "  left out: plasticity (the rock is elastic)\n" << std::flush;
+  if (the_case.laws.are_linear())
+    run.out << "  left out: plasticity (the rock is elastic)\n";
+  run.out << std::flush;
 }
 
 

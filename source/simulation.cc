@@ -24,6 +24,7 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <new>
@@ -100,7 +101,7 @@ public:
              ParameterHandler &prm,
              const SimulationOptions &options);
 
-  void start();
+  void start(ParameterHandler &prm);
 
   /// From the last checkpoint.
   void resume();
@@ -115,6 +116,12 @@ public:
 
 private:
   void save();
+
+  /// Rock that yields before anything happens, and roles of cells that such rock cannot have.
+  void check_rock(ParameterHandler &prm) const;
+
+  /// What has become of the rock's strength, for people.
+  void say_how_far_rock_went() const;
 
   /// Before memory is taken for the unknowns of a mesh.
   void refuse_too_large() const;
@@ -224,7 +231,7 @@ void Simulation<dim>::open_output(ParameterHandler &prm)
 
 
 template <int dim>
-void Simulation<dim>::start()
+void Simulation<dim>::start(ParameterHandler &prm)
 {
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
   the_case.geometry.create(triangulation);
@@ -234,6 +241,7 @@ void Simulation<dim>::start()
   the_case.boundary_conditions.check(triangulation,
                                      the_case.scheme.kind() == TimeScheme::Kind::newmark);
   system.setup_mesh(clock.time);
+  check_rock(prm);
   stepper.committed.bulk = system.ghosted_vector();
   system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
   if (the_case.reference && the_case.starts_from_reference)
@@ -245,6 +253,65 @@ void Simulation<dim>::start()
     stepper.committed.bulk = values;
   }
   the_case.scheme.initialise(stepper.committed);
+}
+
+
+template <int dim>
+void Simulation<dim>::check_rock(ParameterHandler &prm) const
+{
+  NonlinearRock<dim> *const rock = system.nonlinear_rock();
+  if (rock == nullptr)
+    return;
+  std::string replaced;
+  for (const auto &cell : system.bulk_dofs().active_cell_iterators())
+    if (cell->is_locally_owned() && !rock->laws(cell->material_id()).is_linear() &&
+        the_case.model->role(cell).skip_stiffness != nullptr)
+      replaced = rock->laws.name(cell->material_id());
+  if (the_case.model->requirements().changes_bulk && replaced.empty())
+    replaced = rock->laws.name(0);
+  for (const std::string &law : Utilities::MPI::all_gather(run.communicator, replaced))
+    if (!law.empty())
+      throw EntryError("Rock/Law", law,
+                       "elastic where the fracture model '" + the_case.model_name +
+                         "' provides the stiffness of the rock itself: give the region that it "
+                         "works in, or all rock, the law 'elastic', or take 'cohesive_xfem'");
+
+  const auto shares = Utilities::MPI::all_gather(run.communicator,
+                                                 [&]()
+                                                 {
+                                                   const auto mine = rock->in_situ_share();
+                                                   return std::make_pair(mine.used, mine.place);
+                                                 }());
+  const auto worst = *std::max_element(
+    shares.begin(), shares.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  if (worst.first < 1.)
+    return;
+  prm.enter_subsection("In situ");
+  const std::string text = prm.get("Stress");
+  prm.leave_subsection();
+  std::ostringstream allowed;
+  allowed << "a state that the rock can bear: at (" << worst.second
+          << ") m the in-situ stress and pore pressure take " << 100. * worst.first
+          << " per cent of the strength given in 'Rock/" << rock->laws.name(0)
+          << "' (see also 'In situ/Stress across the plane')";
+  throw EntryError("In situ/Stress", text, allowed.str());
+}
+
+
+template <int dim>
+void Simulation<dim>::say_how_far_rock_went() const
+{
+  NonlinearRock<dim> *const rock = system.nonlinear_rock();
+  if (rock == nullptr)
+    return;
+  const double volume = Utilities::MPI::sum(rock->totals().yielded_volume, run.communicator);
+  const double used = Utilities::MPI::max(rock->totals().greatest_used, run.communicator);
+  if (volume > 0.)
+    run.out << "The rock has yielded in " << volume << (dim == 2 ? " m^2" : " m^3") << "."
+            << std::endl;
+  else
+    run.out << "The rock has stayed linear: at most " << 100. * used
+            << " per cent of its strength were used at the end." << std::endl;
 }
 
 
@@ -406,7 +473,7 @@ void Simulation<dim>::march()
     {
       const auto scope = run.timers.scope("output");
       fields.write(clock.time, system.discretization(), the_case.scene, *the_case.model,
-                   stepper.last_state());
+                   stepper.last_state(), system.nonlinear_rock());
     }
     if (!finished())
       adaptation.adapt(system, stepper);
@@ -421,6 +488,7 @@ void Simulation<dim>::march()
       save();
   }
   audit_outcome(run, the_case, report.outcome());
+  say_how_far_rock_went();
   report.finish(triangulation.n_global_active_cells());
 }
 } // namespace
@@ -446,7 +514,7 @@ void run_case(RunContext &run,
     if (options.restart)
       simulation.resume();
     else
-      simulation.start();
+      simulation.start(prm);
   }
   catch (const SolveError &error)
   {

@@ -49,6 +49,8 @@ std::string unit_of_column(const std::string &name, const unsigned int dim)
   } units[] = {{"error", "", ""},
                {"length", "m", "m^2"},
                {"extent", "m", "m"},
+               {"radius", "m", "m"},
+               {"displacement", "m", "m"},
                {"aperture", "m", "m"},
                {"pressure", "Pa", "Pa"},
                {"volume", "m^2", "m^3"},

@@ -99,6 +99,29 @@ void NonlinearRock<dim>::setup(const Discretization<dim> &new_discretization)
 
 
 template <int dim>
+typename NonlinearRock<dim>::InSituShare NonlinearRock<dim>::in_situ_share()
+{
+  InSituShare share;
+  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && answers(cell))
+    {
+      evaluator->reinit(cell, nullptr);
+      for (unsigned int q = 0; q < evaluator->n_points(); ++q)
+      {
+        const Point<dim> &x = evaluator->point(q);
+        RockState state;
+        state.in_situ_stress = scene.in_situ_tensor(x, scene.rock(cell->material_id()));
+        state.in_situ_pressure = scene.in_situ_pore_pressure(x);
+        const double used = laws(cell->material_id()).used(state);
+        if (used > share.used)
+          share = {used, x, cell->material_id()};
+      }
+    }
+  return share;
+}
+
+
+template <int dim>
 void NonlinearRock<dim>::states_at(const CellIterator &cell, const Unknowns &unknowns)
 {
   const RockProperties &rock = scene.rock(cell->material_id());
@@ -253,6 +276,35 @@ void NonlinearRock<dim>::for_each_active_cell(const State &state,
 
 
 template <int dim>
+void NonlinearRock<dim>::add_energies(const std::vector<SymmetricTensor<2, 3>> &stress_before,
+                                      const std::vector<SymmetricTensor<2, 3>> &stress_now,
+                                      const State &state)
+{
+  const auto &layout = evaluator->layout;
+  const auto &constraints = discretization->constraints;
+  for (unsigned int i = 0; i < layout.u.size(); ++i)
+  {
+    const auto dof = evaluator->dofs()[layout.u[i]];
+    if (!constraints.is_constrained(dof))
+      continue;
+    if (const auto *masters = constraints.get_constraint_entries(dof);
+        masters != nullptr && !masters->empty())
+      continue;
+    const double now = state.current.bulk(dof), moved = now - state.committed.bulk(dof);
+    for (unsigned int q = 0; q < stress_now.size(); ++q)
+    {
+      Tensor<2, 3> gradient;
+      for (unsigned int d = 0; d < dim; ++d)
+        gradient[evaluator->component(i)][d] = evaluator->gradient(i, q)[d];
+      const SymmetricTensor<2, 3> strain = evaluator->weight(q) * symmetrize(gradient);
+      last_totals.held_work_beyond += 0.5 * moved * ((stress_before[q] + stress_now[q]) * strain);
+      last_totals.held_force_beyond += now * (stress_now[q] * strain);
+    }
+  }
+}
+
+
+template <int dim>
 void NonlinearRock<dim>::commit(const State &state, const Role &role)
 {
   last_totals = Totals();
@@ -285,6 +337,16 @@ void NonlinearRock<dim>::commit(const State &state, const Role &role)
       before.assign(now.size(), RockResponse());
       evaluate(states, before);
 
+      std::vector<SymmetricTensor<2, 3>> beyond_before(now.size()), beyond_now(now.size());
+      for (unsigned int q = 0; q < now.size(); ++q)
+      {
+        const RockResponse linear = linear_response(rock, now[q]);
+        beyond_before[q] = before[q].stress - linear_response(rock, states[q]).stress;
+        beyond_now[q] = responses[q].stress - linear.stress;
+        last_totals.stored_energy_beyond +=
+          evaluator->weight(q) * (responses[q].energy - 0.5 * (linear.stress * now[q].strain));
+      }
+      add_energies(beyond_before, beyond_now, state);
       for (unsigned int q = 0; q < now.size(); ++q)
       {
         const double w = evaluator->weight(q);

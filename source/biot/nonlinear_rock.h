@@ -36,6 +36,15 @@ public:
   /// The mesh is new; the history has moved along with it, or is none yet.
   void setup(const Discretization<dim> &discretization);
 
+  /// Where the in-situ state uses up the most of the linear range, of the owned cells.
+  struct InSituShare
+  {
+    double used = 0.;
+    dealii::Point<dim> place;
+    dealii::types::material_id region = 0;
+  };
+  InSituShare in_situ_share();
+
   /// Add residual and derivative.
   void assemble(const StepContext &context, const State &state, const Role &role, Sink &sink);
 
@@ -68,6 +77,11 @@ public:
     double yielded_volume = 0.;    ///< of points with a history [m^3 (/m)]
     double greatest_used = 0.;     ///< of points without
     double dissipated_energy = 0.; ///< in the rock [J (/m)]
+
+    // What the audit of energy, done as in linear rock, does not see [J (/m)].
+    double stored_energy_beyond = 0.;
+    double held_work_beyond = 0.;  ///< in the step, at prescribed displacements
+    double held_force_beyond = 0.; ///< times displacement, at its end
   };
 
   /// Of the owned cells; after commit(), the change is that of the step before it.
@@ -117,6 +131,11 @@ private:
   void find_history(const CellIterator &cell);
 
   bool takes_part(const CellIterator &cell, double &greatest_used) const;
+
+  /// Of a cell whose answers at the start and the end of the step are known.
+  void add_energies(const std::vector<dealii::SymmetricTensor<2, 3>> &stress_before,
+                    const std::vector<dealii::SymmetricTensor<2, 3>> &stress_now,
+                    const State &state);
 
   void add_cell(const CellIterator &cell, bool with_matrix, LocalSystem &local);
 

@@ -95,6 +95,7 @@ template <int dim>
 MechanicalEnergy mechanical_energy(
   const Discretization<dim> &discretization,
   const Rock &rock,
+  const NonlinearRock<dim> *nonlinear,
   const Loads<dim> &loads,
   const std::function<CellRole<dim>(const typename DoFHandler<dim>::active_cell_iterator &)> &role,
   const StepContext &context,
@@ -186,6 +187,12 @@ MechanicalEnergy mechanical_energy(
         work += moving.work(cell, context, state);
       }
     }
+  if (nonlinear != nullptr)
+  {
+    stored += nonlinear->totals().stored_energy_beyond;
+    work += nonlinear->totals().held_work_beyond;
+    force += nonlinear->totals().held_force_beyond;
+  }
   greatest = collectives.max(greatest);
   std::vector<double> sums{stored, kinetic, work, force};
   collectives.sum(sums);
@@ -196,6 +203,7 @@ MechanicalEnergy mechanical_energy(
 template MechanicalEnergy
 mechanical_energy(const Discretization<2> &,
                   const Rock &,
+                  const NonlinearRock<2> *,
                   const Loads<2> &,
                   const std::function<CellRole<2>(const DoFHandler<2>::active_cell_iterator &)> &,
                   const StepContext &,
@@ -204,6 +212,7 @@ mechanical_energy(const Discretization<2> &,
 template MechanicalEnergy
 mechanical_energy(const Discretization<3> &,
                   const Rock &,
+                  const NonlinearRock<3> *,
                   const Loads<3> &,
                   const std::function<CellRole<3>(const DoFHandler<3>::active_cell_iterator &)> &,
                   const StepContext &,

@@ -7,12 +7,13 @@
 #include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
+#include "biot/nonlinear_rock.h"
 
 #include <functional>
 
 namespace stockwork
 {
-/// Work and energy of elastic rock that prescribed displacements load, or tractions and inertia,
+/// Work and energy of dry rock that prescribed displacements load, or tractions and inertia,
 /// per metre of thickness in 2-D. With the energies of the fracture model: work = stored + kinetic
 /// + dissipated, at every time; Newmark's scheme with beta = 1/4 and gamma = 1/2 keeps that
 /// balance.
@@ -30,11 +31,14 @@ struct MechanicalEnergy
   double load = 0.;
 };
 
+/// @param nonlinear rock that may leave its linear range, or null
+///
 /// Collective.
 template <int dim>
 MechanicalEnergy mechanical_energy(
   const Discretization<dim> &discretization,
   const Rock &rock,
+  const NonlinearRock<dim> *nonlinear,
   const Loads<dim> &loads,
   const std::function<CellRole<dim>(const typename dealii::DoFHandler<dim>::active_cell_iterator &)>
     &role,

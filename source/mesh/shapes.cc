@@ -187,7 +187,7 @@ void Geometry<dim>::make_ring(ParameterHandler &prm)
       },
       *coarse);
     cells = Cells::ring;
-  inner_radius = inner;
+    inner_radius = inner;
     coarse->set_all_manifold_ids(0);
     sides = {{"wall", 0}, {"surface", 1}, {"bottom", 2}, {"left", 3}};
   }

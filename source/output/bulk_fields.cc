@@ -2,6 +2,8 @@
 
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -10,11 +12,20 @@ template <int dim>
 BulkFields<dim>::BulkFields(const Discretization<dim> &discretization,
                             const Scene<dim> &scene,
                             const FractureModel<dim> &model,
-                            const State &state)
+                            const State &state,
+                            const NonlinearRock<dim> *nonlinear)
   : scene(scene)
   , model(model)
   , has_pore_pressure(discretization.has_pore_pressure)
+  , nonlinear(nonlinear)
+  , mapping(discretization.mapping)
 {
+  if (nonlinear != nullptr)
+    for (const auto &[region, law] : nonlinear->laws.all())
+      for (const HistoryField &field : law->history())
+        if (std::none_of(remembered.begin(), remembered.end(),
+                         [&](const HistoryField &known) { return known.name == field.name; }))
+          remembered.push_back(field);
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       if (const CutCell<dim> *cut = model.role(cell).cut)
@@ -81,23 +92,74 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
     SymmetricTensor<2, dim> strain = symmetrize(gradient);
     if (mean != mean_strain.end())
       strain = mean->second;
-    SymmetricTensor<2, dim> total = scene.in_situ_stress(x) + coefficients[q].stiffness * strain;
-    if (!has_pore_pressure)
-    {
-      put(total);
-      continue;
-    }
-
     // The unknown is the pressure over in situ.
-    const double excess = inputs.solution_values[q](dim);
-    const double pressure = excess + scene.in_situ_pore_pressure(x);
-    total -= excess * coefficients[q].biot;
+    const double excess = has_pore_pressure ? inputs.solution_values[q](dim) : 0.;
+    SymmetricTensor<2, dim> total =
+      scene.in_situ_stress(x) + coefficients[q].stiffness * strain - excess * coefficients[q].biot;
+    typename NonlinearRock<dim>::Answer answer;
+    const bool asks_law = nonlinear != nullptr && nonlinear->answers(cell);
+    if (asks_law)
+    {
+      answer = nonlinear->at(cell, mapping.transform_real_to_unit_cell(cell, x), x, strain, excess);
+      total = scene.in_situ_stress(x);
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          total[i][j] += answer.stress[i][j];
+    }
     put(total);
-    quantities[q](n++) = pressure;
-    put(total + pressure * coefficients[q].biot);
-    const Tensor<1, dim> flux = -(coefficients[q].mobility * inputs.solution_gradients[q][dim]);
-    for (unsigned int d = 0; d < dim; ++d)
-      quantities[q](n++) = flux[d];
+    if (has_pore_pressure)
+    {
+      const double pressure = excess + scene.in_situ_pore_pressure(x);
+      quantities[q](n++) = pressure;
+      put(total + pressure * coefficients[q].biot);
+      const Tensor<1, dim> flux = -(coefficients[q].mobility * inputs.solution_gradients[q][dim]);
+      for (unsigned int d = 0; d < dim; ++d)
+        quantities[q](n++) = flux[d];
+    }
+    if (nonlinear == nullptr)
+      continue;
+    if (dim == 2)
+      quantities[q](n++) = asks_law ? scene.in_situ_tensor(x, rock)[2][2] + answer.stress[2][2]
+                                    : scene.in_situ_tensor(x, rock)[2][2] +
+                                        rock.lame_lambda() * trace(strain) -
+                                        excess * rock.biot_coefficient;
+    quantities[q](n++) = answer.dissipated_energy;
+    put_memory(cell, answer.history, quantities[q], n);
+  }
+}
+
+template <int dim>
+void BulkFields<dim>::put_memory(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                 const std::vector<double> &history,
+                                 Vector<double> &quantities,
+                                 unsigned int &n) const
+{
+  const std::vector<HistoryField> own =
+    history.empty() ? std::vector<HistoryField>() : nonlinear->laws(cell->material_id()).history();
+  for (const HistoryField &field : remembered)
+  {
+    SymmetricTensor<2, 3> tensor;
+    double number = 0.;
+    unsigned int at = 0;
+    for (const HistoryField &mine : own)
+    {
+      if (mine.name == field.name && field.is_tensor)
+        for (unsigned int i = 0; i < 6; ++i)
+          tensor.access_raw_entry(i) = history[at + i];
+      else if (mine.name == field.name)
+        number = history[at];
+      at += mine.is_tensor ? 6 : 1;
+    }
+    if (!field.is_tensor)
+      quantities(n++) = number;
+    else
+    {
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          quantities(n++) = tensor[i][j];
+      if (dim == 2)
+        quantities(n++) = tensor[2][2];
+    }
   }
 }
 
@@ -112,6 +174,17 @@ std::vector<std::string> BulkFields<dim>::get_names() const
     names.insert(names.end(), dim * dim, "effective_stress");
     names.insert(names.end(), dim, "flux");
   }
+  if (nonlinear == nullptr)
+    return names;
+  if (dim == 2)
+    names.push_back("total_stress_zz");
+  names.push_back("dissipated_energy");
+  for (const HistoryField &field : remembered)
+  {
+    names.insert(names.end(), field.is_tensor ? dim * dim : 1, field.name);
+    if (field.is_tensor && dim == 2)
+      names.push_back(field.name + "_zz");
+  }
   return names;
 }
 
@@ -121,10 +194,15 @@ BulkFields<dim>::get_data_component_interpretation() const
 {
   using namespace DataComponentInterpretation;
   std::vector<DataComponentInterpretation::DataComponentInterpretation> kinds;
-  for (const std::string &name : get_names())
-    kinds.push_back(name == "pore_pressure"                    ? component_is_scalar
-                    : name == "displacement" || name == "flux" ? component_is_part_of_vector
-                                                               : component_is_part_of_tensor);
+  // A name that comes once is a scalar's, dim times a vector's, else a tensor's.
+  const std::vector<std::string> names = get_names();
+  for (const std::string &name : names)
+  {
+    const auto n = std::count(names.begin(), names.end(), name);
+    kinds.push_back(n == 1     ? component_is_scalar
+                    : n == dim ? component_is_part_of_vector
+                               : component_is_part_of_tensor);
+  }
   return kinds;
 }
 

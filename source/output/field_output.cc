@@ -119,7 +119,8 @@ void FieldOutput<dim>::write(const double time,
                              const Discretization<dim> &discretization,
                              const Scene<dim> &scene,
                              const FractureModel<dim> &model,
-                             const State &state)
+                             const State &state,
+                             const NonlinearRock<dim> *nonlinear)
 {
   Collector<dim> collector;
   model.write_fields(state, collector);
@@ -129,7 +130,7 @@ void FieldOutput<dim>::write(const double time,
 
   CheckedData<DataOut<dim>> output;
   output.attach_dof_handler(discretization.dof_handler);
-  const BulkFields<dim> fields(discretization, scene, model, state);
+  const BulkFields<dim> fields(discretization, scene, model, state, nonlinear);
   output.add_data_vector(state.current.bulk, fields);
   Vector<float> region(discretization.triangulation.n_active_cells());
   for (const auto &cell : discretization.triangulation.active_cell_iterators())

@@ -8,6 +8,8 @@
 
 #include "stockwork/fracture/model.h"
 
+#include "biot/nonlinear_rock.h"
+
 namespace stockwork
 {
 /// Writes the fields for ParaView or VisIt:
@@ -47,7 +49,8 @@ public:
              const Discretization<dim> &discretization,
              const Scene<dim> &scene,
              const FractureModel<dim> &model,
-             const State &state);
+             const State &state,
+             const NonlinearRock<dim> *nonlinear = nullptr);
 
   /// What has been written so far, for a checkpoint: a restarted run continues the series.
   template <class Archive>

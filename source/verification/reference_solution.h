@@ -112,10 +112,10 @@ struct ReferenceInput
   /// The greatest displacement that the deck prescribes at a time [m]. Empty: not known.
   std::function<double(double time)> greatest_displacement = {};
 
-  const RockLaw *law = nullptr;                    ///< of the rock at large
+  const RockLaw *law = nullptr;                      ///< of the rock at large
   dealii::SymmetricTensor<2, 3> in_situ_stress = {}; ///< at the centre of the domain, total [Pa]
-  double in_situ_pressure = 0.;                    ///< there [Pa]
-  double hole_radius = 0.;                         ///< of a ring; 0: no hole [m]
+  double in_situ_pressure = 0.;                      ///< there [Pa]
+  double hole_radius = 0.;                           ///< of a ring; 0: no hole [m]
 
   /// Whether the deck makes a side a roller or plane of symmetry. Empty: not known.
   std::function<bool(const std::string &side)> is_roller = {};

@@ -110,7 +110,7 @@ void MohrCoulomb::evaluate(const ArrayView<const RockState> states,
 
 double MohrCoulomb::used(const RockState &state) const
 {
-  return 1. + distance_to_yield(trial_stress(state, state.strain), strength);
+  return share_of_strength(trial_stress(state, state.strain), strength);
 }
 
 

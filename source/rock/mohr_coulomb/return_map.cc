@@ -133,6 +133,15 @@ double distance_to_yield(const SymmetricTensor<2, 3> &stress, const Strength &st
 }
 
 
+double share_of_strength(const SymmetricTensor<2, 3> &stress, const Strength &strength)
+{
+  const auto s = eigenvalues(stress);
+  const double room = yield_stress(strength) - (s[0] + s[2]) * std::sin(strength.friction_angle);
+  // Beyond the apex there is no circle that would touch.
+  return room > 0. ? (s[0] - s[2]) / room : 2. + distance_to_yield(stress, strength);
+}
+
+
 Return return_to_surface(const SymmetricTensor<2, 3> &trial,
                          const double lame_lambda,
                          const double shear_modulus,

@@ -55,4 +55,8 @@ Return return_to_surface(const dealii::SymmetricTensor<2, 3> &trial,
 
 /// The greatest value of f, sorted or not, over 2 c cos(phi): below zero inside the surface.
 double distance_to_yield(const dealii::SymmetricTensor<2, 3> &stress, const Strength &strength);
+
+/// The radius of Mohr's circle over that at which it would touch the surface, its centre where it
+/// is: 1 on the surface, 0 where the principal stresses are equal.
+double share_of_strength(const dealii::SymmetricTensor<2, 3> &stress, const Strength &strength);
 } // namespace stockwork::mohr_coulomb

@@ -32,8 +32,7 @@ void MohrCoulombCavity::set_wall_pressure(const double pressure)
   if (converges)
   {
     const double nu = p.poisson_ratio;
-    const double at_edge =
-      (p.in_situ * (1. - 2. * nu) - Y * (1. - nu)) / (N - nu * (1. + N));
+    const double at_edge = (p.in_situ * (1. - 2. * nu) - Y * (1. - nu)) / (N - nu * (1. + N));
     if (at_edge > wall)
       edge = p.radius * std::pow((at_edge + H) / (wall + H), exponent);
   }
@@ -42,17 +41,13 @@ void MohrCoulombCavity::set_wall_pressure(const double pressure)
 
 double MohrCoulombCavity::source(const double r) const
 {
-  const double radial =
-    (wall + H) * std::pow(r / p.radius, converges ? N - 1. : 1. / N - 1.) - H;
+  const double radial = (wall + H) * std::pow(r / p.radius, converges ? N - 1. : 1. / N - 1.) - H;
   const double hoop = converges ? N * radial + Y : (radial - Y) / N;
   const double nu = p.poisson_ratio;
   const bool flows_along = r < edge;
-  const double along =
-    flows_along ? hoop : p.in_situ + nu * (radial + hoop - 2. * p.in_situ);
+  const double along = flows_along ? hoop : p.in_situ + nu * (radial + hoop - 2. * p.in_situ);
   const auto strain = [&](const double s, const double other, const double another)
-  {
-    return -((s - p.in_situ) - nu * (other + another - 2. * p.in_situ)) / p.young_modulus;
-  };
+  { return -((s - p.in_situ) - nu * (other + another - 2. * p.in_situ)) / p.young_modulus; };
   double sum = strain(radial, hoop, along) + k * strain(hoop, radial, along);
   if (flows_along)
     sum += k * strain(along, radial, hoop);
@@ -62,9 +57,9 @@ double MohrCoulombCavity::source(const double r) const
 
 double MohrCoulombCavity::displacement(const double r) const
 {
-  const double at_outer = outer > p.radius
-                            ? (converges ? (2. * p.in_situ - Y) : (2. * N * p.in_situ + Y)) / (N + 1.)
-                            : wall;
+  const double at_outer =
+    outer > p.radius ? (converges ? (2. * p.in_situ - Y) : (2. * N * p.in_situ + Y)) / (N + 1.)
+                     : wall;
   const auto elastic = [&](const double radius)
   {
     return (1. + p.poisson_ratio) / p.young_modulus * (at_outer - p.in_situ) * outer * outer /
@@ -75,9 +70,10 @@ double MohrCoulombCavity::displacement(const double r) const
   using boost::math::quadrature::gauss_kronrod;
   const auto integral = [&](const double from, const double to)
   {
-    return to > from ? gauss_kronrod<double, 15>::integrate(
-                         [this](const double radius) { return source(radius); }, from, to, 10, 1e-11)
-                     : 0.;
+    return to > from
+             ? gauss_kronrod<double, 15>::integrate(
+                 [this](const double radius) { return source(radius); }, from, to, 10, 1e-11)
+             : 0.;
   };
   const double between = std::clamp(edge, r, outer);
   return (std::pow(outer, k) * elastic(outer) - integral(r, between) - integral(between, outer)) /

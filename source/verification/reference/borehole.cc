@@ -110,8 +110,9 @@ Made<2> make_borehole(const ParameterHandler &, const ReferenceInput<2> &input)
   const RockProperties &rock = input.rock.main();
   const mohr_coulomb::Strength &strength = law->surface();
   const analytical::MohrCoulombCavity::Parameters parameters{
-    rock.young_modulus,    rock.poisson_ratio,      strength.cohesion, strength.friction_angle,
-    strength.dilation_angle, -mean - input.in_situ_pressure, input.hole_radius};
+    rock.young_modulus,      rock.poisson_ratio,      strength.cohesion,
+    strength.friction_angle, strength.dilation_angle, -mean - input.in_situ_pressure,
+    input.hole_radius};
   // Loads are over in situ; a pull on the wall takes pressure from it.
   const auto wall_pressure = [parameters, traction = input.normal_traction](const double time)
   { return std::max(0., parameters.in_situ - traction("wall", time)); };
