@@ -328,10 +328,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
           false,
           [this](const Point<dim> &x) { return in_situ.stress(x); },
           [this](const Point<dim> &x) { return in_situ.pore_pressure(x); },
-          [this](const Point<dim> &x, const RockProperties &properties)
-          { return in_situ.tensor(x, properties); },
           0.}
 {
+  scene.in_situ_tensor = [this](const Point<dim> &x, const RockProperties &properties)
+  { return in_situ.tensor(x, properties); };
   geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
   rock.parse_parameters(prm);
   if (dim == 3 && rock.main().plane_stress)

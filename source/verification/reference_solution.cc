@@ -27,6 +27,7 @@ const Entry table[] = {
   {"cryer", nullptr, reference::make_cryer<3>},
   {"deleeuw", reference::make_cryer<2>, nullptr},
   {"borehole", reference::make_borehole, nullptr},
+  {"footing", reference::make_footing, nullptr},
   {"bar wave", reference::make_bar_wave<2>, reference::make_bar_wave<3>},
   {"porous wave", reference::make_porous_wave<2>, reference::make_porous_wave<3>},
   {"line crack", reference::make_line_crack, nullptr},
@@ -65,7 +66,8 @@ void declare_reference_parameters(ParameterHandler &prm)
     "the rest of the deck. column: along the last axis, loaded at the top. mandel: "
     "quarter x, y >= 0, moved at the top. cryer: octant of a ball, deleeuw: quarter of a "
     "disc, loaded and drained at the surface. borehole: quarter ring in Mohr-Coulomb rock, loaded "
-    "at the wall. bar wave, porous wave: along the last "
+    "at the wall. footing: limit load of a strip on rock that yields. bar wave, porous wave: along "
+    "the last "
     "axis, loaded at the top. line crack, penny crack (3-D): in an infinite body; crack in "
     "box: with rollers all round. double cantilever: beams along x joined by a cohesive "
     "layer, a crack from the left, ends moved apart by equal displacements. kgd: at the deck's own "
@@ -83,6 +85,9 @@ void declare_reference_parameters(ParameterHandler &prm)
                     "When errors are formed. Their mean over time needs every step.");
   prm.declare_entry("Load", "", Quantity(dimension::force_per_length, Range::finite(), ""),
                     "mandel: force on the half width of the plate. Required there.");
+  prm.declare_entry("Footing width", "", Quantity(dimension::length, Range::positive(), ""),
+                    "footing: that part of the strip's width which is in the model. Required "
+                    "there.");
   prm.declare_entry("Elastic share", "0.01", Quantity(dimension::number, Range::open(0., 1.)),
                     "double cantilever: opening of the layer at its strength over the opening "
                     "without traction; the fracture model's.");

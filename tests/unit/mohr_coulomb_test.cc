@@ -11,7 +11,6 @@ namespace stockwork::mohr_coulomb_test
 {
 using namespace dealii;
 using namespace mohr_coulomb;
-using doctest::Approx;
 
 namespace
 {

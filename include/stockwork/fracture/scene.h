@@ -84,11 +84,6 @@ struct Scene
   /// In-situ pore pressure at a point [Pa].
   std::function<double(const dealii::Point<dim> &)> in_situ_pore_pressure;
 
-  /// The same in three dimensions also where the case has two; what is not given across the plane
-  /// is that of plane strain in this rock.
-  std::function<dealii::SymmetricTensor<2, 3>(const dealii::Point<dim> &, const RockProperties &)>
-    in_situ_tensor;
-
   /// Diameter of the domain [m], for tolerances.
   double domain_size;
 
@@ -98,5 +93,10 @@ struct Scene
 
   /// The greatest rate of the first well, of both wings [m^2/s; m^3/s in 3-D]; zero: none is given.
   double injection_rate = 0.;
+
+  /// Total in-situ stress in three dimensions also where the case has two; what is not given across
+  /// the plane is that of plane strain in this rock.
+  std::function<dealii::SymmetricTensor<2, 3>(const dealii::Point<dim> &, const RockProperties &)>
+    in_situ_tensor = {};
 };
 } // namespace stockwork

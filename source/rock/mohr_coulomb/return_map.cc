@@ -55,10 +55,12 @@ PrincipalReturn to_face(const Vector &trial, const Matrix &elastic, const Plane 
 
 
 /// Back to the edge of two planes, if that takes flow along both.
+/// @param slack that rounding takes: a stress that is on the edge already must stay there [Pa]
 std::optional<PrincipalReturn> to_edge(const Vector &trial,
                                        const Matrix &elastic,
                                        const std::array<Plane, 2> &planes,
                                        const double k,
+                                       const double slack,
                                        const Place place)
 {
   Tensor<2, 2> stiffness;
@@ -75,8 +77,9 @@ std::optional<PrincipalReturn> to_edge(const Vector &trial,
       stiffness[i][j] = planes[i].a * steps[j];
   const Tensor<2, 2> compliance = invert(stiffness);
   const Tensor<1, 2> multipliers = compliance * excess;
-  if (multipliers[0] < 0. || multipliers[1] < 0.)
-    return {};
+  for (unsigned int i = 0; i < 2; ++i)
+    if (multipliers[i] * steps[i].norm() < -slack)
+      return {};
   PrincipalReturn result{trial, elastic, place};
   for (unsigned int i = 0; i < 2; ++i)
   {
@@ -85,7 +88,7 @@ std::optional<PrincipalReturn> to_edge(const Vector &trial,
       result.tangent -= compliance[i][j] * outer_product(steps[i], drops[j]);
   }
   // Beyond the apex the planes meet the wrong way round.
-  if (result.stress[0] < result.stress[2])
+  if (result.stress[0] < result.stress[2] - slack)
     return {};
   return result;
 }
@@ -99,15 +102,16 @@ principal_return(const Vector &trial, const Matrix &elastic, const Strength &str
   const Plane main = plane(0, 2, strength);
   const PrincipalReturn face = to_face(trial, elastic, main, k);
   const Vector &s = face.stress;
-  if (s[0] >= s[1] && s[1] >= s[2])
+  const double slack = 1e-12 * (k + trial.norm());
+  if (s[0] >= s[1] - slack && s[1] >= s[2] - slack)
     return face;
   if (s[1] > s[0])
-    if (const auto edge =
-          to_edge(trial, elastic, {{main, plane(1, 2, strength)}}, k, Place::compression_edge))
+    if (const auto edge = to_edge(trial, elastic, {{main, plane(1, 2, strength)}}, k, slack,
+                                  Place::compression_edge))
       return *edge;
   if (s[2] > s[1])
     if (const auto edge =
-          to_edge(trial, elastic, {{main, plane(0, 1, strength)}}, k, Place::extension_edge))
+          to_edge(trial, elastic, {{main, plane(0, 1, strength)}}, k, slack, Place::extension_edge))
       return *edge;
   const double apex = strength.cohesion / std::tan(strength.friction_angle);
   return {Vector({apex, apex, apex}), Matrix(), Place::apex};
