@@ -94,8 +94,8 @@ std::map<std::string, double> Report<dim>::observe()
     system.collectives().sum(sums);
     values["yielded_volume"] = sums[0];
     values["rock_dissipated_energy"] = dissipated_in_rock = sums[1];
-    values["greatest_share_of_strength"] =
-      std::max(system.collectives().max(mine.greatest_used), sums[0] > 0. ? 1. : 0.);
+    const double used = system.collectives().max(mine.greatest_used);
+    values["greatest_share_of_strength"] = sums[0] > 0. ? 1. : used;
   }
   if (audits_energy)
   {

@@ -33,9 +33,13 @@ void CellEvaluator<dim>::reinit(const CellIterator &cell, const CutCell<dim> *cu
     values = &ordinary;
     return;
   }
-  of_cut = std::make_unique<FEValues<dim>>(ordinary.get_mapping(), ordinary.get_fe(),
-                                           Quadrature<dim>(cut->points), flags);
-  of_cut->reinit(cell);
+  auto &of_cut = of_cuts[cell->active_cell_index()];
+  if (!of_cut)
+  {
+    of_cut = std::make_unique<FEValues<dim>>(ordinary.get_mapping(), ordinary.get_fe(),
+                                             Quadrature<dim>(cut->points), flags);
+    of_cut->reinit(cell);
+  }
   values = of_cut.get();
 }
 

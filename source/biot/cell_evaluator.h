@@ -8,6 +8,7 @@
 
 #include "biot/cell_integrals.h"
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -26,8 +27,15 @@ public:
                 const dealii::FiniteElement<dim> &fe,
                 const dealii::Quadrature<dim> &quadrature);
 
-  /// @param cut null: an ordinary cell
+  /// @param cut null: an ordinary cell. It is the one that was given for this cell before, until
+  /// forget_cuts().
   void reinit(const CellIterator &cell, const CutCell<dim> *cut);
+
+  /// The cuts of cells may have changed: what is kept of them is let go.
+  void forget_cuts()
+  {
+    of_cuts.clear();
+  }
 
   unsigned int n_points() const
   {
@@ -100,7 +108,8 @@ public:
 
 private:
   dealii::FEValues<dim> ordinary;
-  std::unique_ptr<dealii::FEValues<dim>> of_cut; ///< the last cut cell's
+  /// Of cut cells, by active cell index: dear to make, and asked for in every iteration.
+  std::map<unsigned int, std::unique_ptr<dealii::FEValues<dim>>> of_cuts;
   const dealii::FEValues<dim> *values = nullptr;
   const CutCell<dim> *cut_cell = nullptr;
   std::vector<dealii::types::global_dof_index> dof_indices;

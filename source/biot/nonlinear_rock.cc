@@ -3,6 +3,8 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace stockwork
 {
@@ -95,6 +97,11 @@ void NonlinearRock<dim>::setup(const Discretization<dim> &new_discretization)
     points = std::make_unique<PointHistory<dim>>(n_core + n, quadrature.get_points());
     points->reinit(discretization->dof_handler.get_triangulation().n_active_cells());
   }
+  watched.clear();
+  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && answers(cell))
+      watched.push_back({cell, 0., 0.});
+  has_looked = false;
 }
 
 
@@ -151,17 +158,79 @@ void NonlinearRock<dim>::find_history(const CellIterator &cell)
 }
 
 
-template <int dim>
-bool NonlinearRock<dim>::takes_part(const CellIterator &cell, double &greatest_used) const
+namespace
 {
-  if (points->has(cell->active_cell_index()))
-    return true;
-  const RockLaw &law = laws(cell->material_id());
-  double used = 0.;
-  for (const RockState &state : states)
-    used = std::max(used, law.used(state));
-  greatest_used = std::max(greatest_used, used);
-  return used >= 1.;
+/// The greatest change of an unknown of a block, ghosts included.
+double greatest_change(const TrilinosWrappers::MPI::Vector &now,
+                       const TrilinosWrappers::MPI::Vector &before)
+{
+  const auto &a = now.trilinos_vector(), &b = before.trilinos_vector();
+  double greatest = 0.;
+  for (int i = 0; i < a.MyLength(); ++i)
+    greatest = std::max(greatest, std::abs(a[0][i] - b[0][i]));
+  return greatest;
+}
+} // namespace
+
+
+template <int dim>
+void NonlinearRock<dim>::look_around(const Unknowns &unknowns, const Role &role)
+{
+  last_totals.greatest_used = 0.;
+  for (Watched &item : watched)
+  {
+    const RockLaw &law = laws(item.cell->material_id());
+    evaluator->reinit(item.cell, role(item.cell).cut);
+    find_history(item.cell);
+    states_at(item.cell, unknowns);
+    item.margin = std::numeric_limits<double>::infinity();
+    double steepest = 0.;
+    for (unsigned int q = 0; q < states.size(); ++q)
+    {
+      item.margin = std::min(item.margin, law.margin(states[q]));
+      double sum = 0.;
+      for (unsigned int a = 0; a < evaluator->layout.n_u; ++a)
+        sum += evaluator->gradient(a * dim, q).norm();
+      steepest = std::max(steepest, sum);
+      if (committed[q] == nullptr)
+        last_totals.greatest_used = std::max(last_totals.greatest_used, law.used(states[q]));
+    }
+    // |stress| <= max(3 K, 2 G) |strain| with |strain| <= sum_a |grad N_a| |u_a|.
+    const RockProperties &rock = scene.rock(item.cell->material_id());
+    const double shear = 2. * rock.shear_modulus();
+    item.slope =
+      std::max(3. * rock.lame_lambda() + shear, shear) * steepest * std::sqrt(double(dim));
+  }
+  looked_at = unknowns.bulk;
+  has_looked = true;
+}
+
+
+template <int dim>
+template <class Use>
+void NonlinearRock<dim>::visit(const State &state, const Role &role, const Use &use)
+{
+  if (!has_looked)
+    look_around(state.committed, role);
+  const auto &now = state.current.bulk;
+  const double moved = greatest_change(now.block(0), looked_at.block(0)),
+               pressed =
+                 now.n_blocks() > 1 ? greatest_change(now.block(1), looked_at.block(1)) : 0.;
+  for (const Watched &item : watched)
+  {
+    const CutCell<dim> *const cut = role(item.cell).cut;
+    const bool has_history = points->has(item.cell->active_cell_index());
+    if (!has_history && cut == nullptr &&
+        item.slope * moved + std::sqrt(3.) * pressed < item.margin)
+      continue;
+    evaluator->reinit(item.cell, cut);
+    find_history(item.cell);
+    states_at(item.cell, state.current);
+    const RockLaw &law = laws(item.cell->material_id());
+    if (has_history || std::any_of(states.begin(), states.end(),
+                                   [&](const RockState &s) { return law.margin(s) <= 0.; }))
+      use(item.cell);
+  }
 }
 
 
@@ -237,20 +306,14 @@ void NonlinearRock<dim>::assemble(const StepContext &,
   LocalSystem local;
   symmetric = true;
   active_in_assembly = 0;
-  double greatest_used = 0.;
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned() && answers(cell))
-    {
-      evaluator->reinit(cell, role(cell).cut);
-      find_history(cell);
-      states_at(cell, state.current);
-      if (!takes_part(cell, greatest_used))
-        continue;
-      add_cell(cell, sink.wants_matrix(), local);
-      sink.add(local);
-      symmetric = symmetric && laws(cell->material_id()).is_symmetric();
-      ++active_in_assembly;
-    }
+  visit(state, role,
+        [&](const CellIterator &cell)
+        {
+          add_cell(cell, sink.wants_matrix(), local);
+          sink.add(local);
+          symmetric = symmetric && laws(cell->material_id()).is_symmetric();
+          ++active_in_assembly;
+        });
 }
 
 
@@ -260,18 +323,12 @@ void NonlinearRock<dim>::for_each_active_cell(const State &state,
                                               const std::function<void(const LocalSystem &)> &use)
 {
   LocalSystem local;
-  double greatest_used = 0.;
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned() && answers(cell))
-    {
-      evaluator->reinit(cell, role(cell).cut);
-      find_history(cell);
-      states_at(cell, state.current);
-      if (!takes_part(cell, greatest_used))
-        continue;
-      add_cell(cell, false, local);
-      use(local);
-    }
+  visit(state, role,
+        [&](const CellIterator &cell)
+        {
+          add_cell(cell, false, local);
+          use(local);
+        });
 }
 
 
@@ -305,74 +362,66 @@ void NonlinearRock<dim>::add_energies(const std::vector<SymmetricTensor<2, 3>> &
 
 
 template <int dim>
+void NonlinearRock<dim>::commit_cell(const CellIterator &cell, const State &state)
+{
+  const RockLaw &law = laws(cell->material_id());
+  const RockProperties &rock = scene.rock(cell->material_id());
+  const std::vector<RockState> now = states;
+  const auto evaluate = [&](const std::vector<RockState> &at, std::vector<RockResponse> &result)
+  {
+    law.evaluate(make_array_view(at.cbegin(), at.cend()),
+                 make_array_view(result.begin(), result.end()));
+  };
+  const unsigned int n = points->n_values();
+  std::vector<double> values(now.size() * n, 0.);
+  responses.assign(now.size(), RockResponse());
+  for (unsigned int q = 0; q < now.size(); ++q)
+    responses[q].history = &values[q * n + n_core];
+  evaluate(now, responses);
+  states_at(cell, state.committed);
+  std::vector<RockResponse> before(now.size());
+  evaluate(states, before);
+
+  std::vector<SymmetricTensor<2, 3>> beyond_before(now.size()), beyond_now(now.size());
+  for (unsigned int q = 0; q < now.size(); ++q)
+  {
+    const double w = evaluator->weight(q);
+    const RockResponse linear = linear_response(rock, now[q]);
+    beyond_before[q] = before[q].stress - linear_response(rock, states[q]).stress;
+    beyond_now[q] = responses[q].stress - linear.stress;
+
+    double *core = &values[q * n];
+    core[content_beyond] = responses[q].content - linear.content;
+    // What the work of stress and pressure leaves beside the stored energy, by the trapezoidal
+    // rule.
+    const auto mean_stress = now[q].in_situ_stress + 0.5 * (before[q].stress + responses[q].stress);
+    const double mean_pressure =
+      now[q].in_situ_pressure + 0.5 * (states[q].pressure + now[q].pressure);
+    core[dissipated] = (committed[q] != nullptr ? committed[q][dissipated] : 0.) +
+                       mean_stress * (now[q].strain - states[q].strain) +
+                       mean_pressure * (responses[q].content - before[q].content) -
+                       (responses[q].energy - before[q].energy);
+
+    last_totals.content += w * core[content_beyond];
+    last_totals.content_change +=
+      w * (core[content_beyond] - (committed[q] != nullptr ? committed[q][content_beyond] : 0.));
+    last_totals.dissipated_energy += w * core[dissipated];
+    last_totals.stored_energy_beyond +=
+      w * (responses[q].energy - 0.5 * (linear.stress * now[q].strain));
+    if (std::any_of(core + n_core, core + n, [](const double v) { return v != 0.; }))
+      last_totals.yielded_volume += w;
+  }
+  add_energies(beyond_before, beyond_now, state);
+  points->set(cell->active_cell_index(), evaluator->unit_points(), values);
+}
+
+
+template <int dim>
 void NonlinearRock<dim>::commit(const State &state, const Role &role)
 {
   last_totals = Totals();
-  std::vector<RockState> states_before;
-  std::vector<RockResponse> before;
-  std::vector<double> values;
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned() && answers(cell))
-    {
-      const RockLaw &law = laws(cell->material_id());
-      const RockProperties &rock = scene.rock(cell->material_id());
-      evaluator->reinit(cell, role(cell).cut);
-      find_history(cell);
-      states_at(cell, state.current);
-      if (!takes_part(cell, last_totals.greatest_used))
-        continue;
-      const std::vector<RockState> now = states;
-      const auto evaluate = [&](const std::vector<RockState> &at, std::vector<RockResponse> &result)
-      {
-        law.evaluate(make_array_view(at.cbegin(), at.cend()),
-                     make_array_view(result.begin(), result.end()));
-      };
-      const unsigned int n = points->n_values();
-      values.assign(now.size() * n, 0.);
-      responses.assign(now.size(), RockResponse());
-      for (unsigned int q = 0; q < now.size(); ++q)
-        responses[q].history = &values[q * n + n_core];
-      evaluate(now, responses);
-      states_at(cell, state.committed);
-      before.assign(now.size(), RockResponse());
-      evaluate(states, before);
-
-      std::vector<SymmetricTensor<2, 3>> beyond_before(now.size()), beyond_now(now.size());
-      for (unsigned int q = 0; q < now.size(); ++q)
-      {
-        const RockResponse linear = linear_response(rock, now[q]);
-        beyond_before[q] = before[q].stress - linear_response(rock, states[q]).stress;
-        beyond_now[q] = responses[q].stress - linear.stress;
-        last_totals.stored_energy_beyond +=
-          evaluator->weight(q) * (responses[q].energy - 0.5 * (linear.stress * now[q].strain));
-      }
-      add_energies(beyond_before, beyond_now, state);
-      for (unsigned int q = 0; q < now.size(); ++q)
-      {
-        const double w = evaluator->weight(q);
-        double *core = &values[q * n];
-        const double content_before = committed[q] != nullptr ? committed[q][content_beyond] : 0.;
-        core[content_beyond] = responses[q].content - linear_response(rock, now[q]).content;
-        // What the work of stress and pressure leaves beside the stored energy, by the trapezoidal
-        // rule.
-        const auto mean_stress =
-          now[q].in_situ_stress + 0.5 * (before[q].stress + responses[q].stress);
-        const double mean_pressure =
-          now[q].in_situ_pressure + 0.5 * (states[q].pressure + now[q].pressure);
-        core[dissipated] = (committed[q] != nullptr ? committed[q][dissipated] : 0.) +
-                           mean_stress * (now[q].strain - states[q].strain) +
-                           mean_pressure * (responses[q].content - before[q].content) -
-                           (responses[q].energy - before[q].energy);
-        last_totals.content += w * core[content_beyond];
-        last_totals.content_change += w * (core[content_beyond] - content_before);
-        last_totals.dissipated_energy += w * core[dissipated];
-        if (std::any_of(core + n_core, core + n, [](const double v) { return v != 0.; }))
-          last_totals.yielded_volume += w;
-        else
-          last_totals.greatest_used = std::max(last_totals.greatest_used, law.used(now[q]));
-      }
-      points->set(cell->active_cell_index(), evaluator->unit_points(), values);
-    }
+  visit(state, role, [&](const CellIterator &cell) { commit_cell(cell, state); });
+  look_around(state.current, role);
 }
 
 

@@ -8,6 +8,8 @@
 #include "biot/point_history.h"
 #include "rock/laws.h"
 
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
 #include <functional>
 #include <memory>
 #include <vector>
@@ -35,6 +37,12 @@ public:
 
   /// The mesh is new; the history has moved along with it, or is none yet.
   void setup(const Discretization<dim> &discretization);
+
+  /// Cracks may cut other cells, or the same in another way.
+  void forget_cuts()
+  {
+    evaluator->forget_cuts();
+  }
 
   /// Where the in-situ state uses up the most of the linear range, of the owned cells.
   struct InSituShare
@@ -75,7 +83,7 @@ public:
     double content_change = 0.;    ///< fluid beyond linear rock's, gained in the step [m^3 (/m)]
     double content = 0.;           ///< the same since in situ
     double yielded_volume = 0.;    ///< of points with a history [m^3 (/m)]
-    double greatest_used = 0.;     ///< of points without
+    double greatest_used = 0.;     ///< of the linear range, by points without
     double dissipated_energy = 0.; ///< in the rock [J (/m)]
 
     // What the audit of energy, done as in linear rock, does not see [J (/m)].
@@ -130,7 +138,25 @@ private:
   /// What is committed at the points of the cell.
   void find_history(const CellIterator &cell);
 
-  bool takes_part(const CellIterator &cell, double &greatest_used) const;
+  /// For each owned cell that takes part in a state, with its states and history at hand. Cells
+  /// that cannot have come to the end of their linear range since they were looked at are passed
+  /// over.
+  template <class Use>
+  void visit(const State &state, const Role &role, const Use &use);
+
+  /// Look at all cells: how far is each from the end of its linear range?
+  void look_around(const Unknowns &unknowns, const Role &role);
+
+  /// What a cell must not exceed to be passed over: slope times the greatest change of a
+  /// displacement plus sqrt(3) times that of a pressure, against the margin of its stress.
+  struct Watched
+  {
+    CellIterator cell;
+    double slope, margin;
+  };
+
+  /// The cell at hand: its history, its share in the totals.
+  void commit_cell(const CellIterator &cell, const State &state);
 
   /// Of a cell whose answers at the start and the end of the step are known.
   void add_energies(const std::vector<dealii::SymmetricTensor<2, 3>> &stress_before,
@@ -143,6 +169,10 @@ private:
   std::unique_ptr<const Discretization<dim>> discretization;
   std::unique_ptr<PointHistory<dim>> points;
   std::unique_ptr<CellEvaluator<dim>> evaluator;
+
+  std::vector<Watched> watched;                         ///< owned cells of such rock
+  dealii::TrilinosWrappers::MPI::BlockVector looked_at; ///< the bulk's unknowns then
+  bool has_looked = false;
 
   bool symmetric = true;
   unsigned int active_in_assembly = 0;

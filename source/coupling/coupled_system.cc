@@ -219,6 +219,8 @@ void CoupledSystem<dim>::adopt_extra(const ExtraNumbering &from,
     if (vector->size() == from.size()) // a quasi-static run has no reference of acceleration
       *vector = now.transfer(from, *vector);
   numbering = std::move(now);
+  if (nonlinear)
+    nonlinear->forget_cuts();
   ++stamps.extra;
 }
 

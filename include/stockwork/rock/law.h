@@ -82,9 +82,13 @@ public:
   virtual void evaluate(dealii::ArrayView<const RockState> states,
                         dealii::ArrayView<RockResponse> responses) const = 0;
 
-  /// How much of the linear range a state without history has used up: below 1, evaluate() would
-  /// give what linear rock gives.
+  /// How much of the linear range a state without history has used up, for people: below 1,
+  /// evaluate() gives what linear rock gives.
   virtual double used(const RockState &) const = 0;
+
+  /// By how much stress plus pressure, as a tensor in the Frobenius norm, may change before that is
+  /// no longer so [Pa]; zero or less where it is not so. A cautious answer costs time only.
+  virtual double margin(const RockState &) const = 0;
 
   /// The strength in words, for the scene audit: "c = 3 MPa, phi = 27 deg".
   virtual std::string describe() const

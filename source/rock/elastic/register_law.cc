@@ -1,6 +1,8 @@
 // Isotropic linear rock, which the elements know by themselves: the constants in subsection Rock.
 #include "stockwork/rock/registry.h"
 
+#include <limits>
+
 namespace stockwork
 {
 namespace elastic
@@ -24,6 +26,11 @@ public:
   double used(const RockState &) const override
   {
     return 0.;
+  }
+
+  double margin(const RockState &) const override
+  {
+    return std::numeric_limits<double>::infinity();
   }
 };
 } // namespace

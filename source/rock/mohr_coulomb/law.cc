@@ -114,6 +114,16 @@ double MohrCoulomb::used(const RockState &state) const
 }
 
 
+double MohrCoulomb::margin(const RockState &state) const
+{
+  // Principal stresses change by no more than the stress does (Hoffman & Wielandt 1953).
+  const double sine = std::sin(strength.friction_angle);
+  const double yield = 2. * strength.cohesion * std::cos(strength.friction_angle);
+  return -yield * distance_to_yield(trial_stress(state, state.strain), strength) /
+         std::sqrt(2. + 2. * sine * sine);
+}
+
+
 std::string MohrCoulomb::describe() const
 {
   constexpr double degree = 3.14159265358979323846 / 180.;

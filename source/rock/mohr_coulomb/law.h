@@ -29,6 +29,8 @@ public:
 
   double used(const RockState &state) const override;
 
+  double margin(const RockState &state) const override;
+
   std::string describe() const override;
 
   const Strength &surface() const
