@@ -69,6 +69,9 @@ dealii::FullMatrix<double> dense(const LinearSystem &system, const unsigned int 
   dealii::FullMatrix<double> matrix(n, n);
   for (const auto &entry : system.bulk)
     matrix(entry.row(), entry.column()) = entry.value();
+  if (system.rock_change != nullptr)
+    for (const auto &entry : *system.rock_change)
+      matrix(entry.row(), entry.column()) += entry.value();
   const auto add = [&](const Triplets &triplets, const unsigned int row, const unsigned int column)
   {
     for (std::size_t k = 0; k < triplets.values.size(); ++k)
