@@ -1,5 +1,6 @@
 #include "biot/bulk_assembly.h"
 
+#include "biot/prescribed_part.h"
 #include "biot/row_writer.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -222,19 +223,6 @@ void BulkAssembly<dim>::undrained_term(TrilinosWrappers::SparseMatrix &matrix) c
 
 
 template <int dim>
-double BulkAssembly<dim>::prescribed(const types::global_dof_index dof,
-                                     const BlockVector &values) const
-{
-  if (!discretization.constraints.is_constrained(dof))
-    return 0.;
-  double value = values(dof);
-  for (const auto &[master, weight] : *discretization.constraints.get_constraint_entries(dof))
-    value -= weight * values(master);
-  return value;
-}
-
-
-template <int dim>
 void BulkAssembly<dim>::subtract_history(const StepContext &context,
                                          const LocalVector &rate_reference,
                                          LocalVector &residual) const
@@ -357,8 +345,10 @@ void BulkAssembly<dim>::residual(const StepContext &context,
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i)
     {
-      x(i) = prescribed(dofs[i], state.current.bulk);
-      reference(i) = layout.n_p > 0 ? prescribed(dofs[i], state.rate_reference.bulk) : 0.;
+      x(i) = prescribed_part(discretization.constraints, dofs[i], state.current.bulk);
+      reference(i) = layout.n_p > 0 ? prescribed_part(discretization.constraints, dofs[i],
+                                                      state.rate_reference.bulk)
+                                    : 0.;
     }
     local = 0.;
     if (!x.all_zero() || !reference.all_zero())

@@ -103,10 +103,6 @@ private:
   /// is; its equation is that share of the prescribed one's.
   double prescribed_share(dealii::types::global_dof_index dof) const;
 
-  /// Part of the value of a dof that constraints prescribe; zero where it is free.
-  double prescribed(dealii::types::global_dof_index dof,
-                    const dealii::TrilinosWrappers::MPI::BlockVector &values) const;
-
   const Rock &rock;
   const Loads<dim> &loads;
   const Discretization<dim> discretization;

@@ -1,5 +1,7 @@
 #include "biot/nonlinear_rock.h"
 
+#include "biot/prescribed_part.h"
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -344,10 +346,8 @@ void NonlinearRock<dim>::add_energies(const std::vector<SymmetricTensor<2, 3>> &
     const auto dof = evaluator->dofs()[layout.u[i]];
     if (!constraints.is_constrained(dof))
       continue;
-    if (const auto *masters = constraints.get_constraint_entries(dof);
-        masters != nullptr && !masters->empty())
-      continue;
-    const double now = state.current.bulk(dof), moved = now - state.committed.bulk(dof);
+    const double now = prescribed_part(constraints, dof, state.current.bulk),
+                 moved = now - prescribed_part(constraints, dof, state.committed.bulk);
     for (unsigned int q = 0; q < stress_now.size(); ++q)
     {
       Tensor<2, 3> gradient;

@@ -1,5 +1,7 @@
 #include "coupling/mechanical_energy.h"
 
+#include "biot/prescribed_part.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -108,7 +110,7 @@ MechanicalEnergy mechanical_energy(
   const FEValuesExtractors::Vector displacement(0);
   FEValues<dim> ordinary(discretization.mapping, fe, gauss, update_gradients | update_JxW_values);
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-  std::vector<unsigned int> held; // local indices of prescribed displacements
+  std::vector<unsigned int> held; // local indices of displacements that are prescribed or hang
 
   MovingCell<dim> moving(discretization, loads);
   double stored = 0., kinetic = 0., work = 0., force = 0., greatest = 0.;
@@ -144,8 +146,9 @@ MechanicalEnergy mechanical_energy(
       for (const unsigned int i : held)
       {
         const SymmetricTensor<2, dim> strain = values[displacement].symmetric_gradient(i, q);
-        const double u = state.current.bulk(dofs[i]);
-        work += weight * (mean * strain) * (u - state.committed.bulk(dofs[i]));
+        const double u = prescribed_part(constraints, dofs[i], state.current.bulk);
+        work += weight * (mean * strain) *
+                (u - prescribed_part(constraints, dofs[i], state.committed.bulk));
         force += weight * (stress_now * strain) * u;
         greatest = std::max(greatest, std::abs(u));
       }
@@ -159,11 +162,7 @@ MechanicalEnergy mechanical_energy(
       held.clear();
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (fe.system_to_component_index(i).first < dim && constraints.is_constrained(dofs[i]))
-        {
-          const auto *masters = constraints.get_constraint_entries(dofs[i]);
-          if (masters == nullptr || masters->empty())
-            held.push_back(i);
-        }
+          held.push_back(i);
       const RockProperties &properties = rock(cell->material_id());
       const CellRole<dim> cell_role = role(cell);
       share = 1.;

@@ -25,9 +25,9 @@ double greatest_difference(const std::string &name, const double cohesion)
       {1e10, 0.25, cohesion, 27. * degree, table(row, "psi_deg") * degree, 30e6, 0.1});
     cavity.set_wall_pressure(table(row, "p_wall_Pa"));
     const double u = table(row, "u_wall_m");
-    worst = std::max(
-      {worst, std::abs(cavity.plastic_radius() / 0.1 / table(row, "R_plastic_over_a") - 1.),
-       std::abs(cavity.displacement(0.1) - u) / std::max(std::abs(u), 1e-4)});
+    worst = std::max({worst,
+                      std::abs(cavity.plastic_radius() / 0.1 / table(row, "R_plastic_over_a") - 1.),
+                      std::abs(cavity.displacement(0.1) - u) / std::max(std::abs(u), 1e-4)});
   }
   return worst;
 }
