@@ -89,7 +89,8 @@ void BulkAssembly<dim>::set_up()
           std::any_of(dofs.begin(), dofs.end(), constrained))
         edge_cells.push_back(cell);
       if (std::any_of(layout.p.begin(), layout.p.end(),
-                      [&](const unsigned int i) { return prescribed_share(dofs[i]) > 0.; }))
+                      [&](const unsigned int i)
+                      { return prescribed_share(discretization.constraints, dofs[i]) > 0.; }))
         drained_cells.push_back(cell);
     }
 }
@@ -417,18 +418,6 @@ double BulkAssembly<dim>::fluid_content(const BlockVector &bulk,
 
 
 template <int dim>
-double BulkAssembly<dim>::prescribed_share(const types::global_dof_index dof) const
-{
-  if (!discretization.constraints.is_constrained(dof))
-    return 0.;
-  double share = 1.;
-  for (const auto &[master, weight] : *discretization.constraints.get_constraint_entries(dof))
-    share -= weight;
-  return share < 1e-10 ? 0. : share;
-}
-
-
-template <int dim>
 double BulkAssembly<dim>::outflow(const StepContext &context, const State &state) const
 {
   const auto &layout = matrices.layout();
@@ -448,7 +437,7 @@ double BulkAssembly<dim>::outflow(const StepContext &context, const State &state
     subtract_history(context, reference, local);
     subtract_loads(context, cell, local);
     for (const unsigned int i : layout.p)
-      volume += prescribed_share(dofs[i]) * local(i);
+      volume += prescribed_share(discretization.constraints, dofs[i]) * local(i);
   }
   if (!loads.flux.empty())
   {

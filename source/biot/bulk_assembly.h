@@ -99,10 +99,6 @@ private:
                    const State &state,
                    dealii::TrilinosWrappers::MPI::BlockVector &residual) const;
 
-  /// How much of a pressure is prescribed: all, or a half of that of a hanging node beside one that
-  /// is; its equation is that share of the prescribed one's.
-  double prescribed_share(dealii::types::global_dof_index dof) const;
-
   const Rock &rock;
   const Loads<dim> &loads;
   const Discretization<dim> discretization;

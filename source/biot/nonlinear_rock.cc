@@ -320,21 +320,6 @@ void NonlinearRock<dim>::assemble(const StepContext &,
 
 
 template <int dim>
-void NonlinearRock<dim>::for_each_active_cell(const State &state,
-                                              const Role &role,
-                                              const std::function<void(const LocalSystem &)> &use)
-{
-  LocalSystem local;
-  visit(state, role,
-        [&](const CellIterator &cell)
-        {
-          add_cell(cell, false, local);
-          use(local);
-        });
-}
-
-
-template <int dim>
 void NonlinearRock<dim>::add_energies(const std::vector<SymmetricTensor<2, 3>> &stress_before,
                                       const std::vector<SymmetricTensor<2, 3>> &stress_now,
                                       const State &state)
@@ -403,8 +388,13 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell, const State &stat
                        (responses[q].energy - before[q].energy);
 
     last_totals.content += w * core[content_beyond];
-    last_totals.content_change +=
+    const double gained =
       w * (core[content_beyond] - (committed[q] != nullptr ? committed[q][content_beyond] : 0.));
+    last_totals.content_change += gained;
+    for (unsigned int a = 0; a < evaluator->layout.n_p; ++a)
+      last_totals.outflow -=
+        prescribed_share(discretization->constraints, evaluator->dofs()[evaluator->layout.p[a]]) *
+        evaluator->pressure_value(a, q) * gained;
     last_totals.dissipated_energy += w * core[dissipated];
     last_totals.stored_energy_beyond +=
       w * (responses[q].energy - 0.5 * (linear.stress * now[q].strain));

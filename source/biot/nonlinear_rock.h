@@ -72,16 +72,11 @@ public:
     return active_in_assembly;
   }
 
-  /// What the rows of the pore pressure get besides those of linear rock, for each owned cell that
-  /// takes part: to find what flows out where the pressure is prescribed.
-  void for_each_active_cell(const State &state,
-                            const Role &role,
-                            const std::function<void(const LocalSystem &)> &use);
-
   struct Totals
   {
     double content_change = 0.;    ///< fluid beyond linear rock's, gained in the step [m^3 (/m)]
     double content = 0.;           ///< the same since in situ
+    double outflow = 0.;           ///< of it, where the pore pressure is prescribed
     double yielded_volume = 0.;    ///< of points with a history [m^3 (/m)]
     double greatest_used = 0.;     ///< of the linear range, by points without
     double dissipated_energy = 0.; ///< in the rock [J (/m)]
@@ -115,8 +110,7 @@ public:
             const dealii::SymmetricTensor<2, dim> &strain,
             double pressure) const;
 
-  /// Stored energy in a cell, over in situ, and stress times strain as the audit of work wants
-  /// them.
+  /// For whoever moves the mesh or saves the run.
   PointHistory<dim> &history()
   {
     return *points;

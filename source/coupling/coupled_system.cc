@@ -438,6 +438,7 @@ typename CoupledSystem<dim>::PoreFluid CoupledSystem<dim>::pore_fluid(const Step
   {
     fluid.stored += nonlinear->totals().content_change;
     fluid.volume += nonlinear->totals().content;
+    fluid.outflow += nonlinear->totals().outflow;
   }
   fluid.stored = communication.sum(fluid.stored);
   fluid.volume = communication.sum(fluid.volume);
