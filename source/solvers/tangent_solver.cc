@@ -10,7 +10,7 @@ namespace stockwork
 namespace
 {
 /// A factor costs ten to thirty back-substitutions; beyond this many it is worth a new one.
-constexpr unsigned int most_iterations = 15;
+constexpr unsigned int most_iterations = 5;
 /// A preconditioner need not be exact; a factor is at once.
 constexpr double inner_tolerance = 1e-2;
 
