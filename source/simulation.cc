@@ -28,6 +28,7 @@
 #include <cmath>
 #include <iostream>
 #include <new>
+#include <set>
 #include <sstream>
 
 namespace stockwork
@@ -120,6 +121,9 @@ private:
   /// Rock that yields before anything happens, and roles of cells that such rock cannot have.
   void check_rock(ParameterHandler &prm) const;
 
+  /// What laws of the rock remark on the last step, each remark once in a run.
+  void pass_on_remarks();
+
   /// What has become of the rock's strength, for people.
   void say_how_far_rock_went() const;
 
@@ -149,6 +153,7 @@ private:
   std::uint64_t deck_fingerprint;
   std::unique_ptr<DirectoryLock> lock;
   Clock clock;
+  std::set<std::string> remarks; ///< passed on already
 };
 
 
@@ -295,6 +300,22 @@ void Simulation<dim>::check_rock(ParameterHandler &prm) const
           << " per cent of the strength given in 'Rock/" << rock->laws.name(0)
           << "' (see also 'In situ/Stress across the plane')";
   throw EntryError("In situ/Stress", text, allowed.str());
+}
+
+
+template <int dim>
+void Simulation<dim>::pass_on_remarks()
+{
+  NonlinearRock<dim> *const rock = system.nonlinear_rock();
+  if (rock == nullptr)
+    return;
+  const char *const mine = rock->totals().remark;
+  if (Utilities::MPI::max(mine != nullptr ? 1 : 0, run.communicator) == 0)
+    return;
+  for (const std::string &remark :
+       Utilities::MPI::all_gather(run.communicator, std::string(mine != nullptr ? mine : "")))
+    if (!remark.empty() && remarks.insert(remark).second)
+      run.warn(remark);
 }
 
 
@@ -467,6 +488,7 @@ void Simulation<dim>::march()
       taken.dt < tried || tried == clock.dt ? taken.next_dt : std::max(clock.dt, taken.next_dt);
     ++clock.step;
     report.add_step(clock.step, taken);
+    pass_on_remarks();
     for (const std::string &message : the_case.model->take_messages())
       run.warn(message);
     if (fields.due(clock.step, clock.time, finished()))

@@ -81,6 +81,8 @@ public:
     double greatest_used = 0.;     ///< of the linear range, by points without
     double dissipated_energy = 0.; ///< in the rock [J (/m)]
 
+    const char *remark = nullptr; ///< of a law on a point, if it had one
+
     // What the audit of energy, done as in linear rock, does not see [J (/m)].
     double stored_energy_beyond = 0.;
     double held_work_beyond = 0.;  ///< in the step, at prescribed displacements

@@ -156,6 +156,8 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     catch (const SolveError &error)
     {
       report.reason = error.what();
+      if (system.rock_change != nullptr)
+        report.reason += " Or rock that yields may have come to its limit load.";
       return report;
     }
     // A fracture that is pumped open at once takes, for a moment, many times the pressure that

@@ -31,6 +31,9 @@ struct RockResponse
   dealii::SymmetricTensor<2, 3> content_by_strain;
   double content_by_pressure = 0.; ///< 1/M [1/Pa]
 
+  /// What the user must know of this answer, a sentence that lasts; null: nothing.
+  const char *remark = nullptr;
+
   double *history = nullptr; ///< gets what becomes history when the step is accepted
 };
 

@@ -96,6 +96,11 @@ void MohrCoulomb::evaluate(const ArrayView<const RockState> states,
       (1. - alpha) / bulk * (identity * (back.tangent * identity) / (9. * bulk) - 1.);
     response.content_by_pressure = inverse_biot_modulus - (1. - alpha) * strain_by_pressure;
 
+    if (back.by_decree)
+      response.remark =
+        "The rock has come to a tension beyond c cot phi, from which plastic flow with a dilation "
+        "angle of 0 does not lead back: the stress was put to c cot phi in all directions, though "
+        "that changes the volume. A dilation angle above 0 has no such states.";
     if (response.history != nullptr)
     {
       for (unsigned int i = 0; i < 6; ++i)
