@@ -120,16 +120,25 @@ void refuse_regions(ParameterHandler &prm,
 }
 
 
+/// Section of the region that an entry belongs to, also in a subsection of it; empty: none.
+std::string region_section(const DeclaredEntry &entry)
+{
+  if (entry.section.compare(0, 12, "Rock/Region ") != 0)
+    return "";
+  return entry.section.substr(0, entry.section.find('/', 12));
+}
+
+
 /// Rock of a region that the mesh does not have would be nowhere.
 template <int dim>
 void refuse_absent_regions(ParameterHandler &prm, const Geometry<dim> &geometry)
 {
-  std::vector<std::string> present;
+  std::vector<std::string> present = {""};
   for (const std::string &name : geometry.region_names())
     present.push_back("Rock/Region " + std::to_string(geometry.region(name)));
   for (const DeclaredEntry &entry : declared_entries(prm))
-    if (entry.section.compare(0, 12, "Rock/Region ") == 0 && !entry.value.empty() &&
-        std::find(present.begin(), present.end(), entry.section) == present.end())
+    if (!entry.value.empty() &&
+        std::find(present.begin(), present.end(), region_section(entry)) == present.end())
       throw EntryError(
         entry.path(), entry.value,
         "nothing (an empty entry), for the mesh has no such region: see 'Mesh/Region "
@@ -144,7 +153,7 @@ std::vector<std::string> regions_without_rock(ParameterHandler &prm, const Geome
   std::set<std::string> described;
   for (const DeclaredEntry &entry : declared_entries(prm))
     if (!entry.value.empty())
-      described.insert(entry.section);
+      described.insert(region_section(entry));
   std::vector<std::string> others;
   for (const std::string &name : geometry.region_names())
     if (described.count("Rock/Region " + std::to_string(geometry.region(name))) == 0)
@@ -174,6 +183,34 @@ double greatest_rate(const Network<dim> &network, const StepControl &control)
   for (double t = control.start_time; t < control.end_time; t = network.next_jump(t))
     greatest = std::max(greatest, network.rate_of_first_well(t));
   return greatest;
+}
+
+
+/// The fluid in the pores of rock with a history is balanced from one step to the next.
+template <int dim>
+void check_history(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  if (the_case.laws.are_linear() || !the_case.discretisation.has_pore_pressure)
+    return;
+  const auto value = [&](const std::string &section, const std::string &entry)
+  {
+    prm.enter_subsection(section);
+    const std::string text = prm.get(entry);
+    prm.leave_subsection();
+    return text;
+  };
+  if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
+    throw EntryError(
+      "Rock/Law", value("Rock", "Law"),
+      "elastic where there are both inertia and a pore pressure; or leave out one of "
+      "them ('Time/Inertia', 'Rock/Bulk model')");
+  if (the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
+    throw EntryError("Time/Scheme", value("Time", "Scheme"),
+                     "backward Euler (or auto) in porous rock that may yield");
+  if (std::isfinite(the_case.control.error_tolerance))
+    throw EntryError("Time/Error tolerance", value("Time", "Error tolerance"),
+                     "'inf' in porous rock that may yield: its steps are backward Euler's, which "
+                     "are not chosen by error");
 }
 
 
@@ -393,17 +430,13 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure &&
                                  laws.are_linear());
 
+  check_history(prm, *this);
   if (scheme.kind() == TimeScheme::Kind::newmark)
     require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
   if (std::isfinite(control.error_tolerance) && scheme.kind() != TimeScheme::Kind::bdf2)
     throw EntryError(
       "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
       "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
-  if (!laws.are_linear() && discretisation.has_pore_pressure &&
-      scheme.kind() != TimeScheme::Kind::backward_euler)
-    throw EntryError("Time/Scheme", *deck.peek("Time/Scheme"),
-                     "backward Euler (or auto) where 'Rock/Law' has a history and there is a pore "
-                     "pressure: the fluid in the pores is balanced from one step to the next");
   if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Least pressure'");
@@ -456,7 +489,19 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   input.hole_radius = geometry.hole_radius();
   reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
-  const bool moved = boundary_conditions.greatest_displacement(control.end_time) > 0.;
+  if (reference && !laws.are_linear() && !reference->is_of_yielding_rock())
+  {
+    prm.enter_subsection("Verification");
+    const std::string text = prm.get("Reference");
+    prm.leave_subsection();
+    throw EntryError("Verification/Reference", text,
+                     "'none' (or 'borehole' or 'footing') with a 'Rock/Law' that may yield: the "
+                     "solution is of linear rock");
+  }
+  bool moved = false; // at some time, for a cycle of load may end where it began
+  for (unsigned int i = 0; i <= 100; ++i)
+    moved |= boundary_conditions.greatest_displacement(
+               control.start_time + 0.01 * i * (control.end_time - control.start_time)) > 0.;
   audits_energy =
     !discretisation.has_pore_pressure && in_situ.is_zero() && !model->requirements().changes_bulk &&
     (scene.cracks.empty() || scene.crack_pressure == 0.) &&

@@ -130,6 +130,8 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       if (model_change > tolerance)
         report.reason += "; the fracture model still changes by " + std::to_string(model_change);
       explain(report, norms, allowed, n_limited, n_halved);
+      if (system.rock_change != nullptr)
+        report.advice += " Rock that yields may have come to its limit load.";
       return report;
     }
 
@@ -156,8 +158,6 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
     catch (const SolveError &error)
     {
       report.reason = error.what();
-      if (system.rock_change != nullptr)
-        report.reason += " Or rock that yields may have come to its limit load.";
       return report;
     }
     // A fracture that is pumped open at once takes, for a moment, many times the pressure that

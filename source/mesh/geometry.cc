@@ -134,6 +134,20 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
   uniform_refinements = prm.get_integer("Uniform refinements");
   max_cells = prm.get_integer("Maximum number of cells");
   const std::string shape = prm.get("Shape");
+  // What belongs to another shape would be dropped.
+  const std::vector<std::array<std::string, 3>> of_shapes = {
+    {{"Ball", "Radius", dim == 2 ? "quarter disc" : "octant of ball"}},
+    {{"Ring", "Inner radius", "quarter ring"}},
+    {{"Ring", "Outer radius", "quarter ring"}}};
+  for (const auto &[section, entry, owner] : of_shapes)
+  {
+    prm.enter_subsection(section);
+    const std::string text = prm.get(entry);
+    prm.leave_subsection();
+    if (!text.empty() && shape != owner)
+      throw EntryError("Mesh/" + section + "/" + entry, text,
+                       "nothing (an empty entry) with 'Mesh/Shape = " + shape + "'");
+  }
   if (shape == "box")
     make_box(prm);
   else if (shape == "gmsh file")

@@ -144,15 +144,18 @@ void RockLaws::parse_parameters(ParameterHandler &prm,
         auto sections = region_sections(region);
         sections.push_back(name);
         const std::string value = value_of(prm, sections, e.name);
+        if (names.count(region) == 0)
+          continue; // the mesh has no such region, which somebody else says
         const bool is_given = value != (region == 0 ? e.default_value : "");
         const bool is_used = region == 0
                                ? std::any_of(names.begin(), names.end(),
                                              [&](const auto &law) { return law.second == name; })
-                               : names.count(region) > 0 && names.at(region) == name;
+                               : names.at(region) == name;
         if (is_given && !is_used)
           throw EntryError(path_of(sections) + "/" + e.name, value,
-                           "nothing (an empty entry), for no rock has the law '" + name +
-                             "': see 'Rock/Law'");
+                           "nothing (an empty entry), for " +
+                             (region == 0 ? "no rock has the law '" + name + "': see 'Rock/Law'"
+                                          : "this region has the law '" + names.at(region) + "'"));
       }
 }
 

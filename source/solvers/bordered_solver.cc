@@ -83,6 +83,7 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   n_changes = 0;
   change_columns.clear();
   change_rows.clear();
+  keeps_values = !definite;
   factor_values = definite ? std::vector<double>() : bulk_values(op.system());
 }
 
@@ -164,7 +165,7 @@ std::vector<double> BorderedSolver::solve_columns(const ExtraSchur::SparseVector
 std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &left,
                                              const ExtraSchur::SparseVectors &right)
 {
-  const bool keep = !factor_values.empty();
+  const bool keep = keeps_values;
   const std::size_t n = factor->size();
   std::vector<double> result(left.size() * right.size());
   const auto multiply_one = [&](const std::size_t j, const double *solution)
@@ -261,7 +262,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
                           factor_scaling.bulk.n_blocks() == system.residual_bulk.n_blocks() &&
                           factor_scaling.bulk.size() == system.residual_bulk.size();
   const bool same_bulk = has_factor && stamps.bulk_values == values_with_changes;
-  const bool may_keep = has_factor && !factor_values.empty() &&
+  const bool may_keep = has_factor && keeps_values &&
                         solutions.size() <= std::max(most_solutions, least_memory / factor->size());
   auto op = std::make_unique<SystemOperator>(
     system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);

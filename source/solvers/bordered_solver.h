@@ -61,7 +61,8 @@ private:
   std::unique_ptr<Mumps> factor;
   SystemStamps factor_stamps;
   SystemVector factor_scaling;
-  std::vector<double> factor_values; ///< of this rank's rows; empty where A is definite
+  bool keeps_values = false; ///< A is not definite; the same on every rank, with rows or without
+  std::vector<double> factor_values; ///< then, of this rank's rows
 
   unsigned int values_with_changes = 0; ///< stamp of the values that `changes` belong to
   unsigned int n_changes = 0;           ///< rows, of all ranks

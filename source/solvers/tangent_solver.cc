@@ -139,29 +139,56 @@ LinearReport TangentSolver::solve(LinearSystem &system,
 
   SystemVector dx;
   LinearReport report;
+  const auto add_iterations = [&](const LinearReport &now)
+  {
+    const unsigned int iterations = report.iterations;
+    const double seconds = report.setup_seconds;
+    report = now;
+    report.iterations += iterations;
+    report.setup_seconds += seconds;
+  };
   const bool tangent_is_good =
     has_tangent && formed_at.mesh == stamps.mesh && formed_at.bulk_values == stamps.bulk_values;
+  has_tangent = tangent_is_good;
   if (tangent_is_good)
-  {
     take_fracture();
-    report = iterate(system, by_tangent, tolerance, most_iterations, dx);
+  // Where so much rock yields that the tangent is singular, as it is on the surface before a step
+  // has said whether it loads or unloads, the linear rock gives the direction.
+  try
+  {
+    report = tangent_is_good ? iterate(system, by_tangent, tolerance, most_iterations, dx)
+                             : iterate(system, by_linear, tolerance, most_iterations, dx);
+    if (!report.converged)
+    {
+      if (!of_tangent)
+        of_tangent = make();
+      form_tangent(system, stamps);
+      take_fracture();
+      add_iterations(iterate(system, by_tangent, tolerance, most_iterations, dx));
+    }
   }
-  else
+  catch (const SolveError &)
+  {
+    report.converged = false;
+    report.relative_residual = 1.;
+  }
+  if (!report.is_good_enough())
   {
     has_tangent = false;
-    report = iterate(system, by_linear, tolerance, most_iterations, dx);
-  }
-  if (!report.converged)
-  {
-    if (!of_tangent)
-      of_tangent = make();
-    form_tangent(system, stamps);
-    take_fracture();
-    const unsigned int before = report.iterations;
-    const double setup_before = report.setup_seconds;
-    report = iterate(system, by_tangent, tolerance, most_iterations, dx);
-    report.iterations += before;
-    report.setup_seconds += setup_before;
+    system.rock_change = nullptr;
+    LinearReport by_linear_rock;
+    try
+    {
+      by_linear_rock = linear->solve(system, stamps, tolerance, dx_bulk, dx_extra);
+    }
+    catch (const SolveError &)
+    {
+      system.rock_change = change;
+      throw;
+    }
+    system.rock_change = change;
+    add_iterations(by_linear_rock);
+    return report;
   }
   dx_bulk = dx.bulk;
   dx_extra = dx.extra;

@@ -41,6 +41,12 @@ public:
     return {};
   }
 
+  /// Whether it holds where a law of the rock lets it yield.
+  virtual bool is_of_yielding_rock() const
+  {
+    return false;
+  }
+
   /// Where the displacement shall be observed (columns displacement_x, …).
   virtual std::optional<dealii::Point<dim>> place_of_displacement() const
   {

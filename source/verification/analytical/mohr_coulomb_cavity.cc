@@ -20,7 +20,7 @@ MohrCoulombCavity::MohrCoulombCavity(const Parameters &parameters)
 
 void MohrCoulombCavity::set_wall_pressure(const double pressure)
 {
-  wall = pressure;
+  wall = std::max(pressure, 0.); // rounding may have left less
   converges = wall <= p.in_situ;
   const double sine = std::sin(p.dilation_angle), flow = (1. + sine) / (1. - sine);
   k = converges ? flow : 1. / flow;

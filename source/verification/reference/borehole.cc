@@ -54,6 +54,11 @@ public:
   {
   }
 
+  bool is_of_yielding_rock() const override
+  {
+    return true;
+  }
+
   std::string name() const override
   {
     return "borehole in Mohr-Coulomb rock";
@@ -115,12 +120,16 @@ Made<2> make_borehole(const ParameterHandler &, const ReferenceInput<2> &input)
     input.hole_radius};
   // Loads are over in situ; a pull on the wall takes pressure from it.
   const auto wall_pressure = [parameters, traction = input.normal_traction](const double time)
-  { return std::max(0., parameters.in_situ - traction("wall", time)); };
+  { return parameters.in_situ - traction("wall", time); };
   double last = wall_pressure(input.start_time), sense = 0.;
   for (unsigned int i = 1; i <= 100; ++i)
   {
     const double now =
       wall_pressure(input.start_time + 0.01 * i * (input.end_time - input.start_time));
+    if (now < -1e-9 * parameters.in_situ)
+      throw InputError(
+        "'borehole' is of a wall that is pressed, by no less than the pore pressure; "
+        "the normal traction on 'wall' pulls by more than the in-situ stress allows");
     if ((now - last) * sense < 0.)
       throw InputError("'borehole' is of a wall pressure that only falls or only rises; the normal "
                        "traction on 'wall' turns back");

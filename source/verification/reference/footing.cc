@@ -27,6 +27,11 @@ public:
     limit = strength.cohesion * (phi > 0. ? (n_q - 1.) / tangent : 2. + numbers::PI);
   }
 
+  bool is_of_yielding_rock() const override
+  {
+    return true;
+  }
+
   std::string name() const override
   {
     return "strip footing, Prandtl (1921)";
