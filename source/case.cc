@@ -192,23 +192,16 @@ void check_history(ParameterHandler &prm, const Case<dim> &the_case)
 {
   if (the_case.laws.are_linear() || !the_case.discretisation.has_pore_pressure)
     return;
-  const auto value = [&](const std::string &section, const std::string &entry)
-  {
-    prm.enter_subsection(section);
-    const std::string text = prm.get(entry);
-    prm.leave_subsection();
-    return text;
-  };
   if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
     throw EntryError(
-      "Rock/Law", value("Rock", "Law"),
+      "Rock/Law", value_of(prm, {"Rock"}, "Law"),
       "elastic where there are both inertia and a pore pressure; or leave out one of "
       "them ('Time/Inertia', 'Rock/Bulk model')");
   if (the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
-    throw EntryError("Time/Scheme", value("Time", "Scheme"),
+    throw EntryError("Time/Scheme", value_of(prm, {"Time"}, "Scheme"),
                      "backward Euler (or auto) in porous rock that may yield");
   if (std::isfinite(the_case.control.error_tolerance))
-    throw EntryError("Time/Error tolerance", value("Time", "Error tolerance"),
+    throw EntryError("Time/Error tolerance", value_of(prm, {"Time"}, "Error tolerance"),
                      "'inf' in porous rock that may yield: its steps are backward Euler's, which "
                      "are not chosen by error");
 }
@@ -490,14 +483,9 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
   if (reference && !laws.are_linear() && !reference->is_of_yielding_rock())
-  {
-    prm.enter_subsection("Verification");
-    const std::string text = prm.get("Reference");
-    prm.leave_subsection();
-    throw EntryError("Verification/Reference", text,
+    throw EntryError("Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
                      "'none' (or 'borehole' or 'footing') with a 'Rock/Law' that may yield: the "
                      "solution is of linear rock");
-  }
   bool moved = false; // at some time, for a cycle of load may end where it began
   for (unsigned int i = 0; i <= 100; ++i)
     moved |= boundary_conditions.greatest_displacement(

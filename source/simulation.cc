@@ -5,6 +5,7 @@
 #include "stockwork/base/quantity.h"
 #include "stockwork/base/version.h"
 
+#include "base/parameter_tree.h"
 #include "case.h"
 #include "cost_estimate.h"
 #include "coupling/mesh_adaptation.h"
@@ -291,15 +292,12 @@ void Simulation<dim>::check_rock(ParameterHandler &prm) const
     shares.begin(), shares.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   if (worst.first < 1.)
     return;
-  prm.enter_subsection("In situ");
-  const std::string text = prm.get("Stress");
-  prm.leave_subsection();
   std::ostringstream allowed;
   allowed << "a state that the rock can bear: at (" << worst.second
           << ") m the in-situ stress and pore pressure take " << 100. * worst.first
           << " per cent of the strength given in 'Rock/" << rock->laws.name(0)
           << "' (see also 'In situ/Stress across the plane')";
-  throw EntryError("In situ/Stress", text, allowed.str());
+  throw EntryError("In situ/Stress", value_of(prm, {"In situ"}, "Stress"), allowed.str());
 }
 
 

@@ -94,6 +94,19 @@ std::vector<DeclaredEntry> declared_entries(const dealii::ParameterHandler &prm)
   return entries;
 }
 
+std::string value_of(dealii::ParameterHandler &prm,
+                     const std::vector<std::string> &sections,
+                     const std::string &name)
+{
+  for (const std::string &section : sections)
+    prm.enter_subsection(section);
+  const std::string value = prm.get(name);
+  for (std::size_t i = 0; i < sections.size(); ++i)
+    prm.leave_subsection();
+  return value;
+}
+
+
 std::string allowed_text(const std::string &pattern)
 {
   if (const auto quantity = Quantity::create(pattern))

@@ -28,6 +28,11 @@ struct DeclaredEntry
 /// subsections.
 std::vector<DeclaredEntry> declared_entries(const dealii::ParameterHandler &prm);
 
+/// The value of an entry in a subsection of the present one.
+std::string value_of(dealii::ParameterHandler &prm,
+                     const std::vector<std::string> &sections,
+                     const std::string &name);
+
 /// What an entry may be, in words, from the machine style description of its pattern.
 std::string allowed_text(const std::string &pattern);
 

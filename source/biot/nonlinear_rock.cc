@@ -123,7 +123,7 @@ typename NonlinearRock<dim>::InSituShare NonlinearRock<dim>::in_situ_share()
         state.in_situ_pressure = scene.in_situ_pore_pressure(x);
         const double used = laws(cell->material_id()).used(state);
         if (used > share.used)
-          share = {used, x, cell->material_id()};
+          share = {used, x};
       }
     }
   return share;
@@ -300,22 +300,35 @@ void NonlinearRock<dim>::add_cell(const CellIterator &cell,
 
 
 template <int dim>
-void NonlinearRock<dim>::assemble(const StepContext &,
-                                  const State &state,
-                                  const Role &role,
-                                  Sink &sink)
+unsigned int NonlinearRock<dim>::find_active(const State &state, const Role &role)
+{
+  active.clear();
+  visit(state, role, [&](const CellIterator &cell) { active.push_back(cell); });
+  return active.size();
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::assemble(const State &state, const Role &role, Sink &sink)
 {
   LocalSystem local;
-  symmetric = true;
-  active_in_assembly = 0;
-  visit(state, role,
-        [&](const CellIterator &cell)
-        {
-          add_cell(cell, sink.wants_matrix(), local);
-          sink.add(local);
-          symmetric = symmetric && laws(cell->material_id()).is_symmetric();
-          ++active_in_assembly;
-        });
+  for (const CellIterator &cell : active)
+  {
+    evaluator->reinit(cell, role(cell).cut);
+    find_history(cell);
+    states_at(cell, state.current);
+    add_cell(cell, sink.wants_matrix(), local);
+    sink.add(local);
+  }
+}
+
+
+template <int dim>
+bool NonlinearRock<dim>::is_symmetric() const
+{
+  return std::all_of(active.begin(), active.end(),
+                     [this](const CellIterator &cell)
+                     { return laws(cell->material_id()).is_symmetric(); });
 }
 
 

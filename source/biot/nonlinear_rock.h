@@ -49,28 +49,20 @@ public:
   {
     double used = 0.;
     dealii::Point<dim> place;
-    dealii::types::material_id region = 0;
   };
   InSituShare in_situ_share();
 
-  /// Add residual and derivative.
-  void assemble(const StepContext &context, const State &state, const Role &role, Sink &sink);
+  /// Find the owned cells that take part in a state. Returns how many.
+  unsigned int find_active(const State &state, const Role &role);
+
+  /// Add residual and derivative of the cells that were found in this state.
+  void assemble(const State &state, const Role &role, Sink &sink);
 
   /// The step is accepted: what the converged state says becomes history.
   void commit(const State &state, const Role &role);
 
-  /// Whether the derivative that was assembled last is symmetric, and whether it was zero; of the
-  /// owned cells.
-  bool is_symmetric() const
-  {
-    return symmetric;
-  }
-
-  /// Cells that took part in the last assembly, of the owned ones.
-  unsigned int n_active() const
-  {
-    return active_in_assembly;
-  }
+  /// Whether the derivative that those cells add is symmetric.
+  bool is_symmetric() const;
 
   struct Totals
   {
@@ -170,8 +162,7 @@ private:
   dealii::TrilinosWrappers::MPI::BlockVector looked_at; ///< the bulk's unknowns then
   bool has_looked = false;
 
-  bool symmetric = true;
-  unsigned int active_in_assembly = 0;
+  std::vector<CellIterator> active; ///< as find_active() has found them
   Totals last_totals;
 
   // Of the cell at hand.

@@ -342,7 +342,7 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
   model.assemble(context, state, sink);
   network.assemble(context, state, communication, sink);
   if (nonlinear)
-    assemble_rock(context, state);
+    assemble_rock(state);
   system.residual_bulk.compress(VectorOperation::add);
   if (numbering.size() > 0)
     communication.sum(system.residual_extra);
@@ -365,9 +365,13 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
 
 
 template <int dim>
-void CoupledSystem<dim>::assemble_rock(const StepContext &context, const State &state)
+void CoupledSystem<dim>::assemble_rock(const State &state)
 {
   const auto scope = run.timers.scope("rock");
+  const auto role = [this](const auto &cell) { return model.role(cell); };
+  system.rock_change = nullptr;
+  if (communication.max(nonlinear->find_active(state, role)) == 0.)
+    return;
   if (!has_rock_change)
   {
     rock_change.reinit(system.bulk.n_block_rows(), system.bulk.n_block_cols());
@@ -380,15 +384,10 @@ void CoupledSystem<dim>::assemble_rock(const StepContext &context, const State &
   rock_change = 0.;
   SystemSink sink(increment_constraints, system, rock_change, system.residual_bulk,
                   system.residual_extra, system.extra_extra, true);
-  nonlinear->assemble(
-    context, state, [this](const auto &cell) { return model.role(cell); }, sink);
-  system.rock_change = nullptr;
-  if (communication.max(nonlinear->n_active()) > 0.)
-  {
-    rock_change.compress(VectorOperation::add);
-    system.rock_change = &rock_change;
-    system.rock_change_is_symmetric = communication.max(nonlinear->is_symmetric() ? 0. : 1.) == 0.;
-  }
+  nonlinear->assemble(state, role, sink);
+  rock_change.compress(VectorOperation::add);
+  system.rock_change = &rock_change;
+  system.rock_change_is_symmetric = communication.max(nonlinear->is_symmetric() ? 0. : 1.) == 0.;
 }
 
 

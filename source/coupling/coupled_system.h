@@ -167,7 +167,7 @@ private:
   void assemble_nonlinear(const StepContext &context, const State &state);
 
   /// Add what rock beyond its linear range does.
-  void assemble_rock(const StepContext &context, const State &state);
+  void assemble_rock(const State &state);
 
   /// The unknowns have moved by a step times an increment.
   void update_linear_residual(double step,

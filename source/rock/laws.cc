@@ -31,19 +31,6 @@ std::vector<DeclaredEntry> own_entries(const RockLawEntry &entry)
 }
 
 
-/// The value of an entry anywhere in the deck.
-std::string
-value_of(ParameterHandler &prm, const std::vector<std::string> &sections, const std::string &name)
-{
-  for (const std::string &section : sections)
-    prm.enter_subsection(section);
-  const std::string value = prm.get(name);
-  for (unsigned int i = 0; i < sections.size(); ++i)
-    prm.leave_subsection();
-  return value;
-}
-
-
 std::vector<std::string> region_sections(const types::material_id region)
 {
   if (region == 0)

@@ -131,7 +131,7 @@ double MohrCoulomb::margin(const RockState &state) const
 
 std::string MohrCoulomb::describe() const
 {
-  constexpr double degree = 3.14159265358979323846 / 180.;
+  constexpr double degree = numbers::PI / 180.;
   const auto angle = [](const double value)
   {
     std::ostringstream text;

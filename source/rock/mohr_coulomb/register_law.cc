@@ -11,18 +11,15 @@ void register_law(RockLawRegistry &registry);
 
 namespace
 {
-constexpr double right_angle = 1.57079632679489661923;
-
-
 void declare_parameters(dealii::ParameterHandler &prm)
 {
   prm.declare_entry("Cohesion", "", Quantity(dimension::stress, Range::positive(), ""),
                     "c of the effective stress (total plus pore pressure). Required.");
   prm.declare_entry("Friction angle", "",
-                    Quantity(dimension::angle, Range{0., right_angle, false, true}, ""),
+                    Quantity(dimension::angle, Range{0., dealii::numbers::PI_2, false, true}, ""),
                     "phi. Required.");
   prm.declare_entry("Dilation angle", "",
-                    Quantity(dimension::angle, Range{0., right_angle, false, true}, ""),
+                    Quantity(dimension::angle, Range{0., dealii::numbers::PI_2, false, true}, ""),
                     "psi, from 0 to the friction angle. Required. With 0 a tension beyond c cot "
                     "phi has no return along the flow and is put to the apex all the same.");
 }
