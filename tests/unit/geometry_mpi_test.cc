@@ -29,9 +29,10 @@ struct Case
     Geometry<dim>::declare_parameters(prm);
     // Of unit size where the test does not say otherwise; an entry of a shape that is not there is
     // refused.
-    const bool is_ball = deck.find("disc") != std::string::npos || deck.find("ball") != std::string::npos;
-    const std::string size = is_ball ? "subsection Ball\nset Radius = 1\nend\n" :
-                                       "subsection Box\nset Upper corner = 1, 1" +
+    const bool is_ball =
+      deck.find("disc") != std::string::npos || deck.find("ball") != std::string::npos;
+    const std::string size = is_ball ? "subsection Ball\nset Radius = 1\nend\n"
+                                     : "subsection Box\nset Upper corner = 1, 1" +
                                          std::string(dim == 3 ? ", 1" : "") + "\nend\n";
     prm.parse_input_from_string("subsection Mesh\n" + size + deck + "\nend\n");
     geometry.parse_parameters(prm, STOCKWORK_TEST_DATA);
