@@ -186,6 +186,36 @@ double greatest_rate(const Network<dim> &network, const StepControl &control)
 }
 
 
+/// What layers of the rock cannot be.
+template <int dim>
+void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
+{
+  for (const auto &[region, law] : laws.all())
+  {
+    const RockProperties &properties = rock(region);
+    const std::string section = region == 0 ? "" : "Region " + std::to_string(region) + "/";
+    const auto &normal = properties.layer_normal;
+    const bool layered = properties.stiffness || properties.permeability_across > 0.;
+    const bool in_plane = std::abs(normal[2])<1e-12, across = std::abs(normal[2])> 1. - 1e-12;
+    if (dim == 2 && layered && !in_plane && !across)
+      throw EntryError("Rock/" + section + "Normal of the layers",
+                       value_of(prm, {"Rock"}, "Normal of the layers"),
+                       "a direction in the plane of the run or across it: with any other the rock "
+                       "would move across the plane");
+    if (properties.stiffness && !laws.are_linear())
+      throw EntryError("Rock/" + section + "Law", laws.name(region),
+                       "'elastic' beside rock that may yield");
+    const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
+    if (!properties.has_isotropic_permeability() &&
+        (leak_off == "resolved" || leak_off == "filter cake"))
+      throw EntryError("Rock/" + section + "Permeability across the layers",
+                       value_of(prm, {"Rock"}, "Permeability across the layers"),
+                       "nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
+                         "', which knows one permeability; or another law of leak-off");
+  }
+}
+
+
 /// The fluid in the pores of rock with a history is balanced from one step to the next.
 template <int dim>
 void check_history(ParameterHandler &prm, const Case<dim> &the_case)
@@ -363,13 +393,13 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   scene.in_situ_tensor = [this](const Point<dim> &x, const RockProperties &properties)
   { return in_situ.tensor(x, properties); };
   geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
-  rock.parse_parameters(prm);
-  if (dim == 3 && rock.main().plane_stress)
-    throw EntryError("Rock/Plane state", "plane stress", "'plane strain' (or nothing) in 3-D");
   std::vector<types::material_id> regions;
   for (const std::string &region : geometry.region_names())
     regions.push_back(geometry.region(region));
-  laws.parse_parameters(prm, plug_ins.rock_laws, rock, regions);
+  laws.parse_parameters(prm, plug_ins.rock_laws, regions, rock);
+  check_layers<dim>(prm, laws, rock);
+  if (dim == 3 && rock.main().plane_stress)
+    throw EntryError("Rock/Plane state", "plane stress", "'plane strain' (or nothing) in 3-D");
   in_situ.parse_parameters(prm);
   boundary_conditions.parse_parameters(prm, [this](const std::string &side)
                                        { return geometry.side(side); });

@@ -86,6 +86,8 @@ std::map<std::string, double> Report<dim>::observe()
     values["stress_intensity_I"] = *summary.stress_intensity_I;
   if (summary.stress_intensity_II)
     values["stress_intensity_II"] = *summary.stress_intensity_II;
+  if (summary.energy_release_rate)
+    values["energy_release_rate"] = *summary.energy_release_rate;
   double dissipated_in_rock = 0.;
   if (const NonlinearRock<dim> *rock_beyond = system.nonlinear_rock())
   {

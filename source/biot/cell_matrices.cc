@@ -7,6 +7,18 @@ namespace stockwork
 using namespace dealii;
 
 template <int dim>
+BulkCoefficients<dim> intact_rock(const RockProperties &rock, const Fluid &fluid)
+{
+  BulkCoefficients<dim> intact;
+  intact.stiffness = LinearStiffness<dim>(rock).tensor();
+  intact.biot = rock.biot_coefficient * unit_symmetric_tensor<dim>();
+  intact.storage = rock.inverse_biot_modulus;
+  intact.mobility = rock.permeability_tensor<dim>() / fluid.viscosity;
+  return intact;
+}
+
+
+template <int dim>
 CellMatrices<dim>::CellMatrices(const Mapping<dim> &mapping,
                                 const FiniteElement<dim> &fe,
                                 const Rock &rock,
@@ -38,15 +50,25 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
   const bool new_cell = integrals.reinit(cell) || rock_of_cell != before || is_special;
   const CellRole<dim> role = changes.role ? changes.role(cell) : CellRole<dim>();
   is_special = role.skip_stiffness != nullptr || role.fracture_normal != nullptr;
+  const bool new_whole = new_cell || rate != context.rate ||
+                         pressure_rate != context.pressure_rate ||
+                         acceleration != context.acceleration;
   if (changes.coefficients)
-    changed_matrices(cell, context);
+    matrices_by_quadrature(cell, context);
   else
   {
-    if (new_cell)
-      pressure_matrices();
-    if (new_cell || rate != context.rate || pressure_rate != context.pressure_rate ||
-        acceleration != context.acceleration)
-      whole_matrix(context);
+    if (rock_of_cell->stiffness || !rock_of_cell->has_isotropic_permeability())
+    {
+      if (new_whole)
+        matrices_by_quadrature(cell, context);
+    }
+    else
+    {
+      if (new_cell)
+        pressure_matrices();
+      if (new_whole)
+        whole_matrix(context);
+    }
     if (role.fracture_normal != nullptr)
       exclude_opening(*role.fracture_normal);
   }
@@ -175,24 +197,18 @@ void CellMatrices<dim>::whole_matrix(const StepContext &context)
 
 
 template <int dim>
-void CellMatrices<dim>::changed_matrices(const typename DoFHandler<dim>::active_cell_iterator &cell,
-                                         const StepContext &context)
+void CellMatrices<dim>::matrices_by_quadrature(
+  const typename DoFHandler<dim>::active_cell_iterator &cell, const StepContext &context)
 {
   const FEValuesExtractors::Vector displacement(0);
   const auto &layout = integrals.layout;
   const unsigned int n_p = layout.n_p;
-  const auto identity = unit_symmetric_tensor<dim>();
   const double inertia = context.acceleration * rock_of_cell->density;
 
-  BulkCoefficients<dim> intact;
-  intact.stiffness = rock_of_cell->lame_lambda() * outer_product(identity, identity) +
-                     2. * rock_of_cell->shear_modulus() * identity_tensor<dim>();
-  intact.biot = rock_of_cell->biot_coefficient * identity;
-  intact.storage = rock_of_cell->inverse_biot_modulus;
-  intact.mobility = rock_of_cell->permeability / rock.fluid().viscosity * identity;
   fe_values.reinit(cell);
-  coefficients.assign(fe_values.n_quadrature_points, intact);
-  changes.coefficients(cell, fe_values.get_quadrature_points(), coefficients);
+  coefficients.assign(fe_values.n_quadrature_points, intact_rock<dim>(*rock_of_cell, rock.fluid()));
+  if (changes.coefficients)
+    changes.coefficients(cell, fe_values.get_quadrature_points(), coefficients);
 
   for (FullMatrix<double> *matrix : {&whole, &storage, &diffusion, &fixed_stress})
     *matrix = 0.;
@@ -215,12 +231,13 @@ void CellMatrices<dim>::changed_matrices(const typename DoFHandler<dim>::active_
       }
       content(j) += content_here;
     }
-    // As in rock of its own: alpha, G and the bulk modulus are read from the tensors.
+    // As in isotropic rock: alpha, G and the bulk modulus are means of the tensors.
     const double alpha = trace(c.biot) / dim;
-    const double stabilising = stabilisation == PressureStabilisation::projection
-                                 ? alpha * alpha / (2. * c.stiffness[0][1][0][1])
-                                 : 0.;
-    const double bulk_modulus = trace(c.stiffness * identity) / (dim * dim);
+    const double stabilising =
+      stabilisation == PressureStabilisation::projection
+        ? alpha * alpha / (2. * LinearStiffness<dim>::mean_shear_modulus(c.stiffness))
+        : 0.;
+    const double bulk_modulus = LinearStiffness<dim>::mean_bulk_modulus(c.stiffness);
     for (unsigned int a = 0; a < n_p; ++a)
     {
       const double value = fe_values.shape_value(layout.p[a], q),
@@ -248,9 +265,14 @@ void CellMatrices<dim>::changed_matrices(const typename DoFHandler<dim>::active_
     for (unsigned int b = 0; b < n_p; ++b)
       whole(layout.p[a], layout.p[b]) = -context.pressure_rate / context.rate * storage(a, b) -
                                         context.effective_dt() * diffusion(a, b);
+  rate = context.rate;
+  pressure_rate = context.pressure_rate;
+  acceleration = context.acceleration;
 }
 
 
+template BulkCoefficients<2> intact_rock<2>(const RockProperties &, const Fluid &);
+template BulkCoefficients<3> intact_rock<3>(const RockProperties &, const Fluid &);
 template class CellMatrices<2>;
 template class CellMatrices<3>;
 } // namespace stockwork

@@ -6,7 +6,7 @@
 
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/state.h"
-#include "stockwork/rock/rock.h"
+#include "stockwork/rock/linear_stiffness.h"
 
 #include "biot/cell_integrals.h"
 
@@ -35,6 +35,10 @@ struct BulkChanges
   std::function<CellRole<dim>(const CellIterator &)>
     role; ///< cut cells are no business of this one
 };
+
+/// Rock that no fracture model changes.
+template <int dim>
+BulkCoefficients<dim> intact_rock(const RockProperties &rock, const Fluid &fluid);
 
 /// The matrices of one cell. In homogeneous rock that no fracture model changes they are those of
 /// the last cell where that has the same shape, rock and time step.
@@ -76,8 +80,10 @@ public:
 
 private:
   void pressure_matrices();
-  void changed_matrices(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
-                        const StepContext &context);
+
+  /// From coefficients at quadrature points, of any symmetry.
+  void matrices_by_quadrature(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+                              const StepContext &context);
   void whole_matrix(const StepContext &context);
   void skip_stiffness(const std::vector<bool> &vertices, const StepContext &context);
   void exclude_opening(const dealii::Tensor<1, dim> &normal);
@@ -85,8 +91,8 @@ private:
   const Rock &rock;
   PressureStabilisation stabilisation;
   const BulkChanges<dim> changes;
-  dealii::FEValues<dim> fe_values;                 ///< for changed cells
-  std::vector<BulkCoefficients<dim>> coefficients; ///< at the quadrature points of a changed cell
+  dealii::FEValues<dim> fe_values;                 ///< for changed or anisotropic cells
+  std::vector<BulkCoefficients<dim>> coefficients; ///< at the quadrature points of such a cell
   const RockProperties *rock_of_cell = nullptr;
   bool is_special = false; ///< the cell has a role, so its matrices are no other's
   double rate = -1., pressure_rate = -1., acceleration = -1.; ///< of `whole`

@@ -1,5 +1,7 @@
 #include "biot/bulk_assembly.h"
 
+#include "stockwork/rock/linear_stiffness.h"
+
 namespace stockwork
 {
 using namespace dealii;
@@ -31,7 +33,7 @@ void BulkAssembly<dim>::cut_cells(const StepContext &context,
         local.reinit();
 
         const RockProperties &properties = rock(cell->material_id());
-        const double lambda = properties.lame_lambda(), mu = properties.shear_modulus();
+        const LinearStiffness<dim> hooke(properties);
         const double alpha = layout.n_p > 0 ? properties.biot_coefficient : 0.;
         const double inertia = context.acceleration * properties.density;
 
@@ -62,9 +64,7 @@ void BulkAssembly<dim>::cut_cells(const StepContext &context,
           for (unsigned int i = 0; i < n; ++i)
           {
             divergence[i] = trace(strain[i]);
-            stress[i] = 2. * mu * strain[i];
-            for (unsigned int d = 0; d < dim; ++d)
-              stress[i][d][d] += lambda * divergence[i];
+            stress[i] = hooke.stress(strain[i]);
           }
           for (unsigned int c = 0; c < n_extra; ++c)
           {

@@ -1,5 +1,7 @@
 #include "biot/nonlinear_rock.h"
 
+#include "stockwork/rock/linear_stiffness.h"
+
 #include "biot/prescribed_part.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -60,15 +62,13 @@ SymmetricTensor<4, dim> in_plane(const SymmetricTensor<4, 3> &t)
 RockResponse linear_response(const RockProperties &rock, const RockState &state)
 {
   const auto identity = unit_symmetric_tensor<3>();
+  const LinearStiffness<3> hooke(rock);
   RockResponse response;
-  response.stress_by_strain = rock.lame_lambda() * outer_product(identity, identity) +
-                              2. * rock.shear_modulus() * identity_tensor<3>();
+  response.stress_by_strain = hooke.tensor();
   response.stress_by_pressure = -rock.biot_coefficient * identity;
   response.content_by_strain = rock.biot_coefficient * identity;
   response.content_by_pressure = rock.inverse_biot_modulus;
-  response.stress = rock.lame_lambda() * trace(state.strain) * identity +
-                    2. * rock.shear_modulus() * state.strain +
-                    state.pressure * response.stress_by_pressure;
+  response.stress = hooke.stress(state.strain) + state.pressure * response.stress_by_pressure;
   response.content =
     rock.biot_coefficient * trace(state.strain) + rock.inverse_biot_modulus * state.pressure;
   return response;

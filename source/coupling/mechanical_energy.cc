@@ -1,5 +1,7 @@
 #include "coupling/mechanical_energy.h"
 
+#include "stockwork/rock/linear_stiffness.h"
+
 #include "biot/prescribed_part.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -118,6 +120,7 @@ MechanicalEnergy mechanical_energy(
   const auto add_cell =
     [&](const FEValues<dim> &values, const CutCell<dim> *cut, const RockProperties &properties)
   {
+    const LinearStiffness<dim> hooke(properties);
     std::vector<SymmetricTensor<2, dim>> now(values.n_quadrature_points), before(now.size());
     values[displacement].get_function_symmetric_gradients(state.current.bulk, now);
     if (!held.empty())
@@ -133,16 +136,11 @@ MechanicalEnergy mechanical_energy(
           before[q] += state.committed.extra[cut->extra[c]] * symmetrize(gradient);
         }
       const double weight = cut != nullptr ? cut->weights[q] : values.JxW(q);
-      const auto stress = [&](const SymmetricTensor<2, dim> &strain)
-      {
-        return properties.lame_lambda() * trace(strain) * unit_symmetric_tensor<dim>() +
-               2. * properties.shear_modulus() * strain;
-      };
-      const SymmetricTensor<2, dim> stress_now = stress(now[q]);
+      const SymmetricTensor<2, dim> stress_now = hooke.stress(now[q]);
       stored += share * 0.5 * weight * (stress_now * now[q]);
       if (held.empty())
         continue;
-      const SymmetricTensor<2, dim> mean = 0.5 * (stress_now + stress(before[q]));
+      const SymmetricTensor<2, dim> mean = 0.5 * (stress_now + hooke.stress(before[q]));
       for (const unsigned int i : held)
       {
         const SymmetricTensor<2, dim> strain = values[displacement].symmetric_gradient(i, q);

@@ -103,7 +103,7 @@ void CouplingParameters::check(const RockProperties &rock,
     return;
   if (scheme == Scheme::drained || scheme == Scheme::fixed_strain)
   {
-    const double bulk_modulus = rock.young_modulus / (3. * (1. - 2. * rock.poisson_ratio));
+    const double bulk_modulus = rock.bulk_modulus();
     const double alpha = rock.biot_coefficient;
     const double strength = alpha * alpha / (rock.inverse_biot_modulus * bulk_modulus);
     if (strength >= 1. && !force)

@@ -84,7 +84,7 @@ void Discontinuity<dim>::setup(const Discretization<dim> &d, const Collectives &
 template <int dim>
 void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
                              const Collectives &collectives,
-                             const std::optional<double> kolosov)
+                             const LinearStiffness<dim> *const rock_at_tips)
 {
   cracks.clear();
   tips.clear();
@@ -98,13 +98,13 @@ void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
     try
     {
       cracks.push_back(
-        cut_polyline(*discretization, polyline, domain_size, collectives, kolosov.has_value()));
+        cut_polyline(*discretization, polyline, domain_size, collectives, rock_at_tips != nullptr));
     }
     catch (const InputError &error)
     {
       refuse(crack, error.what());
     }
-    if (kolosov)
+    if (rock_at_tips != nullptr)
       for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
         if (cracks.back().is_tip[static_cast<int>(end)])
         {
@@ -115,7 +115,7 @@ void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
           tip.point = first ? polyline.front() : polyline.back();
           const auto out = tip.point - (first ? polyline[1] : polyline[polyline.size() - 2]);
           tip.along = out / out.norm();
-          tip.kolosov = *kolosov;
+          tip.field = std::make_shared<const NearTipField>(*rock_at_tips, tip.along);
           tip.radius =
             greatest_tip_radius(discretization->triangulation, polyline, end, collectives);
           tips.push_back(tip);

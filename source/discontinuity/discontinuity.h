@@ -34,13 +34,12 @@ public:
   void setup(const Discretization<dim> &discretization, const Collectives &collectives);
 
   /// Replace all cracks by those of the case. After setup().
-  /// @param kolosov kappa = (lambda + 3 mu)/(lambda + mu) of the rock: the tips lie exactly where
-  /// the polylines end and have functions of their own, and the cracks must not grow. Without:
-  /// cracks of whole cells.
+  /// @param rock_at_tips given: the tips lie exactly where the polylines end and have functions of
+  /// their own, those of this rock, and the cracks must not grow. Null: cracks of whole cells.
   /// @throws EntryError if the mesh cannot hold a crack
   void cut(const std::vector<InitialCrack<dim>> &given,
            const Collectives &collectives,
-           const std::optional<double> kolosov = {});
+           const LinearStiffness<dim> *rock_at_tips = nullptr);
 
   /// Put back cracks that were taken from paths() on this mesh.
   void restore(std::vector<CrackPath<dim>> earlier);

@@ -15,31 +15,35 @@ using dealii::Tensor;
 
 namespace
 {
-/// Gradient [i][j] = u_i,j of Williams' field for a unit stress intensity, in the frame of the tip.
-Tensor<2, 2> williams_gradient(
-  const bool shear, const double x1, const double x2, const double mu, const double kappa)
+/// Gradient [i][j] = u_i,j of the field around the tip for a unit jump, in the frame of the tip.
+Tensor<2, 2>
+unit_gradient(const NearTipField &field, const unsigned int mode, const Tensor<1, 2> &x)
 {
-  const double r = std::hypot(x1, x2), theta = std::atan2(x2, x1);
-  const NearTipField field(shear, theta, kappa);
-  const double factor = 1. / (2. * mu * std::sqrt(2. * dealii::numbers::PI * r));
+  const double r = x.norm(), theta = std::atan2(x[1], x[0]);
+  const NearTipField::Angular f = field(mode, theta);
   Tensor<2, 2> gradient;
   for (unsigned int i = 0; i < 2; ++i)
   {
-    gradient[i][0] = factor * (0.5 * std::cos(theta) * field.f[i] - std::sin(theta) * field.df[i]);
-    gradient[i][1] = factor * (0.5 * std::sin(theta) * field.f[i] + std::cos(theta) * field.df[i]);
+    gradient[i][0] = 0.5 * std::cos(theta) * f.value[i] - std::sin(theta) * f.derivative[i];
+    gradient[i][1] = 0.5 * std::sin(theta) * f.value[i] + std::cos(theta) * f.derivative[i];
   }
-  return gradient;
+  return gradient / std::sqrt(r);
 }
 
-SymmetricTensor<2, 2>
-hooke(const SymmetricTensor<2, 2> &strain, const double lambda, const double mu)
+/// Hooke's law in the frame of the tip.
+struct TipStress
 {
-  SymmetricTensor<2, 2> stress = 2. * mu * strain;
-  const double mean = lambda * trace(strain);
-  stress[0][0] += mean;
-  stress[1][1] += mean;
-  return stress;
-}
+  const LinearStiffness<2> &rock;
+  const Tensor<2, 2> &frame; ///< rows: the axes at the tip
+
+  SymmetricTensor<2, 2> operator()(const Tensor<2, 2> &gradient) const
+  {
+    if (rock.is_isotropic())
+      return rock.stress(symmetrize(gradient));
+    const Tensor<2, 2> strain = transpose(frame) * symmetrize(gradient) * frame;
+    return symmetrize(frame * Tensor<2, 2>(rock.stress(symmetrize(strain))) * transpose(frame));
+  }
+};
 
 /// Falls smoothly from one to zero between inner and outer radius.
 struct Weight
@@ -83,9 +87,9 @@ StressIntensity stress_intensity(const unsigned int crack,
     frame[0][d] = along[d];
     frame[1][d] = across[d];
   }
-  const RockProperties &rock = scene.rock.main();
-  const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
-  const double kappa = (lambda + 3. * mu) / (lambda + mu);
+  const LinearStiffness<dim> rock(scene.rock.main());
+  const TipStress stress_of{rock, frame};
+  const NearTipField field(rock, along);
   const Weight weight{0.25 * radius, radius};
 
   const auto &fe = discretization.dof_handler.get_fe();
@@ -119,13 +123,13 @@ StressIntensity stress_intensity(const unsigned int crack,
           gradient[cut->component[c]] +=
             state.current.extra[cut->extra[c]] * cut->gradients[q * cut->n_columns() + c];
       gradient = frame * gradient * transpose(frame);
-      const SymmetricTensor<2, dim> stress = hooke(symmetrize(gradient), lambda, mu);
+      const SymmetricTensor<2, dim> stress = stress_of(gradient);
       const double dA = cut != nullptr ? cut->weights[q] : fe_values.JxW(q);
       const Tensor<1, dim> dq = weight.slope(r) / r * x;
       for (unsigned int mode = 0; mode < 2; ++mode)
       {
-        const Tensor<2, dim> unit = williams_gradient(mode == 1, x[0], x[1], mu, kappa);
-        const SymmetricTensor<2, dim> unit_stress = hooke(symmetrize(unit), lambda, mu);
+        const Tensor<2, dim> unit = unit_gradient(field, mode, x);
+        const SymmetricTensor<2, dim> unit_stress = stress_of(unit);
         double integrand = -(stress * symmetrize(unit)) * dq[0];
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
@@ -156,7 +160,7 @@ StressIntensity stress_intensity(const unsigned int crack,
     }
   collectives.sum(sums);
 
-  // The loaded faces. [[u^a]],1 = -(kappa+1)/(2 mu sqrt(2 pi r)); with r = s^2 it is smooth.
+  // The loaded faces. [[u^a]],1 = -1/(2 sqrt(r)); with r = s^2 it is smooth.
   const dealii::QGauss<1> line(4);
   for (unsigned int i = 0; i < path.pieces.size(); ++i)
   {
@@ -173,14 +177,19 @@ StressIntensity stress_intensity(const unsigned int crack,
     for (unsigned int q = 0; q < line.size(); ++q)
     {
       const double s = a + (b - a) * line.point(q)[0];
-      integral += weight.value(s * s) * 2. * (b - a) * line.weight(q);
+      integral -= weight.value(s * s) * (b - a) * line.weight(q);
     }
-    integral *= -(kappa + 1.) / (2. * mu * std::sqrt(2. * dealii::numbers::PI));
     sums[0] += load[1] * integral;
     sums[1] += load[0] * integral;
   }
-  const double factor = 0.5 * rock.plane_modulus();
-  return {factor * sums[0], factor * sums[1]};
+  const double factor = std::sqrt(8. / dealii::numbers::PI);
+  StressIntensity result{factor * sums[0], factor * sums[1]};
+  Tensor<1, dim> k;
+  k[0] = result.shear;
+  k[1] = result.opening;
+  result.energy_release_rate =
+    0.5 * (k * (PlaneElasticity(rock.tensor(), along).crack_compliance * k));
+  return result;
 }
 
 template StressIntensity stress_intensity(const unsigned int,

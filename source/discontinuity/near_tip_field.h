@@ -1,36 +1,38 @@
 #pragma once
 
-#include <cmath>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include "stockwork/rock/linear_stiffness.h"
+
+#include "rock/plane_elasticity.h"
+
+#include <optional>
 
 namespace stockwork
 {
-/// The part that depends on the angle, and its derivative, of the leading displacement around the
-/// tip of a traction-free crack along theta = +-pi in an elastic body (Williams 1957):
-///
-///   u_i = K sqrt(r) / (2 mu sqrt(2 pi)) f_i(theta),
-///
-/// in the frame of the tip; the jump of f is 2 (kappa + 1), across in opening, along in shear.
-struct NearTipField
+/// The leading displacement around the tip of a traction-free crack along theta = +-pi in an
+/// elastic body, in the frame of the tip and for a unit jump: u = sqrt(r) f(theta), where f jumps
+/// by one across the crack in opening (mode 0), along it in shear (1), and not in the other
+/// direction. Williams (1957) in isotropic rock, Sih, Paris and Irwin (1965) in any other.
+class NearTipField
 {
-  double f[2], df[2];
+public:
+  /// @param along unit vector out of the crack
+  NearTipField(const LinearStiffness<2> &rock, const dealii::Tensor<1, 2> &along);
 
-  NearTipField(const bool shear, const double theta, const double kappa)
+  struct Angular
   {
-    const double c = std::cos(0.5 * theta), s = std::sin(0.5 * theta);
-    if (!shear)
-    {
-      f[0] = c * (kappa - 1. + 2. * s * s);
-      f[1] = s * (kappa + 1. - 2. * c * c);
-      df[0] = -0.5 * s * (kappa - 1. + 2. * s * s) + 2. * s * c * c;
-      df[1] = 0.5 * c * (kappa + 1. - 2. * c * c) + 2. * s * s * c;
-    }
-    else
-    {
-      f[0] = s * (kappa + 1. + 2. * c * c);
-      f[1] = -c * (kappa - 1. - 2. * s * s);
-      df[0] = 0.5 * c * (kappa + 1. + 2. * c * c) - 2. * s * s * c;
-      df[1] = 0.5 * s * (kappa - 1. - 2. * s * s) + 2. * s * c * c;
-    }
-  }
+    dealii::Tensor<1, 2> value, derivative; ///< f and df/dtheta
+  };
+
+  Angular operator()(const unsigned int mode, const double theta) const;
+
+private:
+  double kolosov = 2.;                       ///< kappa of isotropic rock
+  std::optional<PlaneElasticity> elasticity; ///< of any other
+
+  /// By mode: phi_k = weights[mode][k] sqrt(z_k).
+  std::array<std::array<std::complex<double>, 2>, 2> weights;
 };
 } // namespace stockwork

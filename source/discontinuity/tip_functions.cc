@@ -72,17 +72,17 @@ CrackTip<dim>::evaluate(const unsigned int mode, const Point<dim> &x, const Side
       x2 = std::copysign(0., plus == (end == CrackEnd::last) ? 1. : -1.);
   }
   const double theta = std::atan2(x2, x1);
-  const NearTipField field(mode == 1, theta, kolosov);
+  const NearTipField::Angular angular = (*field)(mode, theta);
   const CutOff chi(r / radius);
-  const double root = std::sqrt(r / radius) / (2. * (kolosov + 1.));
+  const double root = std::sqrt(r / radius);
   Tensor<2, dim> gradient; // in the frame of the tip
   for (unsigned int i = 0; i < dim; ++i)
   {
-    result.value += chi.value * root * field.f[i] * (i == 0 ? along : across);
+    result.value += chi.value * root * angular.value[i] * (i == 0 ? along : across);
     if (r == 0.)
       continue;
-    const double by_r = root * field.f[i] * (0.5 * chi.value / r + chi.slope / radius);
-    const double by_theta = chi.value * root * field.df[i] / r;
+    const double by_r = root * angular.value[i] * (0.5 * chi.value / r + chi.slope / radius);
+    const double by_theta = chi.value * root * angular.derivative[i] / r;
     gradient[i][0] = std::cos(theta) * by_r - std::sin(theta) * by_theta;
     gradient[i][1] = std::sin(theta) * by_r + std::cos(theta) * by_theta;
   }

@@ -7,6 +7,7 @@
 #include "discontinuity/near_tip_field.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace stockwork
@@ -14,21 +15,21 @@ namespace stockwork
 /// A tip that has functions of its own: the leading terms of the elastic displacement around it in
 /// opening (0) and shear (1), cut off at a radius,
 ///
-///   F(r, theta) = chi(r/R) sqrt(r/R) f(theta) / (2 (kappa + 1)),
+///   F(r, theta) = chi(r/R) sqrt(r/R) f(theta)
 ///
-/// so that a coefficient is about the opening (slip) at the distance R [m], if chi were one there
-/// (Chahine, Laborde and Renard 2008, with Williams' fields as vectors). What is added to the
-/// finite elements is F - I_h F with the nodal interpolant I_h: the same space, but ordinary
-/// displacements keep their meaning at the nodes.
+/// with the angular parts f of NearTipField, which jump by one, so that a coefficient is about the
+/// opening (slip) at the distance R [m], if chi were one there (Chahine, Laborde and Renard 2008,
+/// with the fields as vectors). What is added to the finite elements is F - I_h F with the nodal
+/// interpolant I_h: the same space, but ordinary displacements keep their meaning at the nodes.
 template <int dim>
 struct CrackTip
 {
   unsigned int crack = 0;
   CrackEnd end = CrackEnd::first;
   dealii::Point<dim> point;
-  dealii::Tensor<1, dim> along; ///< unit vector out of the crack
-  double radius = 0.;           ///< R [m]
-  double kolosov = 2.;          ///< kappa, (lambda + 3 mu)/(lambda + mu)
+  dealii::Tensor<1, dim> along;              ///< unit vector out of the crack
+  double radius = 0.;                        ///< R [m]
+  std::shared_ptr<const NearTipField> field; ///< of this tip's direction
   std::array<unsigned int, 2> extra{{0, 0}};
 
   /// Unit vector to the left of `along`.

@@ -1,5 +1,7 @@
 #include "output/bulk_fields.h"
 
+#include "biot/cell_matrices.h"
+
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
@@ -59,15 +61,8 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
 {
   const auto cell = inputs.template get_cell<dim>();
   const RockProperties &rock = scene.rock(cell->material_id());
-  const auto identity = unit_symmetric_tensor<dim>();
-
-  BulkCoefficients<dim> intact;
-  intact.stiffness = rock.lame_lambda() * outer_product(identity, identity) +
-                     2. * rock.shear_modulus() * identity_tensor<dim>();
-  intact.biot = rock.biot_coefficient * identity;
-  intact.storage = rock.inverse_biot_modulus;
-  intact.mobility = rock.permeability / scene.rock.fluid().viscosity * identity;
-  std::vector<BulkCoefficients<dim>> coefficients(inputs.evaluation_points.size(), intact);
+  std::vector<BulkCoefficients<dim>> coefficients(inputs.evaluation_points.size(),
+                                                  intact_rock<dim>(rock, scene.rock.fluid()));
   if (model.requirements().changes_bulk)
     model.bulk_coefficients(cell, inputs.evaluation_points, coefficients);
   const auto mean = mean_strain.find(cell->active_cell_index());

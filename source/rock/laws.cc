@@ -46,6 +46,35 @@ std::string path_of(const std::vector<std::string> &sections)
     path += (path.empty() ? "" : "/") + section;
   return path;
 }
+
+
+/// What a law reads in a region: the region's entries over those of the rock at large.
+std::unique_ptr<ParameterHandler> entries_of(ParameterHandler &prm,
+                                             const types::material_id region,
+                                             const std::string &name,
+                                             const RockLawEntry &entry)
+{
+  auto own = std::make_unique<ParameterHandler>();
+  entry.declare_parameters(*own);
+  for (const DeclaredEntry &e : declared_entries(*own))
+  {
+    own->set(e.name, value_of(prm, {"Rock", name}, e.name));
+    auto of_region = region_sections(region);
+    of_region.push_back(name);
+    const std::string value = region == 0 ? "" : value_of(prm, of_region, e.name);
+    if (value.empty())
+      continue;
+    try
+    {
+      own->set(e.name, value);
+    }
+    catch (const ExceptionBase &)
+    {
+      throw EntryError(path_of(of_region) + "/" + e.name, value, allowed_text(e.pattern));
+    }
+  }
+  return own;
+}
 } // namespace
 
 
@@ -84,8 +113,8 @@ void RockLaws::declare_parameters(ParameterHandler &prm, const RockLawRegistry &
 
 void RockLaws::parse_parameters(ParameterHandler &prm,
                                 const RockLawRegistry &registry,
-                                const Rock &rock,
-                                const std::vector<types::material_id> &regions)
+                                const std::vector<types::material_id> &regions,
+                                Rock &rock)
 {
   laws.clear();
   names.clear();
@@ -93,56 +122,52 @@ void RockLaws::parse_parameters(ParameterHandler &prm,
   all.insert(0);
   for (const types::material_id region : all)
   {
-    const auto sections = region_sections(region);
-    std::string name = value_of(prm, sections, "Law");
-    if (name.empty())
-      name = names.at(0);
-    const RockLawEntry &entry = registry.all().at(name);
-
-    // The region's entries over those of the rock at large.
-    ParameterHandler own;
-    entry.declare_parameters(own);
-    for (const DeclaredEntry &e : declared_entries(own))
-    {
-      own.set(e.name, value_of(prm, {"Rock", name}, e.name));
-      auto of_region = sections;
-      of_region.push_back(name);
-      const std::string value = region == 0 ? "" : value_of(prm, of_region, e.name);
-      if (value.empty())
-        continue;
-      try
-      {
-        own.set(e.name, value);
-      }
-      catch (const ExceptionBase &)
-      {
-        throw EntryError(path_of(of_region) + "/" + e.name, value, allowed_text(e.pattern));
-      }
-    }
-    laws[region] = entry.create(own, path_of(sections) + "/" + name, rock(region));
-    names[region] = name;
+    const std::string name = value_of(prm, region_sections(region), "Law");
+    names[region] = name.empty() ? names.at(0) : name;
   }
+  refuse_unused(prm, registry);
 
-  // What is said of a law that no rock has would be dropped.
+  std::map<types::material_id, std::unique_ptr<ParameterHandler>> own;
+  for (const types::material_id region : all)
+    own[region] = entries_of(prm, region, names.at(region), registry.all().at(names.at(region)));
+  const auto path_in = [&](const types::material_id region)
+  { return path_of(region_sections(region)) + "/" + names.at(region); };
+  rock.parse_parameters(prm,
+                        [&](const types::material_id region, const RockProperties &properties)
+                          -> std::optional<SymmetricTensor<4, 3>>
+                        {
+                          if (own.count(region) == 0)
+                            return properties.stiffness; // the mesh has no such region
+                          const RockLawEntry &entry = registry.all().at(names.at(region));
+                          if (!entry.stiffness)
+                            return {};
+                          return entry.stiffness(*own.at(region), path_in(region), properties);
+                        });
+  for (const types::material_id region : all)
+    laws[region] =
+      registry.all().at(names.at(region)).create(*own.at(region), path_in(region), rock(region));
+}
+
+
+void RockLaws::refuse_unused(ParameterHandler &prm, const RockLawRegistry &registry) const
+{
   for (const auto &[name, entry] : registry.all())
     for (const DeclaredEntry &e : own_entries(entry))
-      for (types::material_id region = 0; region <= Rock::max_regions; ++region)
+      for (const auto &[region, law_here] : names)
       {
         auto sections = region_sections(region);
         sections.push_back(name);
         const std::string value = value_of(prm, sections, e.name);
-        if (names.count(region) == 0)
-          continue; // the mesh has no such region, which somebody else says
         const bool is_given = value != (region == 0 ? e.default_value : "");
         const bool is_used = region == 0
                                ? std::any_of(names.begin(), names.end(),
                                              [&](const auto &law) { return law.second == name; })
-                               : names.at(region) == name;
+                               : law_here == name;
         if (is_given && !is_used)
           throw EntryError(path_of(sections) + "/" + e.name, value,
                            "nothing (an empty entry), for " +
                              (region == 0 ? "no rock has the law '" + name + "': see 'Rock/Law'"
-                                          : "this region has the law '" + names.at(region) + "'"));
+                                          : "this region has the law '" + law_here + "'"));
       }
 }
 

@@ -13,15 +13,16 @@ namespace stockwork
 class RockLaws
 {
 public:
-  /// Inside nothing; after Rock::declare_parameters().
+  /// After Rock::declare_parameters().
   static void declare_parameters(dealii::ParameterHandler &prm, const RockLawRegistry &registry);
 
+  /// Read which law each region has, and the rock's constants, which hang on that.
   /// @param regions that the mesh has, besides region 0
   /// @throws EntryError, also for entries of a law that no region has
   void parse_parameters(dealii::ParameterHandler &prm,
                         const RockLawRegistry &registry,
-                        const Rock &rock,
-                        const std::vector<dealii::types::material_id> &regions);
+                        const std::vector<dealii::types::material_id> &regions,
+                        Rock &rock);
 
   const RockLaw &operator()(const dealii::types::material_id region) const
   {
@@ -44,6 +45,9 @@ public:
   }
 
 private:
+  /// What is said of a law that no rock has would be dropped.
+  void refuse_unused(dealii::ParameterHandler &prm, const RockLawRegistry &registry) const;
+
   std::map<dealii::types::material_id, std::unique_ptr<RockLaw>> laws;
   std::map<dealii::types::material_id, std::string> names;
 };

@@ -2,7 +2,11 @@
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
+#include "stockwork/rock/linear_stiffness.h"
 
+#include "rock/plane_elasticity.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace stockwork
@@ -36,7 +40,8 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
                             const std::string &text)
   { prm.declare_entry(name, "", Quantity(dimension, range, ""), text); };
 
-  declare("Young modulus", "", dimension::stress, Range::positive(), "Drained. Required.");
+  declare("Young modulus", "", dimension::stress, Range::positive(),
+          "Drained. Required in isotropic rock.");
   declare("Poisson ratio", "0.25", dimension::number, Range::open(-1., 0.5), "Drained.");
   optional("Biot coefficient", dimension::number, Range::closed(0., 1.),
            "Empty: 1 - K/K_s if the solid's bulk modulus is given, else 1.");
@@ -47,8 +52,14 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
   declare("Porosity", "0.1", dimension::number, Range::closed(0., 1.),
           "Pore volume over bulk volume, n.");
   declare("Permeability", "", dimension::permeability, Range::positive(),
-          "Intrinsic, isotropic; required in poroelastic rock. Impermeable rock is Bulk model = "
-          "elastic.");
+          "Intrinsic; required in poroelastic rock. Impermeable rock is Bulk model = elastic.");
+  optional("Permeability across the layers", dimension::permeability, Range::positive(),
+           "Along the normal of the layers; 'Permeability' is along the layers then. Empty: the "
+           "same in all directions.");
+  prm.declare_entry("Normal of the layers", "",
+                    Quantities(dimension::number, Range::finite(), 0, 3),
+                    "Of any length, two or three numbers; required where stiffness or "
+                    "permeability is another across the layers.");
   declare("Density", "", dimension::density, Range::positive(),
           "Of the saturated rock; required with inertia, not used without.");
   optional("Fracture toughness", dimension::toughness, Range::positive(),
@@ -62,29 +73,101 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
 }
 
 
+/// The direction of the layers, and the permeability across them.
+void parse_layers(const ParameterHandler &prm, const std::string &path, RockProperties &rock)
+{
+  const std::vector<double> normal = get_quantities(prm, "Normal of the layers", dimension::number);
+  if (!normal.empty())
+  {
+    rock.layer_normal = Tensor<1, 3>();
+    for (unsigned int d = 0; d < normal.size(); ++d)
+      rock.layer_normal[d] = normal[d];
+    if (normal.size() == 1 || rock.layer_normal.norm() == 0.)
+      throw EntryError(path + "/Normal of the layers", prm.get("Normal of the layers"),
+                       "two or three numbers that are not all zero, such as '0, 1'");
+    rock.layer_normal /= rock.layer_normal.norm();
+  }
+  const auto across =
+    get_optional_quantity(prm, "Permeability across the layers", dimension::permeability);
+  if (!across)
+    return;
+  rock.permeability_across = *across;
+  if (rock.permeability <= 0.)
+    throw EntryError(path + "/Permeability", "",
+                     "the permeability along the layers, for 'Permeability across the layers' is "
+                     "given");
+  if (rock.layer_normal.norm() == 0.)
+    throw EntryError(path + "/Normal of the layers", "",
+                     "a direction, such as '0, 1', for 'Permeability across the layers' is given");
+}
+
+
+/// Young's modulus and Poisson's ratio, or the stiffness that stands in their place.
+void parse_stiffness(const ParameterHandler &prm,
+                     const std::string &path,
+                     const bool is_region,
+                     const std::optional<SymmetricTensor<4, 3>> &anisotropic,
+                     RockProperties &rock)
+{
+  const std::string modulus = prm.get("Young modulus"), ratio = prm.get("Poisson ratio");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  rock.stiffness = anisotropic;
+  if (anisotropic)
+  {
+    rock.young_modulus = rock.poisson_ratio = nan;
+    rock.least_plane_modulus = least_plane_modulus(LinearStiffness<2>(rock).tensor());
+    for (const auto &[name, text] :
+         {std::make_pair("Young modulus", modulus), std::make_pair("Poisson ratio", ratio)})
+      if (!text.empty() && text != "0.25")
+        throw EntryError(path + "/" + name, text,
+                         "nothing (an empty entry): the rock's law has its own constants");
+    if (!prm.get("Fracture toughness").empty())
+      throw EntryError(path + "/Fracture toughness", prm.get("Fracture toughness"),
+                       "nothing (an empty entry): how K_Ic and energy are related hangs on the "
+                       "direction of the crack in this rock; give 'Critical energy release rate'");
+    return;
+  }
+  rock.young_modulus =
+    get_optional_quantity(prm, "Young modulus", dimension::stress).value_or(rock.young_modulus);
+  rock.poisson_ratio =
+    get_optional_quantity(prm, "Poisson ratio", dimension::number).value_or(rock.poisson_ratio);
+  if (!(rock.young_modulus > 0.))
+    throw EntryError(
+      path + "/Young modulus", modulus,
+      std::string("a stress > 0 Pa, such as '20 GPa'") +
+        (is_region ? ", for this region is isotropic and the rock at large is not" : ""));
+  if (std::isnan(rock.poisson_ratio))
+    throw EntryError(path + "/Poisson ratio", ratio,
+                     "a number, for this region is isotropic and the rock at large is not");
+}
+
+
+/// @param rock what is inherited, or but the plane state
 RockProperties parse_properties(const ParameterHandler &prm,
                                 const std::string &path,
-                                const RockProperties *inherited,
+                                const types::material_id region,
+                                const Rock::Stiffness &stiffness,
+                                RockProperties rock,
                                 const double fluid_bulk_modulus)
 {
+  const bool inherited = region != 0;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  RockProperties rock = inherited ? *inherited : RockProperties();
   // The patterns have checked the ranges.
   const auto get = [&](const std::string &entry, const Dimension &dimension, const double otherwise)
   { return get_optional_quantity(prm, entry, dimension).value_or(otherwise); };
-  rock.young_modulus =
-    get("Young modulus", dimension::stress, inherited ? rock.young_modulus : nan);
-  rock.poisson_ratio =
-    get("Poisson ratio", dimension::number, inherited ? rock.poisson_ratio : nan);
   rock.porosity = get("Porosity", dimension::number, inherited ? rock.porosity : nan);
   rock.permeability =
     get("Permeability", dimension::permeability, inherited ? rock.permeability : 0.);
   rock.density = get("Density", dimension::density, inherited ? rock.density : 0.);
   rock.tensile_strength = get("Tensile strength", dimension::stress, rock.tensile_strength);
 
-  // Biot's constants, from either pair. K is the three-dimensional drained bulk modulus.
-  const double bulk_modulus = rock.young_modulus / (3. * (1. - 2. * rock.poisson_ratio));
+  parse_layers(prm, path, rock);
+  parse_stiffness(prm, path, inherited, stiffness ? stiffness(region, rock) : std::nullopt, rock);
+
+  // Biot's constants, from either pair. K is the three-dimensional drained bulk modulus; in
+  // anisotropic rock alpha is the mean of its tensor (Cheng 1997, Eq. 30), taken in all directions.
+  const double bulk_modulus = rock.bulk_modulus();
   const double solid_modulus = get("Solid bulk modulus", dimension::stress, inf);
   const bool alpha_given = !prm.get("Biot coefficient").empty();
   const bool solid_given = !prm.get("Solid bulk modulus").empty();
@@ -137,6 +220,23 @@ RockProperties parse_properties(const ParameterHandler &prm,
 } // namespace
 
 
+double RockProperties::bulk_modulus() const
+{
+  return stiffness ? LinearStiffness<3>::mean_bulk_modulus(*stiffness)
+                   : young_modulus / (3. * (1. - 2. * poisson_ratio));
+}
+
+
+void RockProperties::require_isotropic() const
+{
+  if (stiffness)
+    throw InputError(
+      "What this case asks for is there for isotropic rock only: choose a 'Rock/Law' "
+      "that is isotropic, another 'Fracture/Model', or 'Verification/Reference = "
+      "none'.");
+}
+
+
 double RockProperties::toughness() const
 {
   return std::sqrt(plane_modulus() * energy_release_rate);
@@ -172,7 +272,7 @@ void Rock::declare_parameters(ParameterHandler &prm)
 }
 
 
-void Rock::parse_parameters(ParameterHandler &prm)
+void Rock::parse_parameters(ParameterHandler &prm, const Stiffness &stiffness)
 {
   prm.enter_subsection("Fluid");
   const double fluid_modulus = get_quantity(prm, "Bulk modulus", dimension::stress);
@@ -183,28 +283,25 @@ void Rock::parse_parameters(ParameterHandler &prm)
 
   prm.enter_subsection("Rock");
   model = prm.get("Bulk model");
-  default_region.plane_stress = prm.get("Plane state") == "plane stress";
-  if (prm.get("Young modulus").empty())
-    throw EntryError("Rock/Young modulus", "", "a stress > 0 Pa, such as '20 GPa'");
-  RockProperties blank = parse_properties(prm, "Rock", nullptr, fluid_modulus);
-  const bool plane_stress = default_region.plane_stress;
-  if (plane_stress)
-  {
-    // E' differs, so the toughness must be read again with it.
-    blank.plane_stress = true;
-    const std::string toughness = prm.get("Fracture toughness");
-    if (!toughness.empty())
-      blank.energy_release_rate =
-        std::pow(parse_finite_quantity(toughness, dimension::toughness), 2) / blank.plane_modulus();
-  }
-  default_region = blank;
+  RockProperties blank;
+  blank.young_modulus = blank.poisson_ratio = std::numeric_limits<double>::quiet_NaN();
+  blank.plane_stress = prm.get("Plane state") == "plane stress";
+  default_region = parse_properties(prm, "Rock", 0, stiffness, blank, fluid_modulus);
   for (unsigned int region = 1; region <= max_regions; ++region)
   {
     prm.enter_subsection(region_section(region));
-    regions[region] =
-      parse_properties(prm, "Rock/" + region_section(region), &default_region, fluid_modulus);
+    regions[region] = parse_properties(prm, "Rock/" + region_section(region), region, stiffness,
+                                       default_region, fluid_modulus);
     prm.leave_subsection();
   }
+  const auto is_layered = [](const RockProperties &rock)
+  { return rock.stiffness || rock.permeability_across > 0.; };
+  if (!prm.get("Normal of the layers").empty() && !is_layered(default_region) &&
+      std::none_of(regions.begin(), regions.end(),
+                   [&](const auto &region) { return is_layered(region.second); }))
+    throw EntryError("Rock/Normal of the layers", prm.get("Normal of the layers"),
+                     "nothing (an empty entry): neither 'Rock/Law' nor 'Permeability across the "
+                     "layers' asks for layers");
   prm.leave_subsection();
 }
 

@@ -19,6 +19,7 @@ struct Entry
   const char *name;
   reference::Made<2> (*make_2d)(const ParameterHandler &, const ReferenceInput<2> &);
   reference::Made<3> (*make_3d)(const ParameterHandler &, const ReferenceInput<3> &);
+  bool knows_anisotropic_rock = false;
 };
 
 const Entry table[] = {
@@ -30,7 +31,7 @@ const Entry table[] = {
   {"footing", reference::make_footing, nullptr},
   {"bar wave", reference::make_bar_wave<2>, reference::make_bar_wave<3>},
   {"porous wave", reference::make_porous_wave<2>, reference::make_porous_wave<3>},
-  {"line crack", reference::make_line_crack, nullptr},
+  {"line crack", reference::make_line_crack, nullptr, true},
   {"penny crack", nullptr, reference::make_penny_crack},
   {"crack in box", reference::make_crack_in_box, nullptr},
   {"parallel cracks", reference::make_parallel_cracks, nullptr},
@@ -119,6 +120,11 @@ std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
       if (maker<dim>(entry) == nullptr)
         throw EntryError("Verification/Reference", name,
                          "a solution in " + std::to_string(dim) + "-D");
+      const RockProperties &rock = input.rock.main();
+      if (!entry.knows_anisotropic_rock && (rock.stiffness || !rock.has_isotropic_permeability()))
+        throw EntryError("Verification/Reference", name,
+                         "'none' or 'line crack' where stiffness or permeability is another across "
+                         "the layers: the solution is of isotropic rock");
       try
       {
         solution = maker<dim>(entry)(prm, input);

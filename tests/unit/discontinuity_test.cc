@@ -353,7 +353,11 @@ TEST_CASE("tips with functions of their own lie where the crack ends")
   discontinuity.setup(square.discretization(), square.collectives);
   InitialCrack<2> crack;
   crack.points = {{-0.57, 0.1}, {0.44, 0.13}};
-  discontinuity.cut({crack}, square.collectives, 2.);
+  RockProperties properties;
+  properties.young_modulus = 1.;
+  properties.poisson_ratio = 0.25;
+  const LinearStiffness<2> rock(properties);
+  discontinuity.cut({crack}, square.collectives, &rock);
   const auto &path = discontinuity.paths()[0];
   CHECK(path.length() == doctest::Approx(std::hypot(1.01, 0.03)));
   CHECK(path.pieces.size() == 6);

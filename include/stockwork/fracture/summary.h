@@ -19,6 +19,7 @@ struct FractureSummary
   unsigned int n_tips = 0;
   std::optional<double> stress_intensity_I; ///< of the first crack's last tip [Pa m^1/2]
   std::optional<double> stress_intensity_II;
+  std::optional<double> energy_release_rate; ///< of both, at that tip [J/m^2]
 };
 
 /// Takes named fields for the output files.

@@ -21,6 +21,14 @@ struct RockLawEntry
   /// do without has an empty default.
   std::function<void(dealii::ParameterHandler &)> declare_parameters = [](auto &) {};
 
+  /// Of linear rock that is not isotropic: its stiffness in the axes of the run [Pa], from the same
+  /// entries and from the normal of the layers and the plane state among the properties; the rest
+  /// of them is not known yet. Such a law has nothing else to do. Empty: isotropic in its linear
+  /// range, with Rock/Young modulus and Rock/Poisson ratio.
+  std::function<dealii::SymmetricTensor<4, 3>(
+    const dealii::ParameterHandler &prm, const std::string &path, const RockProperties &)>
+    stiffness;
+
   /// Make the law of one region from those entries, the region's own where it has some.
   /// @param path of the subsection, for messages
   /// @throws EntryError

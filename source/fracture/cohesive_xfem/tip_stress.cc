@@ -1,5 +1,7 @@
 #include "fracture/cohesive_xfem/tip_stress.h"
 
+#include "stockwork/rock/linear_stiffness.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -52,7 +54,7 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
         evaluated = true;
       }
       const RockProperties &rock = scene.rock(cell->material_id());
-      const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
+      const LinearStiffness<dim> hooke(rock);
       for (unsigned int q = 0; q < quadrature.size(); ++q)
       {
         const auto x = fe_values.quadrature_point(q);
@@ -62,10 +64,9 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
           continue;
         const double ratio = distance / disc.radius;
         const double weight = std::exp(-4. * ratio * ratio) * fe_values.JxW(q);
-        SymmetricTensor<2, dim> stress = scene.in_situ_stress(x) + 2. * mu * strains[q];
-        const double isotropic = lambda * trace(strains[q]) - rock.biot_coefficient * pressures[q];
+        SymmetricTensor<2, dim> stress = scene.in_situ_stress(x) + hooke.stress(strains[q]);
         for (unsigned int d = 0; d < dim; ++d)
-          stress[d][d] += isotropic;
+          stress[d][d] -= rock.biot_coefficient * pressures[q];
         for (unsigned int k = 0; k < n_components; ++k)
           sums[i * stride + k] += weight * stress.access_raw_entry(k);
         sums[i * stride + n_components] += weight * (pressures[q] + scene.in_situ_pore_pressure(x));

@@ -42,6 +42,10 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   , stencil(horizon_stencil<dim>(parameters.horizon, parameters.volumes))
 {
   const RockProperties &rock = scene.rock.main();
+  if (rock.stiffness)
+    throw EntryError("Rock/Law", "an anisotropic one",
+                     "'elastic' with 'Fracture/Model = peridynamics': bonds are as stiff in one "
+                     "direction as in another");
   const double nu = bond_based_poisson_ratio(rock.plane_stress);
   if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
     throw EntryError("Rock/Poisson ratio", text(rock.poisson_ratio),

@@ -62,11 +62,8 @@ public:
   {
     discretization = std::make_unique<Discretization<dim>>(d);
     discontinuity.setup(d, collectives);
-    const RockProperties &rock = scene.rock.main();
-    const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
-    discontinuity.cut(scene.cracks, collectives,
-                      tip_functions ? std::make_optional((lambda + 3. * mu) / (lambda + mu))
-                                    : std::nullopt);
+    const LinearStiffness<dim> rock(scene.rock.main());
+    discontinuity.cut(scene.cracks, collectives, tip_functions ? &rock : nullptr);
 
     all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
     for (Segment<dim> &segment : all_segments)
@@ -178,6 +175,7 @@ public:
           stress_intensity(0, end, r, *discretization, discontinuity, released, state, collectives);
         result.stress_intensity_I = k.opening;
         result.stress_intensity_II = k.shear;
+        result.energy_release_rate = k.energy_release_rate;
         break;
       }
     return result;

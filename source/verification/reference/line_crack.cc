@@ -1,9 +1,11 @@
 // A straight crack under given net pressure: in a body so large that its walls do not count
 // (Sneddon & Elliott 1946), or in the middle of a box with rollers on all sides.
 #include "verification/analytical/line_crack.h"
+#include "verification/analytical/anisotropic_crack.h"
 #include "verification/analytical/crack_in_box.h"
 
 #include "stockwork/base/error.h"
+#include "stockwork/rock/linear_stiffness.h"
 
 #include "mesh/box.h"
 #include "verification/reference/problems.h"
@@ -110,6 +112,65 @@ private:
 };
 
 
+class AnisotropicCrackField : public Field<2>
+{
+public:
+  AnisotropicCrackField(const analytical::AnisotropicCrack &crack, const bool has_pore_pressure)
+    : Field<2>(has_pore_pressure)
+    , crack(crack)
+  {
+  }
+
+protected:
+  void evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
+  {
+    displacement = crack.displacement(point);
+    pressure = 0.;
+  }
+
+private:
+  analytical::AnisotropicCrack crack;
+};
+
+
+class AnisotropicCrackReference : public ReferenceSolution<2>
+{
+public:
+  AnisotropicCrackReference(const analytical::AnisotropicCrack &crack,
+                            const unsigned int n_wings,
+                            const bool has_pore_pressure)
+    : crack(crack)
+    , n_wings(n_wings)
+    , solution(std::make_shared<AnisotropicCrackField>(crack, has_pore_pressure))
+  {
+  }
+
+  std::string name() const override
+  {
+    return "Crack in an infinite anisotropic body (Lekhnitskii 1963; Sih, Paris and Irwin 1965)";
+  }
+
+  std::shared_ptr<Function<2>> field() const override
+  {
+    return solution;
+  }
+
+  std::map<std::string, double> values(double) const override
+  {
+    return {{"inlet_aperture", crack.opening()},
+            {"fracture_volume", 0.5 * n_wings * crack.volume()},
+            {"stress_intensity_I", crack.mode_I()},
+            {"stress_intensity_II", crack.mode_II()},
+            {"energy_release_rate", crack.energy_release_rate()}};
+  }
+
+private:
+  analytical::AnisotropicCrack crack;
+  unsigned int n_wings;
+  std::shared_ptr<AnisotropicCrackField> solution;
+};
+
+
 class CrackInBoxReference : public ReferenceSolution<2>
 {
 public:
@@ -143,10 +204,27 @@ Made<2> make_line_crack(const ParameterHandler &, const ReferenceInput<2> &input
 {
   const StraightCrack crack = straight_crack(input);
   const RockProperties &rock = input.rock.main();
+  double modulus = rock.young_modulus, ratio = rock.poisson_ratio;
+  if (rock.stiffness)
+  {
+    const LinearStiffness<2> stiffness(rock);
+    Tensor<1, 2> along;
+    along[0] = std::cos(crack.angle);
+    along[1] = std::sin(crack.angle);
+    if (!PlaneElasticity(stiffness.tensor(), along).is_degenerate())
+      return std::make_unique<AnisotropicCrackReference>(
+        analytical::AnisotropicCrack(stiffness.tensor(), crack.centre, crack.half_length,
+                                     crack.angle, input.crack_pressure, input.crack_shear),
+        crack.n_wings, input.has_pore_pressure);
+    // Isotropic in the plane of the run, as layers in this plane are.
+    const double mu = stiffness.shear_modulus();
+    ratio = 0.5 * (1. - mu / stiffness.bulk_modulus());
+    modulus = 2. * mu * (1. + ratio);
+  }
   return std::make_unique<LineCrackReference>(
-    analytical::LineCrackParameters{rock.young_modulus, rock.poisson_ratio, crack.half_length,
-                                    input.crack_pressure, input.crack_shear, crack.angle,
-                                    crack.centre[0], crack.centre[1]},
+    analytical::LineCrackParameters{modulus, ratio, crack.half_length, input.crack_pressure,
+                                    input.crack_shear, crack.angle, crack.centre[0],
+                                    crack.centre[1]},
     crack.n_wings, input.has_pore_pressure);
 }
 
