@@ -193,25 +193,34 @@ void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
   for (const auto &[region, law] : laws.all())
   {
     const RockProperties &properties = rock(region);
-    const std::string section = region == 0 ? "" : "Region " + std::to_string(region) + "/";
+    std::vector<std::string> sections = {"Rock"};
+    if (region != 0)
+      sections.push_back("Region " + std::to_string(region));
+    // At the region's own entry, or where it is inherited from.
+    const auto refuse = [&](const std::string &name, const std::string &allowed)
+    {
+      const std::string own = value_of(prm, sections, name);
+      const bool inherits = region != 0 && own.empty();
+      throw EntryError("Rock/" + (region == 0 || inherits ? "" : sections.back() + "/") + name,
+                       inherits ? value_of(prm, {"Rock"}, name) : own, allowed);
+    };
     const auto &normal = properties.layer_normal;
     const bool layered = properties.stiffness || properties.permeability_across > 0.;
-    const bool in_plane = std::abs(normal[2])<1e-12, across = std::abs(normal[2])> 1. - 1e-12;
+    const double tilt = std::abs(normal[2]);
+    const bool in_plane = tilt < 1e-12;
+    const bool across = tilt > 1. - 1e-12;
     if (dim == 2 && layered && !in_plane && !across)
-      throw EntryError("Rock/" + section + "Normal of the layers",
-                       value_of(prm, {"Rock"}, "Normal of the layers"),
-                       "a direction in the plane of the run or across it: with any other the rock "
-                       "would move across the plane");
+      refuse("Normal of the layers",
+             "a direction in the plane of the run or across it: with any other the rock would move "
+             "across the plane");
     if (properties.stiffness && !laws.are_linear())
-      throw EntryError("Rock/" + section + "Law", laws.name(region),
-                       "'elastic' beside rock that may yield");
+      refuse("Law", "'elastic' beside rock that may yield");
     const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
     if (!properties.has_isotropic_permeability() &&
         (leak_off == "resolved" || leak_off == "filter cake"))
-      throw EntryError("Rock/" + section + "Permeability across the layers",
-                       value_of(prm, {"Rock"}, "Permeability across the layers"),
-                       "nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
-                         "', which knows one permeability; or another law of leak-off");
+      refuse("Permeability across the layers",
+             "nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
+               "', which knows one permeability; or another law of leak-off");
   }
 }
 

@@ -39,6 +39,15 @@ FullMatrix<double> compliance(const SymmetricTensor<4, 2> &stiffness, const Tens
 } // namespace
 
 
+Tensor<1, 2> direction(const double angle)
+{
+  Tensor<1, 2> result;
+  result[0] = std::cos(angle);
+  result[1] = std::sin(angle);
+  return result;
+}
+
+
 PlaneElasticity::PlaneElasticity(const SymmetricTensor<4, 2> &stiffness, const Tensor<1, 2> &along)
 {
   const FullMatrix<double> a = compliance(stiffness, along);
@@ -73,13 +82,8 @@ double least_plane_modulus(const SymmetricTensor<4, 2> &stiffness)
   constexpr unsigned int n = 180;
   double least = std::numeric_limits<double>::infinity();
   for (unsigned int i = 0; i < n; ++i)
-  {
-    const double angle = i * numbers::PI / n;
-    Tensor<1, 2> along;
-    along[0] = std::cos(angle);
-    along[1] = std::sin(angle);
-    least = std::min(least, PlaneElasticity(stiffness, along).plane_modulus());
-  }
+    least =
+      std::min(least, PlaneElasticity(stiffness, direction(i * numbers::PI / n)).plane_modulus());
   return least;
 }
 } // namespace stockwork

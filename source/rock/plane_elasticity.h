@@ -8,6 +8,9 @@
 
 namespace stockwork
 {
+/// Unit vector at an angle to the x axis [rad].
+dealii::Tensor<1, 2> direction(double angle);
+
 /// Plane elasticity of anisotropic rock by two complex variables (Lekhnitskii 1963), in the frame
 /// of a crack: x along it, y to its left. With the compliances
 ///

@@ -165,6 +165,11 @@ RockProperties parse_properties(const ParameterHandler &prm,
   parse_layers(prm, path, rock);
   parse_stiffness(prm, path, inherited, stiffness ? stiffness(region, rock) : std::nullopt, rock);
 
+  if (inherited && !prm.get("Normal of the layers").empty() && !rock.stiffness &&
+      rock.permeability_across == 0.)
+    throw EntryError(path + "/Normal of the layers", prm.get("Normal of the layers"),
+                     "nothing (an empty entry): this region has no layers");
+
   // Biot's constants, from either pair. K is the three-dimensional drained bulk modulus; in
   // anisotropic rock alpha is the mean of its tensor (Cheng 1997, Eq. 30), taken in all directions.
   const double bulk_modulus = rock.bulk_modulus();

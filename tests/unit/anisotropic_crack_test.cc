@@ -12,14 +12,6 @@ using namespace dealii;
 
 namespace
 {
-Tensor<1, 2> direction(const double angle)
-{
-  Tensor<1, 2> result;
-  result[0] = std::cos(angle);
-  result[1] = std::sin(angle);
-  return result;
-}
-
 /// Layered rock with its layers along x, by its stiffness in the plane.
 SymmetricTensor<4, 3> layered()
 {

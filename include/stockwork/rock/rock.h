@@ -65,8 +65,8 @@ struct RockProperties
   /// K_Ic = sqrt(E' G_c) [Pa m^1/2].
   double toughness() const;
 
-  /// Drained, in three dimensions: a third of the mean stress per equal strain in all directions
-  /// (C_iijj / 9) [Pa].
+  /// Drained, in three dimensions: mean stress per volumetric strain when all directions are
+  /// strained alike (C_iijj / 9) [Pa].
   double bulk_modulus() const;
 
   /// k as a tensor [m^2].

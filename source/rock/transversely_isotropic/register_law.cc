@@ -1,4 +1,5 @@
 // Linear rock in layers: one plane in which all directions are alike, and its normal.
+#include "stockwork/rock/linear_law.h"
 #include "stockwork/rock/registry.h"
 
 #include "stockwork/base/error.h"
@@ -6,7 +7,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <limits>
+#include <cmath>
 
 namespace stockwork
 {
@@ -18,31 +19,6 @@ void register_law(RockLawRegistry &registry);
 
 namespace
 {
-/// Linear whatever happens; the elements know its stiffness.
-class TransverselyIsotropic : public RockLaw
-{
-public:
-  bool is_linear() const override
-  {
-    return true;
-  }
-
-  void evaluate(ArrayView<const RockState>, ArrayView<RockResponse>) const override
-  {
-  }
-
-  double used(const RockState &) const override
-  {
-    return 0.;
-  }
-
-  double margin(const RockState &) const override
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-};
-
-
 void declare_parameters(ParameterHandler &prm)
 {
   prm.declare_entry("Young modulus along", "", Quantity(dimension::stress, Range::positive(), ""),
@@ -164,7 +140,7 @@ void register_law(RockLawRegistry &registry)
   entry.declare_parameters = declare_parameters;
   entry.stiffness = stiffness;
   entry.create = [](const ParameterHandler &, const std::string &, const RockProperties &)
-  { return std::make_unique<TransverselyIsotropic>(); };
+  { return std::make_unique<LinearRockLaw>(); };
   registry.add("transversely isotropic", entry);
 }
 } // namespace transversely_isotropic

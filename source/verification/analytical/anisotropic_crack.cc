@@ -6,18 +6,6 @@ namespace stockwork::analytical
 {
 using namespace dealii;
 
-namespace
-{
-Tensor<1, 2> direction(const double angle)
-{
-  Tensor<1, 2> result;
-  result[0] = std::cos(angle);
-  result[1] = std::sin(angle);
-  return result;
-}
-} // namespace
-
-
 AnisotropicCrack::AnisotropicCrack(const SymmetricTensor<4, 2> &stiffness,
                                    const Point<2> &centre,
                                    const double half_length,

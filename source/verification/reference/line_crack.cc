@@ -11,6 +11,7 @@
 #include "verification/reference/problems.h"
 
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace stockwork::reference
@@ -54,23 +55,23 @@ StraightCrack straight_crack(const ReferenceInput<2> &input)
 class LineCrackField : public Field<2>
 {
 public:
-  LineCrackField(const analytical::LineCrack &crack, const bool has_pore_pressure)
+  using Displacement = std::function<Tensor<1, 2>(const Point<2> &)>;
+
+  LineCrackField(const Displacement &displacement_at, const bool has_pore_pressure)
     : Field<2>(has_pore_pressure)
-    , crack(crack)
+    , displacement_at(displacement_at)
   {
   }
 
 protected:
   void evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
   {
-    const auto u = crack.displacement(point[0], point[1]);
-    displacement[0] = u[0];
-    displacement[1] = u[1];
+    displacement = displacement_at(point);
     pressure = 0.;
   }
 
 private:
-  analytical::LineCrack crack;
+  Displacement displacement_at;
 };
 
 
@@ -82,7 +83,13 @@ public:
                      const bool has_pore_pressure)
     : crack(parameters)
     , n_wings(n_wings)
-    , solution(std::make_shared<LineCrackField>(crack, has_pore_pressure))
+    , solution(std::make_shared<LineCrackField>(
+        [line = this->crack](const Point<2> &x)
+        {
+          const auto u = line.displacement(x[0], x[1]);
+          return Tensor<1, 2>({u[0], u[1]});
+        },
+        has_pore_pressure))
   {
   }
 
@@ -112,27 +119,6 @@ private:
 };
 
 
-class AnisotropicCrackField : public Field<2>
-{
-public:
-  AnisotropicCrackField(const analytical::AnisotropicCrack &crack, const bool has_pore_pressure)
-    : Field<2>(has_pore_pressure)
-    , crack(crack)
-  {
-  }
-
-protected:
-  void evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
-  {
-    displacement = crack.displacement(point);
-    pressure = 0.;
-  }
-
-private:
-  analytical::AnisotropicCrack crack;
-};
-
-
 class AnisotropicCrackReference : public ReferenceSolution<2>
 {
 public:
@@ -141,7 +127,8 @@ public:
                             const bool has_pore_pressure)
     : crack(crack)
     , n_wings(n_wings)
-    , solution(std::make_shared<AnisotropicCrackField>(crack, has_pore_pressure))
+    , solution(std::make_shared<LineCrackField>(
+        [crack](const Point<2> &x) { return crack.displacement(x); }, has_pore_pressure))
   {
   }
 
@@ -167,7 +154,7 @@ public:
 private:
   analytical::AnisotropicCrack crack;
   unsigned int n_wings;
-  std::shared_ptr<AnisotropicCrackField> solution;
+  std::shared_ptr<LineCrackField> solution;
 };
 
 
@@ -208,10 +195,7 @@ Made<2> make_line_crack(const ParameterHandler &, const ReferenceInput<2> &input
   if (rock.stiffness)
   {
     const LinearStiffness<2> stiffness(rock);
-    Tensor<1, 2> along;
-    along[0] = std::cos(crack.angle);
-    along[1] = std::sin(crack.angle);
-    if (!PlaneElasticity(stiffness.tensor(), along).is_degenerate())
+    if (!PlaneElasticity(stiffness.tensor(), direction(crack.angle)).is_degenerate())
       return std::make_unique<AnisotropicCrackReference>(
         analytical::AnisotropicCrack(stiffness.tensor(), crack.centre, crack.half_length,
                                      crack.angle, input.crack_pressure, input.crack_shear),
