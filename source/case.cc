@@ -213,12 +213,13 @@ void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
       refuse("Normal of the layers",
              "a direction in the plane of the run or across it: with any other the rock would move "
              "across the plane");
-    if (properties.stiffness && !laws.are_linear())
+    if (properties.stiffness && laws.may_yield())
       refuse("Law", "'elastic' beside rock that may yield");
     const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
-    if (!properties.has_isotropic_permeability() &&
+    const bool stress_counts = std::isfinite(properties.permeability_decay_stress);
+    if ((!properties.has_isotropic_permeability() || stress_counts) &&
         (leak_off == "resolved" || leak_off == "filter cake"))
-      refuse("Permeability across the layers",
+      refuse(stress_counts ? "Permeability decay stress" : "Permeability across the layers",
              "nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
                "', which knows one permeability; or another law of leak-off");
   }
@@ -238,11 +239,42 @@ void check_history(ParameterHandler &prm, const Case<dim> &the_case)
       "them ('Time/Inertia', 'Rock/Bulk model')");
   if (the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
     throw EntryError("Time/Scheme", value_of(prm, {"Time"}, "Scheme"),
-                     "backward Euler (or auto) in porous rock that may yield");
+                     "backward Euler (or auto) in porous rock that is not linear (it may yield, or "
+                     "its permeability hangs on the stress)");
   if (std::isfinite(the_case.control.error_tolerance))
-    throw EntryError("Time/Error tolerance", value_of(prm, {"Time"}, "Error tolerance"),
-                     "'inf' in porous rock that may yield: its steps are backward Euler's, which "
-                     "are not chosen by error");
+    throw EntryError(
+      "Time/Error tolerance", value_of(prm, {"Time"}, "Error tolerance"),
+      "'inf' in porous rock that is not linear: its steps are backward Euler's, which "
+      "are not chosen by error");
+}
+
+
+/// Permeability that hangs on the stress, where nobody looks at it.
+template <int dim>
+void check_permeability(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  for (const auto &[region, law] : the_case.laws.all())
+    if (law->changes_permeability())
+    {
+      std::vector<std::string> sections = {"Rock"};
+      if (region != 0 &&
+          !value_of(prm, {"Rock", "Region " + std::to_string(region)}, "Permeability decay stress")
+             .empty())
+        sections.push_back("Region " + std::to_string(region));
+      const auto refuse = [&](const std::string &allowed)
+      {
+        throw EntryError(sections[0] + "/" + (sections.size() > 1 ? sections[1] + "/" : "") +
+                           "Permeability decay stress",
+                         value_of(prm, sections, "Permeability decay stress"), allowed);
+      };
+      if (!the_case.discretisation.has_pore_pressure)
+        refuse("nothing (an empty entry): no pore pressure is solved for, so permeability does not "
+               "count; or 'Rock/Bulk model = poroelastic'");
+      if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
+        refuse("nothing (an empty entry) with inertia");
+      if (the_case.rock(region).plane_stress)
+        refuse("nothing (an empty entry) in plane stress; or 'Rock/Plane state = plane strain'");
+    }
 }
 
 
@@ -399,6 +431,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
           [this](const Point<dim> &x) { return in_situ.pore_pressure(x); },
           0.}
 {
+  scene.rock_law = [this](const types::material_id region) -> const RockLaw &
+  { return laws(region); };
   scene.in_situ_tensor = [this](const Point<dim> &x, const RockProperties &properties)
   { return in_situ.tensor(x, properties); };
   geometry.parse_parameters(prm, std::filesystem::path(deck.file()).parent_path().string());
@@ -432,11 +466,12 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
   prm.leave_subsection();
-  const bool solves_for_flow = model_name != "none" && std::isnan(scene.crack_pressure);
   const std::vector<ChosenValue> chosen_for_flow = set_flow_scales(prm, *this);
+  model = make_model<dim>(prm, plug_ins, scene);
+  const bool has_fracture = model->requirements().has_fracture;
+  const bool solves_for_flow = has_fracture && std::isnan(scene.crack_pressure);
   if (solves_for_flow)
     chosen = chosen_for_flow;
-  model = make_model<dim>(prm, plug_ins, scene);
   if (model->requirements().uniform_rock || model->requirements().uniform_strength)
     refuse_regions(prm, model_name, model->requirements());
   refuse_absent_regions(prm, geometry);
@@ -452,17 +487,18 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
     require(prm, "Rock", "Permeability",
             "a permeability > 0 m^2, such as '1 md', for the pore pressure is solved for; or 'Bulk "
             "model = elastic'");
-  if (discretisation.has_pore_pressure || (solves_for_flow && !model->requirements().bulk_alone))
+  if (discretisation.has_pore_pressure || solves_for_flow)
     require(prm, "Fluid", "Viscosity",
             "a viscosity > 0 Pa s, such as '1 cP', for there is flow in pores or fractures; or, "
             "where a fracture is dry, 'Cracks/Fluid pressure = 0'");
   if (discretisation.has_pore_pressure)
     refuse_incompressible(prm, rock, geometry, boundary_conditions);
 
-  scheme.parse_parameters(prm, model_name == "none" && discretisation.has_pore_pressure &&
-                                 laws.are_linear());
+  scheme.parse_parameters(prm,
+                          !has_fracture && discretisation.has_pore_pressure && laws.are_linear());
 
   check_history(prm, *this);
+  check_permeability(prm, *this);
   if (scheme.kind() == TimeScheme::Kind::newmark)
     require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
   if (std::isfinite(control.error_tolerance) && scheme.kind() != TimeScheme::Kind::bdf2)
@@ -472,14 +508,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Least pressure'");
-  if (model->requirements().quasi_static_only && scheme.kind() == TimeScheme::Kind::newmark)
-    throw EntryError("Time/Scheme", "Newmark",
-                     "a quasi-static scheme, because the fracture model has no inertia");
 
   CouplingParameters coupling;
   coupling.parse_parameters(prm);
-  coupling.check(rock.main(), discretisation.has_pore_pressure,
-                 model_name != "none" && !model->requirements().bulk_alone, network.has_wells());
+  coupling.check(rock.main(), discretisation.has_pore_pressure, has_fracture, network.has_wells());
 
   ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
   input.has_pore_pressure = discretisation.has_pore_pressure;
@@ -521,7 +553,13 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   input.hole_radius = geometry.hole_radius();
   reference = make_reference<dim>(prm, input);
   starts_from_reference = stockwork::starts_from_reference(prm);
-  if (reference && !laws.are_linear() && !reference->is_of_yielding_rock())
+  if (reference && std::any_of(laws.all().begin(), laws.all().end(),
+                               [](const auto &law) { return law.second->changes_permeability(); }))
+    throw EntryError(
+      "Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+      "'none' with a 'Rock/Permeability decay stress': the solution is of rock whose "
+      "permeability does not hang on the stress");
+  if (reference && laws.may_yield() && !reference->is_of_yielding_rock())
     throw EntryError("Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
                      "'none' (or 'borehole' or 'footing') with a 'Rock/Law' that may yield: the "
                      "solution is of linear rock");
@@ -530,7 +568,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
     moved |= boundary_conditions.greatest_displacement(
                control.start_time + 0.01 * i * (control.end_time - control.start_time)) > 0.;
   audits_energy =
-    !discretisation.has_pore_pressure && in_situ.is_zero() && !model->requirements().changes_bulk &&
+    !discretisation.has_pore_pressure && in_situ.is_zero() &&
     (scene.cracks.empty() || scene.crack_pressure == 0.) &&
     (scheme.kind() == TimeScheme::Kind::newmark ? !moved
                                                 : moved && boundary_conditions.loads().empty());

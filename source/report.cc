@@ -89,7 +89,8 @@ std::map<std::string, double> Report<dim>::observe()
   if (summary.energy_release_rate)
     values["energy_release_rate"] = *summary.energy_release_rate;
   double dissipated_in_rock = 0.;
-  if (const NonlinearRock<dim> *rock_beyond = system.nonlinear_rock())
+  if (const NonlinearRock<dim> *rock_beyond = system.nonlinear_rock();
+      rock_beyond != nullptr && rock_beyond->remembers())
   {
     const auto &mine = rock_beyond->totals();
     std::vector<double> sums{mine.yielded_volume, mine.dissipated_energy};

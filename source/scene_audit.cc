@@ -323,14 +323,39 @@ void add_strength(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
 } // namespace
 
 
+namespace
+{
+/// What the in-situ stress leaves of the permeability, in the middle of the domain.
+template <int dim>
+void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
+{
+  const RockProperties &rock = the_case.rock.main();
+  const Point<dim> centre =
+    the_case.geometry.lower() + 0.5 * (the_case.geometry.upper() - the_case.geometry.lower());
+  RockState state;
+  state.in_situ_stress = the_case.scene.in_situ_tensor(centre, rock);
+  state.in_situ_pressure = the_case.scene.in_situ_pore_pressure(centre);
+  RockResponse response;
+  the_case.laws(0).evaluate(ArrayView<const RockState>(&state, 1),
+                            ArrayView<RockResponse>(&response, 1));
+  numbers.push_back({"share of the permeability left in situ",
+                     trace(response.permeability) / trace(rock.template permeability_tensor<3>()),
+                     "in the middle of the domain, by the mean effective stress; the numbers of "
+                     "diffusion here are with 'Rock/Permeability'"});
+}
+} // namespace
+
+
 template <int dim>
 std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
   std::vector<SceneNumber> numbers;
   if constexpr (dim == 2)
     add_principal_stresses(the_case, numbers);
-  if (!the_case.laws(0).is_linear())
+  if (the_case.laws(0).n_history() > 0)
     add_strength(the_case, numbers);
+  if (the_case.laws(0).changes_permeability())
+    add_permeability(the_case, numbers);
   const RockProperties &rock = the_case.rock.main();
   const double duration = the_case.control.end_time - the_case.control.start_time;
 
@@ -440,7 +465,7 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
     run.out << "  " << chosen.entry << " = " << chosen.value << ": " << chosen.why << '\n';
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
     run.out << "  left out: inertia (Time/Inertia = off)\n";
-  if (the_case.laws.are_linear())
+  if (!the_case.laws.may_yield())
     run.out << "  left out: plasticity (the rock is elastic)\n";
   run.out << std::flush;
 }

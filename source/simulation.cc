@@ -269,12 +269,20 @@ void Simulation<dim>::check_rock(ParameterHandler &prm) const
   if (rock == nullptr)
     return;
   std::string replaced;
+  bool flows = false;
   for (const auto &cell : system.bulk_dofs().active_cell_iterators())
-    if (cell->is_locally_owned() && !rock->laws(cell->material_id()).is_linear() &&
+    if (cell->is_locally_owned() && rock->answers(cell) &&
         the_case.model->role(cell).skip_stiffness != nullptr)
+    {
       replaced = rock->laws.name(cell->material_id());
-  if (the_case.model->requirements().changes_bulk && replaced.empty())
-    replaced = rock->laws.name(0);
+      flows = rock->law(cell).n_history() == 0;
+    }
+  if (Utilities::MPI::max(flows ? 1 : 0, run.communicator) == 1)
+    throw EntryError("Rock/Permeability decay stress",
+                     value_of(prm, {"Rock"}, "Permeability decay stress"),
+                     "nothing (an empty entry) where the fracture model '" + the_case.model_name +
+                       "' provides the stiffness of the rock itself: the elements do not know the "
+                       "stress there");
   for (const std::string &law : Utilities::MPI::all_gather(run.communicator, replaced))
     if (!law.empty())
       throw EntryError("Rock/Law", law,
@@ -321,7 +329,7 @@ template <int dim>
 void Simulation<dim>::say_how_far_rock_went() const
 {
   NonlinearRock<dim> *const rock = system.nonlinear_rock();
-  if (rock == nullptr)
+  if (rock == nullptr || !rock->remembers())
     return;
   const double volume = Utilities::MPI::sum(rock->totals().yielded_volume, run.communicator);
   const double used = Utilities::MPI::max(rock->totals().greatest_used, run.communicator);

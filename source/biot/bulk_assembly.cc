@@ -33,12 +33,11 @@ BulkAssembly<dim>::BulkAssembly(const Rock &rock,
                                 const Loads<dim> &loads,
                                 const PressureStabilisation stabilisation,
                                 const Discretization<dim> discretization,
-                                const BulkChanges<dim> &changes)
+                                const Role &role)
   : rock(rock)
   , loads(loads)
   , discretization(discretization)
-  , matrices(
-      discretization.mapping, discretization.dof_handler.get_fe(), rock, stabilisation, changes)
+  , matrices(discretization.mapping, discretization.dof_handler.get_fe(), rock, stabilisation, role)
   , face_values(discretization.mapping,
                 discretization.dof_handler.get_fe(),
                 QGauss<dim - 1>(discretization.dof_handler.get_fe().base_element(0).degree + 1),

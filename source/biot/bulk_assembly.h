@@ -39,7 +39,7 @@ public:
                const Loads<dim> &loads,
                PressureStabilisation stabilisation,
                const Discretization<dim> discretization,
-               const BulkChanges<dim> &changes = {});
+               const Role &role = {});
 
   /// Fill the matrix of the bulk and, unless null, the fixed-stress mass. Cells are visited when
   /// `anew` or where inertia has changed; otherwise the step's length alone has, and with it the

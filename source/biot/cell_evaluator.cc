@@ -75,6 +75,20 @@ void CellEvaluator<dim>::pressure(const Unknowns &unknowns, std::vector<double> 
 }
 
 
+template <int dim>
+void CellEvaluator<dim>::pressure_gradient(const Unknowns &unknowns,
+                                           std::vector<Tensor<1, dim>> &result) const
+{
+  result.assign(n_points(), Tensor<1, dim>());
+  for (unsigned int a = 0; a < layout.n_p; ++a)
+  {
+    const double value = unknowns.bulk(dof_indices[layout.p[a]]);
+    for (unsigned int q = 0; q < n_points(); ++q)
+      result[q] += value * pressure_gradient(a, q);
+  }
+}
+
+
 template class CellEvaluator<2>;
 template class CellEvaluator<3>;
 } // namespace stockwork

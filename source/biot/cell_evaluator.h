@@ -88,6 +88,11 @@ public:
     return values->shape_value(layout.p[a], q);
   }
 
+  dealii::Tensor<1, dim> pressure_gradient(const unsigned int a, const unsigned int q) const
+  {
+    return values->shape_grad(layout.p[a], q);
+  }
+
   /// The cell's dofs, in the order of the element.
   const std::vector<dealii::types::global_dof_index> &dofs() const
   {
@@ -103,6 +108,8 @@ public:
   /// At all points.
   void strain(const Unknowns &unknowns, std::vector<dealii::SymmetricTensor<2, dim>> &result) const;
   void pressure(const Unknowns &unknowns, std::vector<double> &result) const;
+  void pressure_gradient(const Unknowns &unknowns,
+                         std::vector<dealii::Tensor<1, dim>> &result) const;
 
   const BulkLayout<dim> layout;
 

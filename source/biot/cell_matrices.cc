@@ -7,14 +7,12 @@ namespace stockwork
 using namespace dealii;
 
 template <int dim>
-BulkCoefficients<dim> intact_rock(const RockProperties &rock, const Fluid &fluid)
+BulkCoefficients<dim>::BulkCoefficients(const RockProperties &rock, const Fluid &fluid)
+  : stiffness(LinearStiffness<dim>(rock).tensor())
+  , biot(rock.biot_coefficient * unit_symmetric_tensor<dim>())
+  , storage(rock.inverse_biot_modulus)
+  , mobility(rock.permeability_tensor<dim>() / fluid.viscosity)
 {
-  BulkCoefficients<dim> intact;
-  intact.stiffness = LinearStiffness<dim>(rock).tensor();
-  intact.biot = rock.biot_coefficient * unit_symmetric_tensor<dim>();
-  intact.storage = rock.inverse_biot_modulus;
-  intact.mobility = rock.permeability_tensor<dim>() / fluid.viscosity;
-  return intact;
 }
 
 
@@ -23,7 +21,7 @@ CellMatrices<dim>::CellMatrices(const Mapping<dim> &mapping,
                                 const FiniteElement<dim> &fe,
                                 const Rock &rock,
                                 const PressureStabilisation stabilisation,
-                                const BulkChanges<dim> &changes)
+                                const Role &role)
   : integrals(mapping, fe)
   , whole(fe.n_dofs_per_cell())
   , storage(integrals.layout.n_p)
@@ -32,7 +30,7 @@ CellMatrices<dim>::CellMatrices(const Mapping<dim> &mapping,
   , content(fe.n_dofs_per_cell())
   , rock(rock)
   , stabilisation(stabilisation)
-  , changes(changes)
+  , role_of(role)
   , fe_values(mapping,
               fe,
               QGauss<dim>(fe.base_element(0).degree + 1),
@@ -48,30 +46,25 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
   const RockProperties *const before = rock_of_cell;
   rock_of_cell = &rock(cell->material_id());
   const bool new_cell = integrals.reinit(cell) || rock_of_cell != before || is_special;
-  const CellRole<dim> role = changes.role ? changes.role(cell) : CellRole<dim>();
+  const CellRole<dim> role = role_of ? role_of(cell) : CellRole<dim>();
   is_special = role.skip_stiffness != nullptr || role.fracture_normal != nullptr;
   const bool new_whole = new_cell || rate != context.rate ||
                          pressure_rate != context.pressure_rate ||
                          acceleration != context.acceleration;
-  if (changes.coefficients)
-    matrices_by_quadrature(cell, context);
+  if (rock_of_cell->stiffness || !rock_of_cell->has_isotropic_permeability())
+  {
+    if (new_whole)
+      matrices_by_quadrature(cell, context);
+  }
   else
   {
-    if (rock_of_cell->stiffness || !rock_of_cell->has_isotropic_permeability())
-    {
-      if (new_whole)
-        matrices_by_quadrature(cell, context);
-    }
-    else
-    {
-      if (new_cell)
-        pressure_matrices();
-      if (new_whole)
-        whole_matrix(context);
-    }
-    if (role.fracture_normal != nullptr)
-      exclude_opening(*role.fracture_normal);
+    if (new_cell)
+      pressure_matrices();
+    if (new_whole)
+      whole_matrix(context);
   }
+  if (role.fracture_normal != nullptr)
+    exclude_opening(*role.fracture_normal);
   if (role.skip_stiffness != nullptr)
     skip_stiffness(*role.skip_stiffness, context);
 }
@@ -206,16 +199,13 @@ void CellMatrices<dim>::matrices_by_quadrature(
   const double inertia = context.acceleration * rock_of_cell->density;
 
   fe_values.reinit(cell);
-  coefficients.assign(fe_values.n_quadrature_points, intact_rock<dim>(*rock_of_cell, rock.fluid()));
-  if (changes.coefficients)
-    changes.coefficients(cell, fe_values.get_quadrature_points(), coefficients);
+  const BulkCoefficients<dim> c(*rock_of_cell, rock.fluid());
 
   for (FullMatrix<double> *matrix : {&whole, &storage, &diffusion, &fixed_stress})
     *matrix = 0.;
   content = 0.;
   for (const unsigned int q : fe_values.quadrature_point_indices())
   {
-    const BulkCoefficients<dim> &c = coefficients[q];
     const double w = fe_values.JxW(q);
     for (const unsigned int j : layout.u)
     {
@@ -271,8 +261,8 @@ void CellMatrices<dim>::matrices_by_quadrature(
 }
 
 
-template BulkCoefficients<2> intact_rock<2>(const RockProperties &, const Fluid &);
-template BulkCoefficients<3> intact_rock<3>(const RockProperties &, const Fluid &);
+template struct BulkCoefficients<2>;
+template struct BulkCoefficients<3>;
 template class CellMatrices<2>;
 template class CellMatrices<3>;
 } // namespace stockwork

@@ -22,35 +22,34 @@ enum class PressureStabilisation
   projection ///< polynomial pressure projection, on the increment (White & Borja 2008)
 };
 
-/// What a fracture model does to the rock, see FractureModel; either may be empty.
+/// Coefficients of linear rock, of any symmetry.
 template <int dim>
-struct BulkChanges
+struct BulkCoefficients
 {
-  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+  BulkCoefficients(const RockProperties &rock, const Fluid &fluid);
 
-  std::function<void(const CellIterator &,
-                     const std::vector<dealii::Point<dim>> &,
-                     std::vector<BulkCoefficients<dim>> &)>
-    coefficients;
-  std::function<CellRole<dim>(const CellIterator &)>
-    role; ///< cut cells are no business of this one
+  dealii::SymmetricTensor<4, dim> stiffness;
+  dealii::SymmetricTensor<2, dim> biot;
+  double storage;                           ///< 1/M [1/Pa]
+  dealii::SymmetricTensor<2, dim> mobility; ///< k/mu [m^2/(Pa s)]
 };
 
-/// Rock that no fracture model changes.
-template <int dim>
-BulkCoefficients<dim> intact_rock(const RockProperties &rock, const Fluid &fluid);
-
-/// The matrices of one cell. In homogeneous rock that no fracture model changes they are those of
-/// the last cell where that has the same shape, rock and time step.
+/// The matrices of one cell of linear rock. They are those of the last cell where that has the same
+/// shape, rock and time step, and neither has a role.
 template <int dim>
 class CellMatrices
 {
 public:
+  using Role =
+    std::function<CellRole<dim>(const typename dealii::DoFHandler<dim>::active_cell_iterator &)>;
+
+  /// @param role what a fracture model does to cells; cut ones are no business of this class. May
+  /// be empty.
   CellMatrices(const dealii::Mapping<dim> &mapping,
                const dealii::FiniteElement<dim> &fe,
                const Rock &rock,
                PressureStabilisation stabilisation,
-               const BulkChanges<dim> &changes = {});
+               const Role &role = {});
 
   void reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
               const StepContext &context);
@@ -81,7 +80,7 @@ public:
 private:
   void pressure_matrices();
 
-  /// From coefficients at quadrature points, of any symmetry.
+  /// Of anisotropic rock.
   void matrices_by_quadrature(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
                               const StepContext &context);
   void whole_matrix(const StepContext &context);
@@ -90,9 +89,8 @@ private:
 
   const Rock &rock;
   PressureStabilisation stabilisation;
-  const BulkChanges<dim> changes;
-  dealii::FEValues<dim> fe_values;                 ///< for changed or anisotropic cells
-  std::vector<BulkCoefficients<dim>> coefficients; ///< at the quadrature points of such a cell
+  const Role role_of;
+  dealii::FEValues<dim> fe_values; ///< for anisotropic rock
   const RockProperties *rock_of_cell = nullptr;
   bool is_special = false; ///< the cell has a role, so its matrices are no other's
   double rate = -1., pressure_rate = -1., acceleration = -1.; ///< of `whole`

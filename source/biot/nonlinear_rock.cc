@@ -1,6 +1,6 @@
 #include "biot/nonlinear_rock.h"
 
-#include "stockwork/rock/linear_stiffness.h"
+#include "stockwork/rock/linear_law.h"
 
 #include "biot/prescribed_part.h"
 
@@ -56,30 +56,18 @@ SymmetricTensor<4, dim> in_plane(const SymmetricTensor<4, 3> &t)
           result[i][j][k][l] = t[i][j][k][l];
   return result;
 }
-
-
-/// What rock in its linear range answers.
-RockResponse linear_response(const RockProperties &rock, const RockState &state)
-{
-  const auto identity = unit_symmetric_tensor<3>();
-  const LinearStiffness<3> hooke(rock);
-  RockResponse response;
-  response.stress_by_strain = hooke.tensor();
-  response.stress_by_pressure = -rock.biot_coefficient * identity;
-  response.content_by_strain = rock.biot_coefficient * identity;
-  response.content_by_pressure = rock.inverse_biot_modulus;
-  response.stress = hooke.stress(state.strain) + state.pressure * response.stress_by_pressure;
-  response.content =
-    rock.biot_coefficient * trace(state.strain) + rock.inverse_biot_modulus * state.pressure;
-  return response;
-}
 } // namespace
 
 
 template <int dim>
-NonlinearRock<dim>::NonlinearRock(const RockLaws &laws, const Scene<dim> &scene)
+NonlinearRock<dim>::NonlinearRock(const RockLaws &laws,
+                                  const Scene<dim> &scene,
+                                  const Role &role,
+                                  const RockLaw *const law_of_model)
   : laws(laws)
   , scene(scene)
+  , role(role)
+  , law_of_model(law_of_model)
 {
 }
 
@@ -94,16 +82,44 @@ void NonlinearRock<dim>::setup(const Discretization<dim> &new_discretization)
   if (!points)
   {
     unsigned int n = 0;
-    for (const auto &[region, law] : laws.all())
+    for (const RockLaw *const law : all_laws())
       n = std::max(n, law->n_history());
     points = std::make_unique<PointHistory<dim>>(n_core + n, quadrature.get_points());
     points->reinit(discretization->dof_handler.get_triangulation().n_active_cells());
   }
+  find_watched();
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::find_watched()
+{
   watched.clear();
   for (const auto &cell : discretization->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && answers(cell))
       watched.push_back({cell, 0., 0.});
   has_looked = false;
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::topology_changed()
+{
+  evaluator->forget_cuts();
+  if (law_of_model != nullptr)
+    find_watched();
+}
+
+
+template <int dim>
+std::vector<const RockLaw *> NonlinearRock<dim>::all_laws() const
+{
+  std::vector<const RockLaw *> all;
+  for (const auto &[region, law] : laws.all())
+    all.push_back(law.get());
+  if (law_of_model != nullptr)
+    all.push_back(law_of_model);
+  return all;
 }
 
 
@@ -121,7 +137,7 @@ typename NonlinearRock<dim>::InSituShare NonlinearRock<dim>::in_situ_share()
         RockState state;
         state.in_situ_stress = scene.in_situ_tensor(x, scene.rock(cell->material_id()));
         state.in_situ_pressure = scene.in_situ_pore_pressure(x);
-        const double used = laws(cell->material_id()).used(state);
+        const double used = law(cell).used(state);
         if (used > share.used)
           share = {used, x};
       }
@@ -131,9 +147,13 @@ typename NonlinearRock<dim>::InSituShare NonlinearRock<dim>::in_situ_share()
 
 
 template <int dim>
-void NonlinearRock<dim>::states_at(const CellIterator &cell, const Unknowns &unknowns)
+void NonlinearRock<dim>::states_at(const CellIterator &cell,
+                                   const State &state,
+                                   const Unknowns &unknowns)
 {
   const RockProperties &rock = scene.rock(cell->material_id());
+  const auto segment = law_of_model != nullptr ? role(cell).segment : std::nullopt;
+  const double fracture_pressure = segment ? state.pressure_of(*segment, unknowns) : 0.;
   evaluator->strain(unknowns, strains);
   evaluator->pressure(unknowns, pressures);
   states.resize(evaluator->n_points());
@@ -144,6 +164,7 @@ void NonlinearRock<dim>::states_at(const CellIterator &cell, const Unknowns &unk
     states[q].pressure = pressures[q];
     states[q].in_situ_stress = scene.in_situ_tensor(x, rock);
     states[q].in_situ_pressure = scene.in_situ_pore_pressure(x);
+    states[q].fracture_pressure = fracture_pressure;
     states[q].history = committed[q] != nullptr ? committed[q] + n_core : nullptr;
   }
 }
@@ -176,15 +197,15 @@ double greatest_change(const TrilinosWrappers::MPI::Vector &now,
 
 
 template <int dim>
-void NonlinearRock<dim>::look_around(const Unknowns &unknowns, const Role &role)
+void NonlinearRock<dim>::look_around(const State &state, const Unknowns &unknowns)
 {
   last_totals.greatest_used = 0.;
   for (Watched &item : watched)
   {
-    const RockLaw &law = laws(item.cell->material_id());
+    const RockLaw &law = this->law(item.cell);
     evaluator->reinit(item.cell, role(item.cell).cut);
     find_history(item.cell);
-    states_at(item.cell, unknowns);
+    states_at(item.cell, state, unknowns);
     item.margin = std::numeric_limits<double>::infinity();
     double steepest = 0.;
     for (unsigned int q = 0; q < states.size(); ++q)
@@ -197,11 +218,13 @@ void NonlinearRock<dim>::look_around(const Unknowns &unknowns, const Role &role)
       if (committed[q] == nullptr)
         last_totals.greatest_used = std::max(last_totals.greatest_used, law.used(states[q]));
     }
-    // |stress| <= max(3 K, 2 G) |strain| with |strain| <= sum_a |grad N_a| |u_a|.
+    // |stress| <= max(3 K, 2 G) |strain| with |strain| <= sum_a |grad N_a| |u_a|; in anisotropic
+    // rock the norm of the stiffness is no less.
     const RockProperties &rock = scene.rock(item.cell->material_id());
-    const double shear = 2. * rock.shear_modulus();
-    item.slope =
-      std::max(3. * rock.lame_lambda() + shear, shear) * steepest * std::sqrt(double(dim));
+    const double stiffest = rock.stiffness
+                              ? rock.stiffness->norm()
+                              : 2. * rock.shear_modulus() + std::max(0., 3. * rock.lame_lambda());
+    item.slope = stiffest * steepest * std::sqrt(double(dim));
   }
   looked_at = unknowns.bulk;
   has_looked = true;
@@ -210,10 +233,10 @@ void NonlinearRock<dim>::look_around(const Unknowns &unknowns, const Role &role)
 
 template <int dim>
 template <class Use>
-void NonlinearRock<dim>::visit(const State &state, const Role &role, const Use &use)
+void NonlinearRock<dim>::visit(const State &state, const Use &use)
 {
   if (!has_looked)
-    look_around(state.committed, role);
+    look_around(state, state.committed);
   const auto &now = state.current.bulk;
   const double moved = greatest_change(now.block(0), looked_at.block(0)),
                pressed =
@@ -227,8 +250,8 @@ void NonlinearRock<dim>::visit(const State &state, const Role &role, const Use &
       continue;
     evaluator->reinit(item.cell, cut);
     find_history(item.cell);
-    states_at(item.cell, state.current);
-    const RockLaw &law = laws(item.cell->material_id());
+    states_at(item.cell, state, state.current);
+    const RockLaw &law = this->law(item.cell);
     if (has_history || std::any_of(states.begin(), states.end(),
                                    [&](const RockState &s) { return law.margin(s) <= 0.; }))
       use(item.cell);
@@ -237,87 +260,171 @@ void NonlinearRock<dim>::visit(const State &state, const Role &role, const Use &
 
 
 template <int dim>
+unsigned int NonlinearRock<dim>::place(const unsigned int function) const
+{
+  const auto &u = evaluator->layout.u;
+  return function < u.size() ? u[function] : evaluator->dofs().size() + function - u.size();
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim> NonlinearRock<dim>::mobility_beyond(const RockProperties &rock,
+                                                            const unsigned int q) const
+{
+  return (in_plane<dim>(responses[q].permeability) - rock.template permeability_tensor<dim>()) /
+         scene.rock.fluid().viscosity;
+}
+
+
+template <int dim>
 void NonlinearRock<dim>::add_cell(const CellIterator &cell,
-                                  const bool with_matrix,
+                                  const StepContext &context,
+                                  const State &state,
                                   LocalSystem &local)
 {
   const RockProperties &rock = scene.rock(cell->material_id());
-  const auto &layout = evaluator->layout;
-  const unsigned int n_bulk = evaluator->dofs().size(), n = evaluator->n_functions();
-  const auto place = [&](const unsigned int function)
-  { return function < layout.u.size() ? layout.u[function] : n_bulk + function - layout.u.size(); };
-
+  const RockLaw &law = this->law(cell);
   local.bulk = evaluator->dofs();
   local.extra = evaluator->extra();
+  const auto segment = law_of_model != nullptr ? role(cell).segment : std::nullopt;
+  const auto unknown =
+    segment && state.segment_unknown ? state.segment_unknown(*segment) : std::nullopt;
+  if (unknown)
+    local.extra.push_back(*unknown);
   local.reinit();
-  responses.assign(states.size(), RockResponse());
-  laws(cell->material_id())
-    .evaluate(make_array_view(states.cbegin(), states.cend()),
-              make_array_view(responses.begin(), responses.end()));
 
+  responses.assign(states.size(), RockResponse());
+  law.evaluate(make_array_view(states.cbegin(), states.cend()),
+               make_array_view(responses.begin(), responses.end()));
+  const bool flows = law.changes_permeability() && evaluator->layout.n_p > 0;
+  if (flows)
+    evaluator->pressure_gradient(state.current, pressure_gradients);
   for (unsigned int q = 0; q < states.size(); ++q)
   {
-    const double w = evaluator->weight(q);
-    const RockResponse &response = responses[q], linear = linear_response(rock, states[q]);
-    const Tensor<2, dim> stress = in_plane<dim>(response.stress - linear.stress);
-    for (unsigned int i = 0; i < n; ++i)
-      local.residual(place(i)) += stress[evaluator->component(i)] * evaluator->gradient(i, q) * w;
-    const double content = response.content - linear.content -
-                           (committed[q] != nullptr ? committed[q][content_beyond] : 0.);
-    for (unsigned int a = 0; a < layout.n_p; ++a)
-      local.residual(layout.p[a]) -= evaluator->pressure_value(a, q) * content * w;
-    if (!with_matrix)
-      continue;
-
-    const auto stiffness = in_plane<dim>(response.stress_by_strain - linear.stress_by_strain);
-    const Tensor<2, dim> by_pressure =
-      in_plane<dim>(response.stress_by_pressure - linear.stress_by_pressure);
-    const Tensor<2, dim> by_strain =
-      in_plane<dim>(response.content_by_strain - linear.content_by_strain);
-    const double storage = response.content_by_pressure - linear.content_by_pressure;
-    for (unsigned int j = 0; j < n; ++j)
-    {
-      Tensor<2, dim> gradient;
-      gradient[evaluator->component(j)] = evaluator->gradient(j, q);
-      const Tensor<2, dim> change = w * (stiffness * symmetrize(gradient));
-      for (unsigned int i = 0; i < n; ++i)
-        local.matrix(place(i), place(j)) +=
-          change[evaluator->component(i)] * evaluator->gradient(i, q);
-      const double along = w * (by_pressure[evaluator->component(j)] * evaluator->gradient(j, q)),
-                   gained = w * (by_strain[evaluator->component(j)] * evaluator->gradient(j, q));
-      for (unsigned int a = 0; a < layout.n_p; ++a)
-      {
-        local.matrix(place(j), layout.p[a]) += along * evaluator->pressure_value(a, q);
-        local.matrix(layout.p[a], place(j)) -= gained * evaluator->pressure_value(a, q);
-      }
-    }
-    for (unsigned int a = 0; a < layout.n_p; ++a)
-      for (unsigned int b = 0; b < layout.n_p; ++b)
-        local.matrix(layout.p[a], layout.p[b]) -=
-          w * storage * evaluator->pressure_value(a, q) * evaluator->pressure_value(b, q);
+    add_stress_and_content(rock, q, local);
+    if (unknown)
+      add_fracture_pressure(q, local.matrix.n() - 1, local);
+    if (flows)
+      add_flow(rock, context, q, local);
   }
 }
 
 
 template <int dim>
-unsigned int NonlinearRock<dim>::find_active(const State &state, const Role &role)
+void NonlinearRock<dim>::add_stress_and_content(const RockProperties &rock,
+                                                const unsigned int q,
+                                                LocalSystem &local) const
+{
+  const auto &layout = evaluator->layout;
+  const unsigned int n = evaluator->n_functions();
+  const double w = evaluator->weight(q);
+  const RockResponse &response = responses[q], linear = linear_response(rock, states[q]);
+  const Tensor<2, dim> stress = in_plane<dim>(response.stress - linear.stress);
+  for (unsigned int i = 0; i < n; ++i)
+    local.residual(place(i)) += stress[evaluator->component(i)] * evaluator->gradient(i, q) * w;
+  const double content = response.content - linear.content -
+                         (committed[q] != nullptr ? committed[q][content_beyond] : 0.);
+  for (unsigned int a = 0; a < layout.n_p; ++a)
+    local.residual(layout.p[a]) -= evaluator->pressure_value(a, q) * content * w;
+
+  const auto stiffness = in_plane<dim>(response.stress_by_strain - linear.stress_by_strain);
+  const Tensor<2, dim> by_pressure =
+    in_plane<dim>(response.stress_by_pressure - linear.stress_by_pressure);
+  const Tensor<2, dim> by_strain =
+    in_plane<dim>(response.content_by_strain - linear.content_by_strain);
+  const double storage = response.content_by_pressure - linear.content_by_pressure;
+  for (unsigned int j = 0; j < n; ++j)
+  {
+    Tensor<2, dim> gradient;
+    gradient[evaluator->component(j)] = evaluator->gradient(j, q);
+    const Tensor<2, dim> change = w * (stiffness * symmetrize(gradient));
+    for (unsigned int i = 0; i < n; ++i)
+      local.matrix(place(i), place(j)) +=
+        change[evaluator->component(i)] * evaluator->gradient(i, q);
+    const double along = w * (by_pressure[evaluator->component(j)] * evaluator->gradient(j, q)),
+                 gained = w * (by_strain[evaluator->component(j)] * evaluator->gradient(j, q));
+    for (unsigned int a = 0; a < layout.n_p; ++a)
+    {
+      local.matrix(place(j), layout.p[a]) += along * evaluator->pressure_value(a, q);
+      local.matrix(layout.p[a], place(j)) -= gained * evaluator->pressure_value(a, q);
+    }
+  }
+  for (unsigned int a = 0; a < layout.n_p; ++a)
+    for (unsigned int b = 0; b < layout.n_p; ++b)
+      local.matrix(layout.p[a], layout.p[b]) -=
+        w * storage * evaluator->pressure_value(a, q) * evaluator->pressure_value(b, q);
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::add_fracture_pressure(const unsigned int q,
+                                               const unsigned int column,
+                                               LocalSystem &local) const
+{
+  const double w = evaluator->weight(q);
+  const Tensor<2, dim> stress = in_plane<dim>(responses[q].stress_by_fracture_pressure);
+  for (unsigned int i = 0; i < evaluator->n_functions(); ++i)
+    local.matrix(place(i), column) +=
+      w * (stress[evaluator->component(i)] * evaluator->gradient(i, q));
+  for (unsigned int a = 0; a < evaluator->layout.n_p; ++a)
+    local.matrix(evaluator->layout.p[a], column) -=
+      w * evaluator->pressure_value(a, q) * responses[q].content_by_fracture_pressure;
+}
+
+
+template <int dim>
+void NonlinearRock<dim>::add_flow(const RockProperties &rock,
+                                  const StepContext &context,
+                                  const unsigned int q,
+                                  LocalSystem &local) const
+{
+  const auto &p = evaluator->layout.p;
+  const double w = context.effective_dt() * evaluator->weight(q),
+               per_viscosity = 1. / scene.rock.fluid().viscosity;
+  const SymmetricTensor<2, dim> mobility = mobility_beyond(rock, q);
+  const Tensor<1, dim> &slope = pressure_gradients[q];
+  const auto by_strain = in_plane<dim>(responses[q].permeability_by_strain);
+  const Tensor<1, dim> by_pressure =
+    per_viscosity * (in_plane<dim>(responses[q].permeability_by_pressure) * slope);
+  std::vector<Tensor<1, dim>> by_function(evaluator->n_functions());
+  for (unsigned int j = 0; j < by_function.size(); ++j)
+  {
+    Tensor<2, dim> gradient;
+    gradient[evaluator->component(j)] = evaluator->gradient(j, q);
+    by_function[j] = per_viscosity * ((by_strain * symmetrize(gradient)) * slope);
+  }
+  for (unsigned int a = 0; a < p.size(); ++a)
+  {
+    const Tensor<1, dim> test = w * evaluator->pressure_gradient(a, q);
+    local.residual(p[a]) -= test * (mobility * slope);
+    for (unsigned int b = 0; b < p.size(); ++b)
+      local.matrix(p[a], p[b]) -= test * (mobility * evaluator->pressure_gradient(b, q) +
+                                          evaluator->pressure_value(b, q) * by_pressure);
+    for (unsigned int j = 0; j < by_function.size(); ++j)
+      local.matrix(p[a], place(j)) -= test * by_function[j];
+  }
+}
+
+
+template <int dim>
+unsigned int NonlinearRock<dim>::find_active(const State &state)
 {
   active.clear();
-  visit(state, role, [&](const CellIterator &cell) { active.push_back(cell); });
+  visit(state, [&](const CellIterator &cell) { active.push_back(cell); });
   return active.size();
 }
 
 
 template <int dim>
-void NonlinearRock<dim>::assemble(const State &state, const Role &role, Sink &sink)
+void NonlinearRock<dim>::assemble(const StepContext &context, const State &state, Sink &sink)
 {
   LocalSystem local;
   for (const CellIterator &cell : active)
   {
     evaluator->reinit(cell, role(cell).cut);
     find_history(cell);
-    states_at(cell, state.current);
-    add_cell(cell, sink.wants_matrix(), local);
+    states_at(cell, state, state.current);
+    add_cell(cell, context, state, local);
     sink.add(local);
   }
 }
@@ -328,7 +435,7 @@ bool NonlinearRock<dim>::is_symmetric() const
 {
   return std::all_of(active.begin(), active.end(),
                      [this](const CellIterator &cell)
-                     { return laws(cell->material_id()).is_symmetric(); });
+                     { return law(cell).is_symmetric() && !law(cell).changes_permeability(); });
 }
 
 
@@ -360,9 +467,11 @@ void NonlinearRock<dim>::add_energies(const std::vector<SymmetricTensor<2, 3>> &
 
 
 template <int dim>
-void NonlinearRock<dim>::commit_cell(const CellIterator &cell, const State &state)
+void NonlinearRock<dim>::commit_cell(const CellIterator &cell,
+                                     const StepContext &context,
+                                     const State &state)
 {
-  const RockLaw &law = laws(cell->material_id());
+  const RockLaw &law = this->law(cell);
   const RockProperties &rock = scene.rock(cell->material_id());
   const std::vector<RockState> now = states;
   const auto evaluate = [&](const std::vector<RockState> &at, std::vector<RockResponse> &result)
@@ -376,10 +485,15 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell, const State &stat
   for (unsigned int q = 0; q < now.size(); ++q)
     responses[q].history = &values[q * n + n_core];
   evaluate(now, responses);
-  states_at(cell, state.committed);
+  states_at(cell, state, state.committed);
   std::vector<RockResponse> before(now.size());
   evaluate(states, before);
 
+  const bool flows = law.changes_permeability() && evaluator->layout.n_p > 0;
+  if (flows)
+    evaluator->pressure_gradient(state.current, pressure_gradients);
+
+  bool stores_more = false;
   std::vector<SymmetricTensor<2, 3>> beyond_before(now.size()), beyond_now(now.size());
   for (unsigned int q = 0; q < now.size(); ++q)
   {
@@ -390,6 +504,7 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell, const State &stat
 
     double *core = &values[q * n];
     core[content_beyond] = responses[q].content - linear.content;
+    stores_more |= core[content_beyond] != 0.;
     // What the work of stress and pressure leaves beside the stored energy, by the trapezoidal
     // rule.
     const auto mean_stress = now[q].in_situ_stress + 0.5 * (before[q].stress + responses[q].stress);
@@ -404,10 +519,14 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell, const State &stat
     const double gained =
       w * (core[content_beyond] - (committed[q] != nullptr ? committed[q][content_beyond] : 0.));
     last_totals.content_change += gained;
+    const Tensor<1, dim> flow =
+      flows ? Tensor<1, dim>(context.effective_dt() * w *
+                             (mobility_beyond(rock, q) * pressure_gradients[q]))
+            : Tensor<1, dim>();
     for (unsigned int a = 0; a < evaluator->layout.n_p; ++a)
       last_totals.outflow -=
         prescribed_share(discretization->constraints, evaluator->dofs()[evaluator->layout.p[a]]) *
-        evaluator->pressure_value(a, q) * gained;
+        (evaluator->pressure_value(a, q) * gained + evaluator->pressure_gradient(a, q) * flow);
     last_totals.dissipated_energy += w * core[dissipated];
     if (responses[q].remark != nullptr)
       last_totals.remark = responses[q].remark;
@@ -417,16 +536,18 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell, const State &stat
       last_totals.yielded_volume += w;
   }
   add_energies(beyond_before, beyond_now, state);
-  points->set(cell->active_cell_index(), evaluator->unit_points(), values);
+  // A law without history, and linear but for its permeability, needs nothing kept.
+  if (law.n_history() > 0 || points->has(cell->active_cell_index()) || stores_more)
+    points->set(cell->active_cell_index(), evaluator->unit_points(), values);
 }
 
 
 template <int dim>
-void NonlinearRock<dim>::commit(const State &state, const Role &role)
+void NonlinearRock<dim>::commit(const StepContext &context, const State &state)
 {
   last_totals = Totals();
-  visit(state, role, [&](const CellIterator &cell) { commit_cell(cell, state); });
-  look_around(state.current, role);
+  visit(state, [&](const CellIterator &cell) { commit_cell(cell, context, state); });
+  look_around(state, state.current);
 }
 
 
@@ -435,9 +556,10 @@ typename NonlinearRock<dim>::Answer NonlinearRock<dim>::at(const CellIterator &c
                                                            const Point<dim> &unit_point,
                                                            const Point<dim> &point,
                                                            const SymmetricTensor<2, dim> &strain,
-                                                           const double pressure) const
+                                                           const double pressure,
+                                                           const State &now) const
 {
-  const RockLaw &law = laws(cell->material_id());
+  const RockLaw &law = this->law(cell);
   const double *known = points->nearest(cell->active_cell_index(), unit_point);
   RockState state;
   state.strain = in_space(strain);
@@ -445,9 +567,11 @@ typename NonlinearRock<dim>::Answer NonlinearRock<dim>::at(const CellIterator &c
   state.in_situ_stress = scene.in_situ_tensor(point, scene.rock(cell->material_id()));
   state.in_situ_pressure = scene.in_situ_pore_pressure(point);
   state.history = known != nullptr ? known + n_core : nullptr;
+  if (const auto segment = role(cell).segment)
+    state.fracture_pressure = now.pressure_of(*segment, now.current);
   Answer answer;
   answer.history.assign(law.n_history(), 0.);
-  if (known == nullptr && law.used(state) < 1.)
+  if (known == nullptr && law.used(state) < 1. && !law.changes_permeability())
   {
     answer.stress = linear_response(scene.rock(cell->material_id()), state).stress;
     return answer;
@@ -455,6 +579,8 @@ typename NonlinearRock<dim>::Answer NonlinearRock<dim>::at(const CellIterator &c
   RockResponse response;
   law.evaluate(ArrayView<const RockState>(&state, 1), ArrayView<RockResponse>(&response, 1));
   answer.stress = response.stress;
+  if (law.changes_permeability())
+    answer.permeability = response.permeability;
   if (known != nullptr)
   {
     answer.history.assign(known + n_core, known + n_core + answer.history.size());

@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace stockwork
@@ -23,9 +24,11 @@ namespace stockwork
 ///
 ///   R_u(v) += int (sigma - sigma_linear) : eps(v)
 ///   R_p(q) -= int q [ (zeta - zeta_linear) - the same at the last accepted step ]
+///              + dt_eff grad q . (k - k_linear)/mu grad p ]
 ///
-/// with the derivative of both. A cell takes part while it has a history or a point of it has used
-/// up its linear range.
+/// with the derivative of both, p being over in situ, where fluid is at rest. A cell takes part
+/// while it has a history or a point of it has used up its linear range. The law is that of the
+/// rock or, in cells where a fracture model has put its own in that place, that one.
 template <int dim>
 class NonlinearRock
 {
@@ -33,16 +36,17 @@ public:
   using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
   using Role = std::function<CellRole<dim>(const CellIterator &)>;
 
-  NonlinearRock(const RockLaws &laws, const Scene<dim> &scene);
+  /// @param law_of_model see Requirements::law
+  NonlinearRock(const RockLaws &laws,
+                const Scene<dim> &scene,
+                const Role &role,
+                const RockLaw *law_of_model);
 
   /// The mesh is new; the history has moved along with it, or is none yet.
   void setup(const Discretization<dim> &discretization);
 
-  /// Cracks may cut other cells, or the same in another way.
-  void forget_cuts()
-  {
-    evaluator->forget_cuts();
-  }
+  /// The roles of cells are new: cracks may cut others, or the same in another way.
+  void topology_changed();
 
   /// Where the in-situ state uses up the most of the linear range, of the owned cells.
   struct InSituShare
@@ -53,13 +57,13 @@ public:
   InSituShare in_situ_share();
 
   /// Find the owned cells that take part in a state. Returns how many.
-  unsigned int find_active(const State &state, const Role &role);
+  unsigned int find_active(const State &state);
 
   /// Add residual and derivative of the cells that were found in this state.
-  void assemble(const State &state, const Role &role, Sink &sink);
+  void assemble(const StepContext &context, const State &state, Sink &sink);
 
   /// The step is accepted: what the converged state says becomes history.
-  void commit(const State &state, const Role &role);
+  void commit(const StepContext &context, const State &state);
 
   /// Whether the derivative that those cells add is symmetric.
   bool is_symmetric() const;
@@ -92,17 +96,35 @@ public:
   {
     dealii::SymmetricTensor<2, 3> stress; ///< total, over in situ
     std::vector<double> history;
-    double dissipated_energy = 0.; ///< [J/m^3]
+    double dissipated_energy = 0.;                             ///< [J/m^3]
+    std::optional<dealii::SymmetricTensor<2, 3>> permeability; ///< where it hangs on the state
   };
   bool answers(const CellIterator &cell) const
   {
-    return !laws(cell->material_id()).is_linear();
+    return !law(cell).is_linear();
+  }
+
+  /// The law in a cell.
+  const RockLaw &law(const CellIterator &cell) const
+  {
+    const RockLaw *const here = law_of_model != nullptr ? role(cell).law : nullptr;
+    return here != nullptr ? *here : laws(cell->material_id());
+  }
+
+  /// The rock's own, and one of the fracture model's, if it has any.
+  std::vector<const RockLaw *> all_laws() const;
+
+  /// Whether any law remembers anything, so that rock may yield.
+  bool remembers() const
+  {
+    return points->n_values() > n_core;
   }
   Answer at(const CellIterator &cell,
             const dealii::Point<dim> &unit_point,
             const dealii::Point<dim> &point,
             const dealii::SymmetricTensor<2, dim> &strain,
-            double pressure) const;
+            double pressure,
+            const State &state) const;
 
   /// For whoever moves the mesh or saves the run.
   PointHistory<dim> &history()
@@ -121,7 +143,7 @@ private:
   };
 
   /// States at the points of the cell that the evaluator is at.
-  void states_at(const CellIterator &cell, const Unknowns &unknowns);
+  void states_at(const CellIterator &cell, const State &state, const Unknowns &unknowns);
 
   /// What is committed at the points of the cell.
   void find_history(const CellIterator &cell);
@@ -130,10 +152,13 @@ private:
   /// that cannot have come to the end of their linear range since they were looked at are passed
   /// over.
   template <class Use>
-  void visit(const State &state, const Role &role, const Use &use);
+  void visit(const State &state, const Use &use);
+
+  /// List the owned cells that have such rock.
+  void find_watched();
 
   /// Look at all cells: how far is each from the end of its linear range?
-  void look_around(const Unknowns &unknowns, const Role &role);
+  void look_around(const State &state, const Unknowns &unknowns);
 
   /// What a cell must not exceed to be passed over: slope times the greatest change of a
   /// displacement plus sqrt(3) times that of a pressure, against the margin of its stress.
@@ -144,16 +169,29 @@ private:
   };
 
   /// The cell at hand: its history, its share in the totals.
-  void commit_cell(const CellIterator &cell, const State &state);
+  void commit_cell(const CellIterator &cell, const StepContext &context, const State &state);
 
   /// Of a cell whose answers at the start and the end of the step are known.
   void add_energies(const std::vector<dealii::SymmetricTensor<2, 3>> &stress_before,
                     const std::vector<dealii::SymmetricTensor<2, 3>> &stress_now,
                     const State &state);
 
-  void add_cell(const CellIterator &cell, bool with_matrix, LocalSystem &local);
+  /// Residual and derivative of the cell that the evaluator is at, whose states are at hand.
+  void add_cell(const CellIterator &cell, const StepContext &, const State &, LocalSystem &local);
+  void add_stress_and_content(const RockProperties &, unsigned int q, LocalSystem &local) const;
+  void add_fracture_pressure(unsigned int q, unsigned int column, LocalSystem &local) const;
+  void
+  add_flow(const RockProperties &, const StepContext &, unsigned int q, LocalSystem &local) const;
+
+  /// Index in a local system of a function of the displacement.
+  unsigned int place(unsigned int function) const;
+
+  /// (k - k_linear)/mu at a point of the cell at hand.
+  dealii::SymmetricTensor<2, dim> mobility_beyond(const RockProperties &, unsigned int q) const;
 
   const Scene<dim> &scene;
+  const Role role;
+  const RockLaw *const law_of_model;
   std::unique_ptr<const Discretization<dim>> discretization;
   std::unique_ptr<PointHistory<dim>> points;
   std::unique_ptr<CellEvaluator<dim>> evaluator;
@@ -168,6 +206,7 @@ private:
   // Of the cell at hand.
   std::vector<dealii::SymmetricTensor<2, dim>> strains;
   std::vector<double> pressures;
+  std::vector<dealii::Tensor<1, dim>> pressure_gradients;
   std::vector<const double *> committed; ///< null: none
   std::vector<RockState> states;
   std::vector<RockResponse> responses;

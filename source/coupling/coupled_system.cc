@@ -85,8 +85,9 @@ CoupledSystem<dim>::CoupledSystem(RunContext &run,
   , fe(make_element<dim>(discretisation))
   , dof_handler(triangulation)
 {
-  if (!laws.are_linear())
-    nonlinear = std::make_unique<NonlinearRock<dim>>(laws, scene);
+  if (const RockLaw *of_model = model.requirements().law; of_model != nullptr || !laws.are_linear())
+    nonlinear = std::make_unique<NonlinearRock<dim>>(
+      laws, scene, [this](const auto &cell) { return this->model.role(cell); }, of_model);
   solver_parameters.parse_parameters(prm);
   coupling_parameters.parse_parameters(prm);
   prm.enter_subsection("Nonlinear solver");
@@ -128,8 +129,9 @@ void CoupledSystem<dim>::setup_mesh(const double time)
 
   // What the model couples across ranks it sees as well.
   std::vector<types::global_dof_index> coupled;
-  model.add_couplings([&](const std::vector<types::global_dof_index> &dofs)
-                      { coupled.insert(coupled.end(), dofs.begin(), dofs.end()); });
+  if (const KeptTerms *kept = model.kept_terms())
+    kept->add_couplings([&](const std::vector<types::global_dof_index> &dofs)
+                        { coupled.insert(coupled.end(), dofs.begin(), dofs.end()); });
   std::sort(coupled.begin(), coupled.end());
   coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
   IndexSet visible = all_relevant;
@@ -142,14 +144,15 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   {
     BlockDynamicSparsityPattern pattern(relevant);
     DoFTools::make_sparsity_pattern(dof_handler, pattern, increment_constraints, false);
-    model.add_couplings(
-      [&](std::vector<types::global_dof_index> dofs)
-      {
-        // A bond may lead back to its own node, across a plane of symmetry.
-        std::sort(dofs.begin(), dofs.end());
-        dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
-        increment_constraints.add_entries_local_to_global(dofs, pattern, false);
-      });
+    if (const KeptTerms *kept = model.kept_terms())
+      kept->add_couplings(
+        [&](std::vector<types::global_dof_index> dofs)
+        {
+          // A bond may lead back to its own node, across a plane of symmetry.
+          std::sort(dofs.begin(), dofs.end());
+          dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+          increment_constraints.add_entries_local_to_global(dofs, pattern, false);
+        });
     SparsityTools::distribute_sparsity_pattern(pattern, dof_handler.locally_owned_dofs(),
                                                run.communicator, visible);
     system.bulk.clear();
@@ -162,14 +165,9 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   ++stamps.mesh;
   matrix_is_current = false;
 
-  BulkChanges<dim> changes;
-  changes.role = [this](const auto &cell) { return model.role(cell); };
-  if (model.requirements().changes_bulk)
-    changes.coefficients = [this](const auto &cell, const auto &points, auto &coefficients)
-    { model.bulk_coefficients(cell, points, coefficients); };
-  bulk =
-    std::make_unique<BulkAssembly<dim>>(scene.rock, boundary_conditions.loads(),
-                                        discretisation.stabilisation, discretization(), changes);
+  bulk = std::make_unique<BulkAssembly<dim>>(scene.rock, boundary_conditions.loads(),
+                                             discretisation.stabilisation, discretization(),
+                                             [this](const auto &cell) { return model.role(cell); });
   if (!solver)
   {
     BulkStructure structure;
@@ -220,7 +218,7 @@ void CoupledSystem<dim>::adopt_extra(const ExtraNumbering &from,
       *vector = now.transfer(from, *vector);
   numbering = std::move(now);
   if (nonlinear)
-    nonlinear->forget_cuts();
+    nonlinear->topology_changed();
   ++stamps.extra;
 }
 
@@ -249,17 +247,12 @@ State CoupledSystem<dim>::state(const Unknowns &current,
                                 const Unknowns &rate_reference,
                                 const Unknowns &acceleration_reference) const
 {
-  const auto segment_pressure = [this, &current](const std::uint64_t key)
-  {
-    const auto &segments = network.segments();
-    const auto position =
-      std::lower_bound(segments.begin(), segments.end(), key,
-                       [](const auto &segment, const auto k) { return segment.key < k; });
-    return position != segments.end() && position->key == key
-             ? network.pressures(current)[position - segments.begin()]
-             : 0.;
-  };
-  return {current, committed, rate_reference, acceleration_reference, segment_pressure};
+  return {current,
+          committed,
+          rate_reference,
+          acceleration_reference,
+          [this, &current](const std::uint64_t key) { return network.pressure(key, current); },
+          [this](const std::uint64_t key) { return network.unknown(key); }};
 }
 
 
@@ -267,22 +260,25 @@ template <int dim>
 void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
 {
   const auto scope = run.timers.scope("assembly");
-  const bool anew = !matrix_is_current || bulk_was_touched || model.requirements().changes_bulk ||
-                    model.bulk_version() != bulk_version;
+  const KeptTerms *const kept = model.kept_terms();
+  const bool anew = !matrix_is_current || bulk_was_touched || kept_terms_changed();
   if (bulk->matrix(context, anew, system.bulk,
                    discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
   {
-    const auto scope = run.timers.scope("fracture");
-    SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
-                    linear_residual_extra, linear_extra_extra, true);
-    model.assemble_bulk(context, sink);
-    if (communication.max(sink.bulk_touched ? 1. : 0.) > 0.)
-      system.bulk.compress(VectorOperation::add);
+    if (kept != nullptr)
+    {
+      const auto scope = run.timers.scope("fracture");
+      SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
+                      linear_residual_extra, linear_extra_extra);
+      kept->assemble(context, sink);
+      if (communication.max(sink.bulk_touched ? 1. : 0.) > 0.)
+        system.bulk.compress(VectorOperation::add);
+    }
     ++stamps.displacement_values;
   }
-  bulk_version = model.bulk_version();
+  kept_version = kept != nullptr ? kept->version() : 0;
   system.elastic = !discretisation.has_pore_pressure;
-  system.definite_displacement = model.requirements().symmetric_bulk;
+  system.definite_displacement = kept == nullptr || kept->is_symmetric();
   system.definite = system.elastic && system.definite_displacement;
   matrix_context = context;
   matrix_is_current = true;
@@ -298,8 +294,7 @@ void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State
     context.acceleration != matrix_context.acceleration ||
     (discretisation.has_pore_pressure && (context.rate != matrix_context.rate ||
                                           context.pressure_rate != matrix_context.pressure_rate));
-  if (!matrix_is_current || coefficients_changed || bulk_was_touched ||
-      model.requirements().changes_bulk || model.bulk_version() != bulk_version)
+  if (!matrix_is_current || coefficients_changed || bulk_was_touched || kept_terms_changed())
     assemble_bulk_matrix(context);
 
   const auto scope = run.timers.scope("assembly");
@@ -313,7 +308,7 @@ void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State
   if (n_model_extra > 0)
   {
     SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
-                    linear_residual_extra, linear_extra_extra, true);
+                    linear_residual_extra, linear_extra_extra);
     bulk->cut_cells(context, state, role, sink);
     system.residual_bulk.compress(VectorOperation::add);
     communication.sum(linear_residual_extra);
@@ -338,11 +333,11 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
   system.residual_extra.assign(numbering.size(), 0.);
 
   SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
-                  system.residual_extra, system.extra_extra, true);
+                  system.residual_extra, system.extra_extra);
   model.assemble(context, state, sink);
   network.assemble(context, state, communication, sink);
   if (nonlinear)
-    assemble_rock(state);
+    assemble_rock(context, state);
   system.residual_bulk.compress(VectorOperation::add);
   if (numbering.size() > 0)
     communication.sum(system.residual_extra);
@@ -365,12 +360,11 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
 
 
 template <int dim>
-void CoupledSystem<dim>::assemble_rock(const State &state)
+void CoupledSystem<dim>::assemble_rock(const StepContext &context, const State &state)
 {
   const auto scope = run.timers.scope("rock");
-  const auto role = [this](const auto &cell) { return model.role(cell); };
   system.rock_change = nullptr;
-  if (communication.max(nonlinear->find_active(state, role)) == 0.)
+  if (communication.max(nonlinear->find_active(state)) == 0.)
     return;
   if (!has_rock_change)
   {
@@ -383,8 +377,8 @@ void CoupledSystem<dim>::assemble_rock(const State &state)
   }
   rock_change = 0.;
   SystemSink sink(increment_constraints, system, rock_change, system.residual_bulk,
-                  system.residual_extra, system.extra_extra, true);
-  nonlinear->assemble(state, role, sink);
+                  system.residual_extra, system.extra_extra);
+  nonlinear->assemble(context, state, sink);
   rock_change.compress(VectorOperation::add);
   system.rock_change = &rock_change;
   system.rock_change_is_symmetric = communication.max(nonlinear->is_symmetric() ? 0. : 1.) == 0.;

@@ -124,10 +124,10 @@ public:
   }
 
   /// The converged state of a step is accepted.
-  void commit(const State &state)
+  void commit(const StepContext &context, const State &state)
   {
     if (nonlinear)
-      nonlinear->commit(state, [this](const auto &cell) { return model.role(cell); });
+      nonlinear->commit(context, state);
   }
 
   const Collectives &collectives() const
@@ -162,12 +162,18 @@ public:
 private:
   void assemble_bulk_matrix(const StepContext &context);
 
+  bool kept_terms_changed() const
+  {
+    const KeptTerms *const kept = model.kept_terms();
+    return kept != nullptr && kept->version() != kept_version;
+  }
+
   void assemble_linear(const StepContext &context, const State &state);
 
   void assemble_nonlinear(const StepContext &context, const State &state);
 
   /// Add what rock beyond its linear range does.
-  void assemble_rock(const State &state);
+  void assemble_rock(const StepContext &context, const State &state);
 
   /// The unknowns have moved by a step times an increment.
   void update_linear_residual(double step,
@@ -254,7 +260,7 @@ private:
 
   bool matrix_is_current = false;
   bool bulk_was_touched = false;
-  unsigned int bulk_version = 0; ///< of the model's terms in the kept matrix
+  unsigned int kept_version = 0; ///< of the model's terms in the kept matrix
   StepContext matrix_context;
 };
 } // namespace stockwork

@@ -84,10 +84,11 @@ void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
 template <int dim>
 bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper)
 {
-  bool changed = false;
-  while (flag() || model.wants_setup())
+  bool changed = false, wanted = stepper.wants_setup();
+  while (flag() || wanted)
   {
     changed = true;
+    wanted = false;
     const auto vectors = stepper.bulk_vectors();
     const ExtraNumbering numbering = system.extra_numbering();
 

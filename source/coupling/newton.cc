@@ -75,8 +75,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
   assemble_linear(context, state);
   assemble_nonlinear(context, state);
 
-  const bool linear = !nonlinear && numbering.size() == 0 && model.requirements().newton &&
-                      !model.requirements().changes_bulk && !bulk_was_touched;
+  const bool linear = !nonlinear && numbering.size() == 0 && !bulk_was_touched;
   const double injected = network.balance(context, state, communication).step.injected;
   Norms norms = residual_norms(), greatest = norms;
   double model_change = 0.;
@@ -180,9 +179,7 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
       if (linear)
         return;
       model_change = model.update_iterate(context, state, communication);
-      if (model.requirements().changes_bulk)
-        assemble_linear(context, state); // the coefficients have moved along with the iterate
-      else if (!bulk_was_touched)
+      if (!bulk_was_touched)
         update_linear_residual(step, dx_bulk, dx_extra);
       assemble_nonlinear(context, state);
       norms = residual_norms();

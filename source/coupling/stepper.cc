@@ -179,9 +179,9 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     {
       const State state = last_state();
       balance = network.balance(context, state, system.collectives());
-      system.commit(state);
+      system.commit(context, state);
       network.commit(context, state, system.collectives());
-      model.commit(context, state);
+      model_wants_setup = model.commit(context, state);
       // The history follows the numbering that has come out of the step.
       for (std::vector<double> *history : scheme.extra_history())
         *history = system.extra_numbering().transfer(committed_numbering, *history, 0.);

@@ -65,6 +65,12 @@ public:
     return balance;
   }
 
+  /// Whether the model wants setup() before the next step, see FractureModel::commit().
+  bool wants_setup() const
+  {
+    return model_wants_setup;
+  }
+
   /// All bulk vectors that must move with the mesh, and all lists of extra unknowns.
   std::vector<dealii::TrilinosWrappers::MPI::BlockVector *> bulk_vectors();
   std::vector<std::vector<double> *> extra_vectors();
@@ -88,5 +94,6 @@ private:
   StepContext context;
   Unknowns current, before, rate_reference, acceleration_reference;
   FluidBalance balance;
+  bool model_wants_setup = false;
 };
 } // namespace stockwork

@@ -26,15 +26,13 @@ SystemSink::SystemSink(const AffineConstraints<double> &constraints,
                        TrilinosWrappers::BlockSparseMatrix &bulk,
                        TrilinosWrappers::MPI::BlockVector &residual_bulk,
                        std::vector<double> &residual_extra,
-                       Triplets &extra_extra,
-                       const bool wants_matrix)
+                       Triplets &extra_extra)
   : constraints(constraints)
   , system(system)
   , bulk(bulk)
   , residual_bulk(residual_bulk)
   , residual_extra(residual_extra)
   , extra_extra(extra_extra)
-  , with_matrix(wants_matrix)
 {
 }
 
@@ -51,8 +49,6 @@ void SystemSink::add(const LocalSystem &local)
   for (unsigned int i = 0; i < n_extra; ++i)
     residual_extra[local.extra[i]] += local.residual(n_bulk + i);
 
-  if (!with_matrix)
-    return;
   for (unsigned int i = 0; i < n_bulk; ++i)
     for (unsigned int j = 0; j < n_bulk; ++j)
       if (local.matrix(i, j) != 0.)

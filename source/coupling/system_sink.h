@@ -22,13 +22,7 @@ public:
              dealii::TrilinosWrappers::BlockSparseMatrix &bulk,
              dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk,
              std::vector<double> &residual_extra,
-             Triplets &extra_extra,
-             bool wants_matrix);
-
-  bool wants_matrix() const override
-  {
-    return with_matrix;
-  }
+             Triplets &extra_extra);
 
   void add(const LocalSystem &local) override;
 
@@ -41,6 +35,5 @@ private:
   dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk;
   std::vector<double> &residual_extra;
   Triplets &extra_extra;
-  bool with_matrix;
 };
 } // namespace stockwork

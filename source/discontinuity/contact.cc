@@ -127,9 +127,8 @@ void FaceContact<dim>::assemble(const Discontinuity<dim> &discontinuity,
   for (unsigned int i = 0; i < jumps.size(); ++i)
   {
     local.residual(i) = jumps[i].second * force;
-    if (sink.wants_matrix())
-      for (unsigned int j = 0; j < jumps.size(); ++j)
-        local.matrix(i, j) = jumps[i].second * (stiffness * jumps[j].second);
+    for (unsigned int j = 0; j < jumps.size(); ++j)
+      local.matrix(i, j) = jumps[i].second * (stiffness * jumps[j].second);
   }
   sink.add(local);
 }

@@ -285,9 +285,21 @@ std::vector<double> Network<dim>::apertures(const Unknowns &unknowns,
 {
   std::vector<double> result(network.size());
   for (unsigned int k = 0; k < owned.size(); ++k)
-    result[owned_index[k]] = value(owned[k].opening, unknowns);
+    result[owned_index[k]] = opening(k, unknowns);
   collectives.sum(result);
   return result;
+}
+
+
+template <int dim>
+double Network<dim>::opening(const unsigned int k, const Unknowns &unknowns) const
+{
+  const double of_rock = value(owned[k].opening, unknowns);
+  if (owned[k].opening_by_pressure == 0.)
+    return of_rock;
+  const unsigned int row = rows[owned_index[k]];
+  const double pressure = row == no_row ? owned[k].given_pressure : unknowns.extra[row];
+  return of_rock + owned[k].opening_by_pressure * pressure;
 }
 
 
@@ -302,15 +314,34 @@ std::vector<double> Network<dim>::pressures(const Unknowns &unknowns) const
 
 
 template <int dim>
-double Network<dim>::pressure(const std::uint64_t key, const Unknowns &unknowns) const
+std::optional<unsigned int> Network<dim>::number(const std::uint64_t key) const
 {
   const auto segment =
     std::lower_bound(network.begin(), network.end(), key,
                      [](const auto &a, const std::uint64_t k) { return a.key < k; });
   if (segment == network.end() || segment->key != key)
+    return {};
+  return segment - network.begin();
+}
+
+
+template <int dim>
+double Network<dim>::pressure(const std::uint64_t key, const Unknowns &unknowns) const
+{
+  const auto i = number(key);
+  if (!i)
     return 0.;
-  const unsigned int row = rows[segment - network.begin()];
-  return row == no_row ? segment->given_pressure : unknowns.extra[row];
+  return rows[*i] == no_row ? network[*i].given_pressure : unknowns.extra[rows[*i]];
+}
+
+
+template <int dim>
+std::optional<unsigned int> Network<dim>::unknown(const std::uint64_t key) const
+{
+  const auto i = number(key);
+  if (!i || rows[*i] == no_row)
+    return {};
+  return rows[*i];
 }
 
 
@@ -328,11 +359,11 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
     const unsigned int i = owned_index[k];
-    all[i] = value(owned[k].opening, state.current);
-    all[n + i] = value(owned[k].opening, reference_state);
+    all[i] = opening(k, state.current);
+    all[n + i] = opening(k, reference_state);
     all[2 * n + i] = value(owned[k].pore_pressure, state.current);
     if (!from_committed)
-      all[3 * n + i] = value(owned[k].opening, state.committed);
+      all[3 * n + i] = opening(k, state.committed);
   }
   collectives.sum(all);
 
@@ -436,13 +467,11 @@ void Network<dim>::assemble_segment(const unsigned int index,
   // Pressures have a rate of their own; balances are integrated over 1/rate.
   const double c_f = compressibility * context.fracture_pressure_factor();
 
-  // Places in the local system: bulk of B, P and a load of its own, extra of B, own row, others'.
+  // Places in the local system: bulk of B and P, extra of B, own row, others'.
   const unsigned int cake_row = leak_off_rows[index], p_bulk = B.bulk.size();
   local.bulk = B.bulk;
   if (cake_row != no_row)
     local.bulk.insert(local.bulk.end(), P.bulk.begin(), P.bulk.end());
-  const unsigned int load_bulk = local.bulk.size();
-  local.bulk.insert(local.bulk.end(), segment.load.bulk.begin(), segment.load.bulk.end());
   local.extra = B.extra;
   const auto place_of = [&](const unsigned int row) -> unsigned int
   {
@@ -472,19 +501,18 @@ void Network<dim>::assemble_segment(const unsigned int index,
   {
     for_B([&](const unsigned int column, const double b)
           { local.matrix(row, column) += slope * b; });
+    if (own != no_row)
+      local.matrix(row, own) += slope * segment.opening_by_pressure;
   };
 
   // Load: external work A p dw.
-  const auto add_load = [&](const unsigned int row, const double b)
-  {
-    local.residual(row) -= area * p * b;
-    if (own != no_row)
-      local.matrix(row, own) -= area * b;
-  };
-  if (segment.load.bulk.empty())
-    for_B(add_load);
-  for (unsigned int i = 0; i < segment.load.bulk.size(); ++i)
-    add_load(load_bulk + i, segment.load.bulk_coefficients[i]);
+  for_B(
+    [&](const unsigned int row, const double b)
+    {
+      local.residual(row) -= area * p * b;
+      if (own != no_row)
+        local.matrix(row, own) -= area * b;
+    });
 
   // Storage; in a segment that boils, the whole row.
   if (boils)

@@ -118,6 +118,9 @@ public:
   /// Of the segment with this key; zero if there is none. See State::segment_pressure.
   double pressure(std::uint64_t key, const Unknowns &) const;
 
+  /// Index of that pressure among the extra unknowns; nothing where it is given, or no segment.
+  std::optional<unsigned int> unknown(std::uint64_t key) const;
+
   /// What has leaked from each segment up to the last accepted step, through both faces [m^3].
   std::vector<double> leaked_volumes() const;
 
@@ -254,6 +257,12 @@ private:
     double other_distance; ///< from the other's
     double width;          ///< of the edge; at a tip less, see tip_gradient_factor()
   };
+
+  /// Of an owned segment [m]; negative where its faces overlap.
+  double opening(unsigned int owned_segment, const Unknowns &unknowns) const;
+
+  /// Number of the segment with this key.
+  std::optional<unsigned int> number(std::uint64_t key) const;
 
   Values evaluate(const StepContext &, const State &, const Collectives &) const;
 

@@ -1,5 +1,7 @@
 #include "output/bulk_fields.h"
 
+#include "stockwork/rock/linear_law.h"
+
 #include "biot/cell_matrices.h"
 
 #include <deal.II/fe/fe_values.h>
@@ -21,13 +23,17 @@ BulkFields<dim>::BulkFields(const Discretization<dim> &discretization,
   , has_pore_pressure(discretization.has_pore_pressure)
   , nonlinear(nonlinear)
   , mapping(discretization.mapping)
+  , state(state)
 {
   if (nonlinear != nullptr)
-    for (const auto &[region, law] : nonlinear->laws.all())
+    for (const RockLaw *law : nonlinear->all_laws())
+    {
+      permeability_changes |= law->changes_permeability();
       for (const HistoryField &field : law->history())
         if (std::none_of(remembered.begin(), remembered.end(),
                          [&](const HistoryField &known) { return known.name == field.name; }))
           remembered.push_back(field);
+    }
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       if (const CutCell<dim> *cut = model.role(cell).cut)
@@ -61,10 +67,7 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
 {
   const auto cell = inputs.template get_cell<dim>();
   const RockProperties &rock = scene.rock(cell->material_id());
-  std::vector<BulkCoefficients<dim>> coefficients(inputs.evaluation_points.size(),
-                                                  intact_rock<dim>(rock, scene.rock.fluid()));
-  if (model.requirements().changes_bulk)
-    model.bulk_coefficients(cell, inputs.evaluation_points, coefficients);
+  const BulkCoefficients<dim> linear(rock, scene.rock.fluid());
   const auto mean = mean_strain.find(cell->active_cell_index());
 
   for (unsigned int q = 0; q < inputs.evaluation_points.size(); ++q)
@@ -90,12 +93,13 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
     // The unknown is the pressure over in situ.
     const double excess = has_pore_pressure ? inputs.solution_values[q](dim) : 0.;
     SymmetricTensor<2, dim> total =
-      scene.in_situ_stress(x) + coefficients[q].stiffness * strain - excess * coefficients[q].biot;
+      scene.in_situ_stress(x) + linear.stiffness * strain - excess * linear.biot;
     typename NonlinearRock<dim>::Answer answer;
     const bool asks_law = nonlinear != nullptr && nonlinear->answers(cell);
     if (asks_law)
     {
-      answer = nonlinear->at(cell, mapping.transform_real_to_unit_cell(cell, x), x, strain, excess);
+      answer =
+        nonlinear->at(cell, mapping.transform_real_to_unit_cell(cell, x), x, strain, excess, state);
       total = scene.in_situ_stress(x);
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = i; j < dim; ++j)
@@ -106,21 +110,40 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
     {
       const double pressure = excess + scene.in_situ_pore_pressure(x);
       quantities[q](n++) = pressure;
-      put(total + pressure * coefficients[q].biot);
-      const Tensor<1, dim> flux = -(coefficients[q].mobility * inputs.solution_gradients[q][dim]);
+      put(total + pressure * linear.biot);
+      SymmetricTensor<2, dim> mobility = linear.mobility;
+      if (answer.permeability)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = i; j < dim; ++j)
+            mobility[i][j] = (*answer.permeability)[i][j] / scene.rock.fluid().viscosity;
+      const Tensor<1, dim> flux = -(mobility * inputs.solution_gradients[q][dim]);
       for (unsigned int d = 0; d < dim; ++d)
         quantities[q](n++) = flux[d];
+      if (permeability_changes)
+        put(mobility * scene.rock.fluid().viscosity);
     }
-    if (nonlinear == nullptr)
+    if (remembered.empty())
       continue;
     if (dim == 2)
       quantities[q](n++) = asks_law ? scene.in_situ_tensor(x, rock)[2][2] + answer.stress[2][2]
-                                    : scene.in_situ_tensor(x, rock)[2][2] +
-                                        rock.lame_lambda() * trace(strain) -
-                                        excess * rock.biot_coefficient;
+                                    : linear_stress_zz(x, rock, strain, excess);
     quantities[q](n++) = answer.dissipated_energy;
     put_memory(cell, answer.history, quantities[q], n);
   }
+}
+
+template <int dim>
+double BulkFields<dim>::linear_stress_zz(const Point<dim> &x,
+                                         const RockProperties &rock,
+                                         const SymmetricTensor<2, dim> &strain,
+                                         const double excess) const
+{
+  RockState linear;
+  linear.pressure = excess;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      linear.strain[i][j] = strain[i][j];
+  return scene.in_situ_tensor(x, rock)[2][2] + linear_response(rock, linear).stress[2][2];
 }
 
 template <int dim>
@@ -130,7 +153,7 @@ void BulkFields<dim>::put_memory(const typename DoFHandler<dim>::active_cell_ite
                                  unsigned int &n) const
 {
   const std::vector<HistoryField> own =
-    history.empty() ? std::vector<HistoryField>() : nonlinear->laws(cell->material_id()).history();
+    history.empty() ? std::vector<HistoryField>() : nonlinear->law(cell).history();
   for (const HistoryField &field : remembered)
   {
     SymmetricTensor<2, 3> tensor;
@@ -168,8 +191,10 @@ std::vector<std::string> BulkFields<dim>::get_names() const
     names.push_back("pore_pressure");
     names.insert(names.end(), dim * dim, "effective_stress");
     names.insert(names.end(), dim, "flux");
+    if (permeability_changes)
+      names.insert(names.end(), dim * dim, "permeability");
   }
-  if (nonlinear == nullptr)
+  if (remembered.empty())
     return names;
   if (dim == 2)
     names.push_back("total_stress_zz");

@@ -47,12 +47,19 @@ private:
                   dealii::Vector<double> &quantities,
                   unsigned int &n) const;
 
+  double linear_stress_zz(const dealii::Point<dim> &x,
+                          const RockProperties &rock,
+                          const dealii::SymmetricTensor<2, dim> &strain,
+                          double excess) const;
+
   const Scene<dim> &scene;
   const FractureModel<dim> &model;
   bool has_pore_pressure;
   const NonlinearRock<dim> *nonlinear; ///< null: linear rock
   const dealii::Mapping<dim> &mapping;
+  const State state;
   std::vector<HistoryField> remembered; ///< of all laws
+  bool permeability_changes = false;
 
   /// Mean strain of cells with extra shape functions, by active cell index.
   std::map<unsigned int, dealii::SymmetricTensor<2, dim>> mean_strain;

@@ -3,8 +3,10 @@
 #include "stockwork/base/error.h"
 
 #include "base/parameter_tree.h"
+#include "rock/stress_dependent_permeability.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace stockwork
@@ -144,8 +146,13 @@ void RockLaws::parse_parameters(ParameterHandler &prm,
                           return entry.stiffness(*own.at(region), path_in(region), properties);
                         });
   for (const types::material_id region : all)
+  {
     laws[region] =
       registry.all().at(names.at(region)).create(*own.at(region), path_in(region), rock(region));
+    if (std::isfinite(rock(region).permeability_decay_stress))
+      laws[region] =
+        std::make_unique<StressDependentPermeability>(std::move(laws[region]), rock(region));
+  }
 }
 
 
@@ -176,5 +183,12 @@ bool RockLaws::are_linear() const
 {
   return std::all_of(laws.begin(), laws.end(),
                      [](const auto &law) { return law.second->is_linear(); });
+}
+
+
+bool RockLaws::may_yield() const
+{
+  return std::any_of(laws.begin(), laws.end(),
+                     [](const auto &law) { return law.second->n_history() > 0; });
 }
 } // namespace stockwork

@@ -38,6 +38,9 @@ public:
   /// Whether all rock is linear whatever happens.
   bool are_linear() const;
 
+  /// Whether any rock has a history.
+  bool may_yield() const;
+
   /// By region, 0 for the rock at large.
   const std::map<dealii::types::material_id, std::unique_ptr<RockLaw>> &all() const
   {

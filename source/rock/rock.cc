@@ -56,6 +56,11 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
   optional("Permeability across the layers", dimension::permeability, Range::positive(),
            "Along the normal of the layers; 'Permeability' is along the layers then. Empty: the "
            "same in all directions.");
+  optional(
+    "Permeability decay stress", dimension::stress, Range::positive(),
+    "sigma_0/zeta in k = k_0 exp(-zeta sigma'_m/sigma_0): the mean effective stress that lowers "
+    "the permeability by the factor e; 'Permeability' is k_0, that without any stress. Empty: "
+    "the permeability does not hang on the stress.");
   prm.declare_entry("Normal of the layers", "",
                     Quantities(dimension::number, Range::finite(), 0, 3),
                     "Of any length, two or three numbers; required where stiffness or "
@@ -159,6 +164,8 @@ RockProperties parse_properties(const ParameterHandler &prm,
   rock.porosity = get("Porosity", dimension::number, inherited ? rock.porosity : nan);
   rock.permeability =
     get("Permeability", dimension::permeability, inherited ? rock.permeability : 0.);
+  rock.permeability_decay_stress = get("Permeability decay stress", dimension::stress,
+                                       inherited ? rock.permeability_decay_stress : inf);
   rock.density = get("Density", dimension::density, inherited ? rock.density : 0.);
   rock.tensile_strength = get("Tensile strength", dimension::stress, rock.tensile_strength);
 

@@ -158,11 +158,6 @@ TEST_CASE("rigid motion")
 TEST_CASE("derivative")
 {
   Scenario scenario(command_line.deck, with({}));
-  if (!scenario.model().requirements().newton)
-  {
-    std::cout << "The model takes a secant.\n";
-    return;
-  }
   for (unsigned int step = 0; step < 8; ++step)
     scenario.advance();
   scenario.begin_step();

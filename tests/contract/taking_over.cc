@@ -15,19 +15,12 @@ namespace
 using namespace dealii;
 using namespace stockwork;
 
-class TakingOver : public FractureModel<2>
+class TakingOver : public FractureModel<2>, private KeptTerms
 {
 public:
   explicit TakingOver(const Scene<2> &scene)
     : scene(scene)
   {
-  }
-
-  Requirements requirements() const override
-  {
-    Requirements requirements;
-    requirements.quasi_static_only = true;
-    return requirements;
   }
 
   void setup(const Discretization<2> &mesh, const Collectives &) override
@@ -45,10 +38,9 @@ public:
     return {nullptr, &taken[cell->active_cell_index()]};
   }
 
-  void add_couplings(
-    const std::function<void(const std::vector<types::global_dof_index> &)> &couple) const override
+  const KeptTerms *kept_terms() const override
   {
-    for_each_distant_pair(couple);
+    return this;
   }
 
   void assemble(const StepContext &, const State &state, Sink &sink) const override
@@ -103,6 +95,20 @@ public:
   }
 
 private:
+  unsigned int version() const override
+  {
+    return 0;
+  }
+
+  void add_couplings(const Coupling &couple) const override
+  {
+    for_each_distant_pair(couple);
+  }
+
+  void assemble(const StepContext &, Sink &) const override
+  {
+  }
+
   /// Vertical displacements of opposite sides of a cell and of its owned neighbour to the right.
   template <class Function>
   void for_each_distant_pair(const Function &use) const

@@ -73,9 +73,9 @@ public:
   {
     return model->update_iterate(context, state, collectives);
   }
-  void commit(const StepContext &context, const State &state) override
+  bool commit(const StepContext &context, const State &state) override
   {
-    model->commit(context, state);
+    return model->commit(context, state);
   }
   void rollback() override
   {

@@ -28,11 +28,6 @@ public:
     {
     }
 
-    bool wants_matrix() const override
-    {
-      return true;
-    }
-
     void add(const stockwork::LocalSystem &local) override
     {
       std::vector<unsigned int> index(local.bulk.begin(), local.bulk.end());

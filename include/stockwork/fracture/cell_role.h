@@ -4,10 +4,14 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace stockwork
 {
+class RockLaw;
+
 /// A cell that a discontinuity passes through: its own quadrature, and the extra shape functions
 /// that jump inside it. The displacement in the cell is the ordinary one plus
 /// sum_c a_c value(c, q) e_component(c).
@@ -40,18 +44,14 @@ struct CellRole
 
   /// Unit normal of a fracture in the cell whose opening is part of the elements' strain: the
   /// strain along it makes room in the fracture and not in pores, and the pore pressure does not
-  /// act on the faces, so the Biot tensor is alpha (I - n n). Not together with
-  /// bulk_coefficients().
+  /// act on the faces, so the Biot tensor is alpha (I - n n).
   const dealii::Tensor<1, dim> *fracture_normal = nullptr;
-};
 
-/// Coefficients of the bulk at one quadrature point, for models that change them.
-template <int dim>
-struct BulkCoefficients
-{
-  dealii::SymmetricTensor<4, dim> stiffness;
-  dealii::SymmetricTensor<2, dim> biot;
-  double storage;                           ///< 1/M [1/Pa]
-  dealii::SymmetricTensor<2, dim> mobility; ///< k/mu [m^2/(Pa s)]
+  /// A law in place of the rock's, which it may have inside (Scene::rock_law); see
+  /// Requirements::wraps_law. Null: the rock's own.
+  const RockLaw *law = nullptr;
+
+  /// Key of the segment whose fluid pressure that law sees.
+  std::optional<std::uint64_t> segment = std::nullopt;
 };
 } // namespace stockwork

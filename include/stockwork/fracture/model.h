@@ -9,6 +9,7 @@
 #include "stockwork/fracture/cell_role.h"
 #include "stockwork/fracture/collectives.h"
 #include "stockwork/fracture/extra_unknown.h"
+#include "stockwork/fracture/kept_terms.h"
 #include "stockwork/fracture/scene.h"
 #include "stockwork/fracture/segment.h"
 #include "stockwork/fracture/sink.h"
@@ -28,12 +29,13 @@ struct Requirements
 {
   bool pore_pressure = false; ///< cannot run in dry, elastic rock
   bool symmetric = true;      ///< its own terms keep the matrix symmetric
-  bool symmetric_bulk = true; ///< and so do those of assemble_bulk()
-  bool changes_bulk = false;  ///< bulk_coefficients() has something to say
-  bool newton = true;         ///< assemble() gives the exact derivative (else a secant)
-  bool quasi_static_only = false;
+
+  /// One of the laws that role() may put in place of the rock's; all of them have its history.
+  /// Null: there are none. It lives as long as the model.
+  const RockLaw *law = nullptr;
+
   bool linear_elements = false;  ///< displacements live at vertices only
-  bool bulk_alone = false;       ///< has neither unknowns nor segments, ever: rock, to a split
+  bool has_fracture = true;      ///< else neither unknowns nor segments, ever
   bool uniform_rock = false;     ///< its own terms know the rock at large, no region's
   bool uniform_strength = false; ///< it breaks all rock as the first region breaks
 };
@@ -79,13 +81,6 @@ public:
   {
   }
 
-  /// Whether setup() shall be called between steps though the mesh may stay as it is: the part of
-  /// it that the model works on has grown. The same on every rank.
-  virtual bool wants_setup() const
-  {
-    return false;
-  }
-
   virtual void begin_step(const StepContext &)
   {
   }
@@ -103,35 +98,18 @@ public:
     return {};
   }
 
-  /// How the bulk kernel shall treat a locally owned cell.
+  /// How the bulk kernel shall treat a locally owned cell. It changes with setup() and with a
+  /// changed topology only.
   virtual CellRole<dim> role(const CellIterator &) const
   {
     return {};
   }
 
-  /// Change the coefficients at the quadrature points of a cell; only called where
-  /// requirements().changes_bulk.
-  virtual void bulk_coefficients(const CellIterator &,
-                                 const std::vector<dealii::Point<dim>> &,
-                                 std::vector<BulkCoefficients<dim>> &) const
+  /// Terms that are linear in the bulk unknowns and stay as they are for many solves (bonds that
+  /// hold). Null: there are none, ever.
+  virtual const KeptTerms *kept_terms() const
   {
-  }
-
-  /// Pairs of bulk dofs that assemble() couples beyond those of a common cell.
-  virtual void add_couplings(
-    const std::function<void(const std::vector<dealii::types::global_dof_index> &)> &) const
-  {
-  }
-
-  /// Add the matrix of terms that are linear in the bulk unknowns and stay as they are for many
-  /// solves (bonds that hold); residuals do not count. It is kept until bulk_version() changes.
-  virtual void assemble_bulk(const StepContext &, Sink &) const
-  {
-  }
-
-  virtual unsigned int bulk_version() const
-  {
-    return 0;
+    return nullptr;
   }
 
   /// Add the model's other terms (cohesive tractions, released stress); not the fluid, not the
@@ -154,9 +132,12 @@ public:
     return {};
   }
 
-  /// The step is accepted: trial history becomes history.
-  virtual void commit(const StepContext &, const State &)
+  /// The step is accepted: trial history becomes history. Returns, on every rank alike, whether
+  /// setup() shall be called before the next step even if the mesh stays as it is, for the part of
+  /// it that the model works on has grown.
+  virtual bool commit(const StepContext &, const State &)
   {
+    return false;
   }
 
   /// The step is rejected: back to the state at begin_step, as if it had never been.

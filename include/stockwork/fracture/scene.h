@@ -3,6 +3,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include "stockwork/rock/law.h"
 #include "stockwork/rock/rock.h"
 
 #include <algorithm>
@@ -98,5 +99,8 @@ struct Scene
   /// the plane is that of plane strain in this rock.
   std::function<dealii::SymmetricTensor<2, 3>(const dealii::Point<dim> &, const RockProperties &)>
     in_situ_tensor = {};
+
+  /// The law of the rock in a region, to be put inside another.
+  std::function<const RockLaw &(dealii::types::material_id)> rock_law = {};
 };
 } // namespace stockwork

@@ -37,7 +37,9 @@ inline double value(const LinearFunctional &functional, const Unknowns &unknowns
 
 /// A piece of a fracture, as the fluid sees it: a place, an area, a normal, neighbours, and the
 /// linear functional of the unknowns that opens it. The same functional gives the volume A w and,
-/// transposed, the load A p_f on the rock, so work and volume are conserved by construction.
+/// transposed, the load A p_f on the rock, so work and volume are conserved by construction. A
+/// model whose fluid loads the rock in another way adds the difference itself
+/// (FractureModel::assemble(), State::segment_unknown).
 template <int dim>
 struct Segment
 {
@@ -69,11 +71,9 @@ struct Segment
   /// CellRole::fracture_normal), zero where it is a jump.
   double share_of_pores = 0.;
 
-  /// What the fluid's pressure does to the rock where that is not the transpose of `opening`: unit
-  /// pressure exerts the forces area times the coefficients, and the work p A dw does not equal
-  /// that of these forces. For closures that are there for comparison; empty everywhere else. Same
-  /// rank.
-  LinearFunctional load;
+  /// What the segment's own fluid pressure adds to the opening [m/Pa], where a crack in a cell is a
+  /// spring between its faces. Same rank.
+  double opening_by_pressure = 0.;
 
   /// Pore pressure of the rock at the segment [Pa], the mean of both faces, for leak-off. Where the
   /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.

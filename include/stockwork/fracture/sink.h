@@ -46,8 +46,6 @@ class Sink
 public:
   virtual ~Sink() = default;
 
-  virtual bool wants_matrix() const = 0;
-
   virtual void add(const LocalSystem &) = 0;
 };
 } // namespace stockwork

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace stockwork
@@ -79,5 +80,18 @@ struct State
   /// Fluid pressure in the segment with this key [Pa], solved for or given, of the iterate; the
   /// same on every rank. Zero where there is no fluid; empty function: no fluid anywhere.
   std::function<double(std::uint64_t key)> segment_pressure;
+
+  /// Index of that pressure among the extra unknowns, for derivatives; nothing where it is given.
+  /// Empty function: no fluid anywhere.
+  std::function<std::optional<unsigned int>(std::uint64_t key)> segment_unknown = {};
+
+  /// Fluid pressure in a segment in any set of values [Pa]; zero where there is no fluid.
+  double pressure_of(const std::uint64_t segment, const Unknowns &unknowns) const
+  {
+    if (segment_unknown)
+      if (const auto index = segment_unknown(segment))
+        return unknowns.extra[*index];
+    return segment_pressure ? segment_pressure(segment) : 0.;
+  }
 };
 } // namespace stockwork

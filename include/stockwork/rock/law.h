@@ -16,7 +16,8 @@ struct RockState
   double pressure = 0.;                         ///< pore pressure over in situ [Pa]
   dealii::SymmetricTensor<2, 3> in_situ_stress; ///< total, tension positive [Pa]
   double in_situ_pressure = 0.;                 ///< [Pa]
-  const double *history = nullptr;              ///< committed, RockLaw::n_history() numbers
+  double fracture_pressure = 0.;   ///< of the fluid in CellRole::segment, if there is one [Pa]
+  const double *history = nullptr; ///< committed, RockLaw::n_history() numbers
 };
 
 /// What the rock answers, and how that changes with strain and pressure.
@@ -30,6 +31,16 @@ struct RockResponse
   dealii::SymmetricTensor<2, 3> stress_by_pressure; ///< minus alpha times unity where isotropic
   dealii::SymmetricTensor<2, 3> content_by_strain;
   double content_by_pressure = 0.; ///< 1/M [1/Pa]
+
+  // Where a fracture model has put its own law in place of the rock's: what the pressure in
+  // CellRole::segment does beyond the load on that segment's opening.
+  dealii::SymmetricTensor<2, 3> stress_by_fracture_pressure;
+  double content_by_fracture_pressure = 0.;
+
+  // Where RockLaw::changes_permeability().
+  dealii::SymmetricTensor<2, 3> permeability;             ///< [m^2]
+  dealii::SymmetricTensor<4, 3> permeability_by_strain;   ///< the strain is the second pair
+  dealii::SymmetricTensor<2, 3> permeability_by_pressure; ///< [m^2/Pa]
 
   /// What the user must know of this answer, a sentence that lasts; null: nothing.
   const char *remark = nullptr;
@@ -45,8 +56,8 @@ struct HistoryField
   bool is_tensor = false;
 };
 
-/// How a rock deforms and stores fluid. Made for one region of the rock, whose constants hold in
-/// its linear range.
+/// How a rock deforms, stores fluid and lets it through. Made for one region of the rock, whose
+/// constants hold in its linear range.
 ///
 /// A law is a pure function of state and committed history, so it may be evaluated any number of
 /// times; the core keeps the history and decides what becomes of it.
@@ -65,6 +76,12 @@ public:
   virtual bool is_symmetric() const
   {
     return true;
+  }
+
+  /// Whether the permeability hangs on the state, so that evaluate() gives it.
+  virtual bool changes_permeability() const
+  {
+    return false;
   }
 
   /// The history of a point; it begins with zeros.

@@ -31,6 +31,9 @@ struct RockProperties
   double biot_coefficient = 1.;
   double inverse_biot_modulus = 0.; ///< 1/M = (alpha-n)/K_s + n/K_f [1/Pa]
   double permeability = 0.;         ///< [m^2], along the layers; zero where the deck gives none
+  /// Mean effective stress, compression positive, that lowers the permeability by the factor e,
+  /// from `permeability` without any; infinite: it does not hang on the stress [Pa].
+  double permeability_decay_stress = std::numeric_limits<double>::infinity();
   double porosity = 0.;
   double density = 0.; ///< of the saturated mixture [kg/m^3]; zero where the deck gives none
   double energy_release_rate = std::numeric_limits<double>::quiet_NaN();       ///< G_c [J/m^2]

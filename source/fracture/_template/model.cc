@@ -36,8 +36,7 @@ public:
   {
     Requirements requirements;
     requirements.pore_pressure = false; // true: cannot run in dry rock
-    requirements.newton = true;         // assemble() gives the exact derivative
-    requirements.changes_bulk = false;  // true: bulk_coefficients() is called
+    requirements.law = nullptr;         // a law that role() puts in place of the rock's
     return requirements;
   }
 
@@ -59,7 +58,7 @@ public:
     return dealii::make_array_view(all_segments);
   }
 
-  /// Ordinary, cut, or with rows that assemble() provides.
+  /// Ordinary, cut, with rows that assemble() provides, or with a law of your own.
   CellRole<dim> role(const CellIterator &) const override
   {
     return {};
@@ -77,10 +76,11 @@ public:
     return {};
   }
 
-  /// Trial history becomes history.
-  void commit(const StepContext &, const State &) override
+  /// Trial history becomes history; true: call setup() before the next step.
+  bool commit(const StepContext &, const State &) override
   {
     committed_opening = trial_opening;
+    return false;
   }
 
   /// As if the step had never been.

@@ -303,14 +303,13 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
         const double shape_i = shapes.values[q][columns[i].corner] * weight;
         const unsigned int di = columns[i].component;
         local.residual(i) += shape_i * traction[di];
-        if (sink.wants_matrix())
-          for (unsigned int j = 0; j < columns.size(); ++j)
-          {
-            const unsigned int dj = columns[j].component;
-            local.matrix(i, j) += shape_i * shapes.values[q][columns[j].corner] *
-                                  (n[di] * (k[0][0] * n[dj] + k[0][1] * t[dj]) +
-                                   t[di] * (k[1][0] * n[dj] + k[1][1] * t[dj]));
-          }
+        for (unsigned int j = 0; j < columns.size(); ++j)
+        {
+          const unsigned int dj = columns[j].component;
+          local.matrix(i, j) += shape_i * shapes.values[q][columns[j].corner] *
+                                (n[di] * (k[0][0] * n[dj] + k[0][1] * t[dj]) +
+                                 t[di] * (k[1][0] * n[dj] + k[1][1] * t[dj]));
+        }
       }
     }
     sink.add(local);
@@ -321,7 +320,7 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
 
 
 template <int dim>
-void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
+bool CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
 {
   started = true;
   for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
@@ -364,6 +363,7 @@ void CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
     limits.volume[c] = volume(
       c, {0, static_cast<unsigned int>(committed_paths[c].pieces.size()) - 1}, state.current);
   committed_limits = limits;
+  return false;
 }
 
 

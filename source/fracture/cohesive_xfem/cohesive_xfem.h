@@ -47,7 +47,7 @@ public:
   Verdict
   advance(const StepContext &context, const State &state, const Collectives &collectives) override;
 
-  void commit(const StepContext &context, const State &state) override;
+  bool commit(const StepContext &context, const State &state) override;
 
   void rollback() override;
 

@@ -1,4 +1,4 @@
-// Intact rock: the model that does nothing, with the interface's defaults.
+// Intact rock: the model that does nothing.
 #include "stockwork/fracture/registry.h"
 
 namespace stockwork
@@ -7,14 +7,29 @@ namespace none
 {
 void register_model(FractureModelRegistry &registry);
 
+namespace
+{
+template <int dim>
+class IntactRock : public FractureModel<dim>
+{
+public:
+  Requirements requirements() const override
+  {
+    Requirements requirements;
+    requirements.has_fracture = false;
+    return requirements;
+  }
+};
+} // namespace
+
 void register_model(FractureModelRegistry &registry)
 {
   FractureModelEntry entry;
   entry.description = "Intact rock without any fracture.";
   entry.create_2d = [](dealii::ParameterHandler &, const Scene<2> &)
-  { return std::make_unique<FractureModel<2>>(); };
+  { return std::make_unique<IntactRock<2>>(); };
   entry.create_3d = [](dealii::ParameterHandler &, const Scene<3> &)
-  { return std::make_unique<FractureModel<3>>(); };
+  { return std::make_unique<IntactRock<3>>(); };
   registry.add("none", entry);
 }
 } // namespace none

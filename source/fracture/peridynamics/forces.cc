@@ -36,8 +36,7 @@ CellRole<dim> Peridynamics<dim>::role(const CellIterator &cell) const
 
 
 template <int dim>
-void Peridynamics<dim>::add_couplings(
-  const std::function<void(const std::vector<dealii::types::global_dof_index> &)> &couple) const
+void Peridynamics<dim>::add_couplings(const Coupling &couple) const
 {
   std::vector<dealii::types::global_dof_index> dofs(2 * dim);
   for (const unsigned int i : zone.peridynamic_sites())
@@ -165,7 +164,7 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
 
 
 template <int dim>
-void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &sink) const
+void Peridynamics<dim>::assemble(const StepContext &, Sink &sink) const
 {
   LocalSystem local;
   local.bulk.resize(2 * dim);
@@ -225,6 +224,8 @@ template <int dim>
 void Peridynamics<dim>::assemble(const StepContext &context, const State &state, Sink &sink) const
 {
   assemble_softening(state, sink);
+  for (const PublishedLoad<dim> &load : published)
+    load.assemble(state, sink);
   if (parameters.tensor_fluid)
     assemble_tensor_fluid(context, state, sink);
   if (parameters.tensor_fluid && parameters.as_published)
@@ -253,17 +254,16 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   }
 }
 
-#define INSTANTIATE(dim)                                                                      \
-  template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;                 \
-  template void Peridynamics<dim>::add_couplings(                                             \
-    const std::function<void(const std::vector<dealii::types::global_dof_index> &)> &) const; \
-  template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;             \
-  template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;        \
-  template double Peridynamics<dim>::dilatation_factor(unsigned int) const;                   \
-  template void Peridynamics<dim>::for_each_dilatation(                                       \
-    const std::function<void(const std::vector<unsigned int> &,                               \
-                             const std::vector<Tensor<1, dim>> &, double)> &) const;          \
-  template void Peridynamics<dim>::assemble_bulk(const StepContext &, Sink &) const;          \
+#define INSTANTIATE(dim)                                                               \
+  template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;          \
+  template void Peridynamics<dim>::add_couplings(const Coupling &) const;              \
+  template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;      \
+  template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const; \
+  template double Peridynamics<dim>::dilatation_factor(unsigned int) const;            \
+  template void Peridynamics<dim>::for_each_dilatation(                                \
+    const std::function<void(const std::vector<unsigned int> &,                        \
+                             const std::vector<Tensor<1, dim>> &, double)> &) const;   \
+  template void Peridynamics<dim>::assemble(const StepContext &, Sink &) const;        \
   template void Peridynamics<dim>::assemble(const StepContext &, const State &, Sink &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

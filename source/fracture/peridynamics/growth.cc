@@ -183,7 +183,7 @@ void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
     bonds.set_broken(site, bond);
     cracked.set_broken(site, bond);
   }
-  ++version;
+  ++bond_version;
 }
 
 

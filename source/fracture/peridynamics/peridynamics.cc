@@ -1,7 +1,6 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include "fracture/peridynamics/lattice_moduli.h"
-#include "fracture/peridynamics/published_load.h"
 #include "fracture/peridynamics/state_based.h"
 #include "stockwork/base/error.h"
 
@@ -77,10 +76,9 @@ Requirements Peridynamics<dim>::requirements() const
 {
   Requirements requirements;
   requirements.symmetric = false;
-  requirements.symmetric_bulk = false;
   requirements.linear_elements = true;
   requirements.pore_pressure = parameters.tensor_fluid;
-  requirements.bulk_alone = scene.cracks.empty() && !parameters.growth;
+  requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
   requirements.uniform_rock = true;
   return requirements;
 }
@@ -123,7 +121,6 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
     discretization.dof_handler.n_dofs() / discretization.dof_handler.get_fe().dofs_per_vertex;
   zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, discretization,
              collectives);
-  zone_has_grown = false;
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 
@@ -152,7 +149,7 @@ void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
           committed_correction[zone.sites()[i].place] = gone;
     started = true;
   }
-  ++version;
+  ++bond_version;
   refresh_segments();
 }
 
@@ -179,13 +176,15 @@ void Peridynamics<dim>::refresh_segments()
         cell.normal[d] = old->second[d];
   all_segments = make_segments(zone, cells);
   at_front.clear();
+  published.clear();
   if (parameters.as_published && !parameters.tensor_fluid)
   {
     const RockProperties &rock = scene.rock.main();
     const double stretch_of_pressure = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
     const auto loads = published_loads(zone, bonds, coefficients, stretch_of_pressure, cells);
     for (unsigned int i = 0; i < cells.size(); ++i)
-      all_segments[i].load = loads[i];
+      if (zone.owns(cells[i].place))
+        published.emplace_back(all_segments[i], loads[i]);
   }
   owned_segments.clear();
   owned_cells.clear();
@@ -218,8 +217,7 @@ void Peridynamics<dim>::refresh_segments()
         if (parameters.as_published)
         {
           owned_segments.back().share_of_pores = 1.;
-          owned_segments.back().load.bulk = {segment.opening.bulk[0]};
-          owned_segments.back().load.bulk_coefficients = {0.};
+          published.emplace_back(segment, LinearFunctional());
         }
       }
     }
@@ -229,7 +227,7 @@ void Peridynamics<dim>::refresh_segments()
       !std::equal(cells.begin(), cells.end(), before.begin(), before.end(),
                   [](const FractureCell<dim> &a, const FractureCell<dim> &b)
                   { return a.place == b.place && a.normal == b.normal; }))
-    ++version;
+    ++bond_version;
 }
 
 
@@ -263,7 +261,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
 
 
 template <int dim>
-void Peridynamics<dim>::commit(const StepContext &, const State &)
+bool Peridynamics<dim>::commit(const StepContext &, const State &)
 {
   if (passes > 0)
   {
@@ -294,7 +292,7 @@ void Peridynamics<dim>::commit(const StepContext &, const State &)
                                                                     cells[i].normal.end_raw()));
   correct_faces();
   initial_pressure.clear();
-  enlarge_zone();
+  return enlarge_zone();
 }
 
 
@@ -320,7 +318,7 @@ void Peridynamics<dim>::correct_faces()
       changed = true;
     }
   if (changed)
-    ++version;
+    ++bond_version;
 }
 
 
@@ -338,7 +336,7 @@ void Peridynamics<dim>::rollback()
   bonds.reinit(zone, stencil);
   bonds.set_broken(committed_bonds);
   restore_softening();
-  ++version;
+  ++bond_version;
   refresh_segments();
 }
 
@@ -401,11 +399,9 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)
     corner[d] = origin[d];
-  const std::size_t n_boxes = shape.boxes.size();
   shape.boxes = parameters.boxes;
   for (const auto &[lower, upper] : grown)
     shape.boxes.emplace_back(std::make_pair(lower, upper));
-  zone_has_grown = shape.boxes.size() != n_boxes;
   started = true;
   dissipated = committed_energy;
   const bool known_mesh = !zone.sites().empty();
@@ -416,7 +412,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
     bonds.reinit(zone, stencil);
     bonds.set_broken(committed_bonds);
     restore_softening();
-    ++version;
+    ++bond_version;
     refresh_segments();
   }
 }

@@ -3,6 +3,7 @@
 #include "fracture/peridynamics/bond_set.h"
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
+#include "fracture/peridynamics/published_load.h"
 #include "fracture/peridynamics/softening.h"
 #include "stockwork/fracture/model.h"
 
@@ -13,7 +14,7 @@ namespace stockwork::peridynamics
 /// Rock made of bonds between the vertices of uniform cells, in a zone around the cracks; finite
 /// elements everywhere else. After Sun et al. (2021), with the changes that README.md lists.
 template <int dim>
-class Peridynamics : public FractureModel<dim>
+class Peridynamics : public FractureModel<dim>, private KeptTerms
 {
 public:
   using typename FractureModel<dim>::CellIterator;
@@ -24,25 +25,15 @@ public:
 
   void setup(const Discretization<dim> &discretization, const Collectives &collectives) override;
 
-  bool wants_setup() const override
-  {
-    return zone_has_grown;
-  }
-
   void begin_step(const StepContext &context) override;
 
   dealii::ArrayView<const Segment<dim>> segments() const override;
 
   CellRole<dim> role(const CellIterator &cell) const override;
 
-  void add_couplings(const std::function<void(const std::vector<dealii::types::global_dof_index> &)>
-                       &couple) const override;
-
-  void assemble_bulk(const StepContext &context, Sink &sink) const override;
-
-  unsigned int bulk_version() const override
+  const KeptTerms *kept_terms() const override
   {
-    return version;
+    return this;
   }
 
   void assemble(const StepContext &context, const State &state, Sink &sink) const override;
@@ -52,7 +43,7 @@ public:
   Verdict
   advance(const StepContext &context, const State &state, const Collectives &collectives) override;
 
-  void commit(const StepContext &context, const State &state) override;
+  bool commit(const StepContext &context, const State &state) override;
 
   void rollback() override;
 
@@ -72,6 +63,18 @@ public:
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
 
 private:
+  // Bonds that hold.
+  unsigned int version() const override
+  {
+    return bond_version;
+  }
+  bool is_symmetric() const override
+  {
+    return false;
+  }
+  void add_couplings(const Coupling &couple) const override;
+  void assemble(const StepContext &context, Sink &sink) const override;
+
   /// Break the bonds that the initial open cracks pass through.
   void cut_initial_cracks();
 
@@ -85,7 +88,7 @@ private:
   void correct_faces();
 
   /// Enlarge the zone ahead of where the rock cracks, if there is less than the margin of it left.
-  void enlarge_zone();
+  bool enlarge_zone();
 
   /// Whether a bond that leads out of the zone may do so no longer after enlarge_zone().
   bool zone_may_include(unsigned int site, unsigned int bond) const;
@@ -277,11 +280,12 @@ private:
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;                 ///< of all ranks
   std::vector<bool> at_front;                             ///< which of them the fracture ends at
+  std::vector<PublishedLoad<dim>> published;              ///< of owned segments
   std::vector<Segment<dim>> owned_segments;               ///< their openings are known here
   std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;
-  unsigned int version = 0; ///< of the bonds
+  unsigned int bond_version = 0; ///< of whole bonds and of cells' normals
 
   // Committed.
   std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;
@@ -291,7 +295,6 @@ private:
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
-  bool zone_has_grown = false;
   bool told_of_rim = false, told_of_pressure = false;
 
   // Of the current step.

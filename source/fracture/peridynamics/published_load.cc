@@ -46,7 +46,48 @@ published_loads(const Zone<dim> &zone,
   return loads;
 }
 
+
+template <int dim>
+PublishedLoad<dim>::PublishedLoad(const Segment<dim> &segment, const LinearFunctional &forces)
+  : segment(segment.key)
+{
+  std::map<dealii::types::global_dof_index, double> sum;
+  for (unsigned int i = 0; i < forces.bulk.size(); ++i)
+    sum[forces.bulk[i]] += segment.area * forces.bulk_coefficients[i];
+  const LinearFunctional &opening = segment.opening;
+  for (unsigned int i = 0; i < opening.bulk.size(); ++i)
+    sum[opening.bulk[i]] -= segment.area * opening.bulk_coefficients[i];
+  for (const auto &[dof, force] : sum)
+  {
+    difference.bulk.push_back(dof);
+    difference.bulk_coefficients.push_back(force);
+  }
+}
+
+
+template <int dim>
+void PublishedLoad<dim>::assemble(const State &state, Sink &sink) const
+{
+  if (!state.segment_pressure)
+    return;
+  const double pressure = state.segment_pressure(segment);
+  const auto unknown = state.segment_unknown(segment);
+  LocalSystem local;
+  local.bulk = difference.bulk;
+  if (unknown)
+    local.extra.push_back(*unknown);
+  local.reinit();
+  for (unsigned int i = 0; i < difference.bulk.size(); ++i)
+  {
+    local.residual(i) = -pressure * difference.bulk_coefficients[i];
+    if (unknown)
+      local.matrix(i, difference.bulk.size()) = -difference.bulk_coefficients[i];
+  }
+  sink.add(local);
+}
+
 #define INSTANTIATE(dim)                                                                         \
+  template class PublishedLoad<dim>;                                                             \
   template std::vector<LinearFunctional> published_loads(                                        \
     const Zone<dim> &, const BondSet<dim> &, const std::vector<BondCoefficients<dim>> &, double, \
     const std::vector<FractureCell<dim>> &);

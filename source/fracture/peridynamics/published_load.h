@@ -1,6 +1,8 @@
 #pragma once
 
 #include "fracture/peridynamics/fracture_cells.h"
+#include "stockwork/fracture/sink.h"
+#include "stockwork/fracture/state.h"
 
 namespace stockwork::peridynamics
 {
@@ -15,7 +17,7 @@ namespace stockwork::peridynamics
 ///
 /// @param stretch_of_pressure gamma, the stretch of a bond in free rock under unit pressure [1/Pa];
 /// (1+nu)(1-2nu)/E in plane strain, of which Eq. 9b prints the inverse
-/// @return for each cell the forces of unit pressure in it over its area, see Segment::load
+/// @return for each cell the forces of unit pressure in it over its area
 template <int dim>
 std::vector<LinearFunctional>
 published_loads(const Zone<dim> &zone,
@@ -23,4 +25,22 @@ published_loads(const Zone<dim> &zone,
                 const std::vector<BondCoefficients<dim>> &coefficients,
                 double stretch_of_pressure,
                 const std::vector<FractureCell<dim>> &cells);
+
+
+/// A segment whose pressure loads the rock as published: the fluid network loads it by the
+/// transpose of the segment's opening, and this adds the difference. The work p A dw of the fluid
+/// does not equal that of these forces.
+template <int dim>
+class PublishedLoad
+{
+public:
+  /// @param forces of unit pressure over the segment's area; none: no load at all
+  PublishedLoad(const Segment<dim> &segment, const LinearFunctional &forces);
+
+  void assemble(const State &state, Sink &sink) const;
+
+private:
+  std::uint64_t segment;
+  LinearFunctional difference; ///< force per pressure
+};
 } // namespace stockwork::peridynamics

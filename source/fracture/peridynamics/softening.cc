@@ -227,7 +227,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     if (bond.committed >= softening.last)
     {
       bonds.set_broken(bond.view.first, bond.view.second);
-      ++version;
+      ++bond_version;
     }
     else
       softening_now.push_back(bond);

@@ -28,10 +28,11 @@ surroundings(const Point<dim> &point, const double distance, const BoundingBox<d
 
 
 template <int dim>
-void Peridynamics<dim>::enlarge_zone()
+bool Peridynamics<dim>::enlarge_zone()
 {
   if (parameters.zone_growth == 0)
-    return;
+    return false;
+  const std::size_t n_boxes = shape.boxes.size();
   const double h = zone.spacing();
   std::vector<Point<dim>> active;
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -85,8 +86,8 @@ void Peridynamics<dim>::enlarge_zone()
     BoundingBox<dim> box = surroundings(point + ahead, parameters.margin * h, zone.room());
     box.merge_with(wanted);
     shape.boxes.push_back(box);
-    zone_has_grown = true;
   }
+  return shape.boxes.size() > n_boxes;
 }
 
 
@@ -98,8 +99,8 @@ bool Peridynamics<dim>::zone_may_include(const unsigned int site, const unsigned
                                   1e-6);
 }
 
-template void Peridynamics<2>::enlarge_zone();
-template void Peridynamics<3>::enlarge_zone();
+template bool Peridynamics<2>::enlarge_zone();
+template bool Peridynamics<3>::enlarge_zone();
 template bool Peridynamics<2>::zone_may_include(unsigned int, unsigned int) const;
 template bool Peridynamics<3>::zone_may_include(unsigned int, unsigned int) const;
 } // namespace stockwork::peridynamics

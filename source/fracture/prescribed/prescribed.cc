@@ -116,11 +116,12 @@ public:
     contact.begin_step();
   }
 
-  void commit(const StepContext &, const State &state) override
+  bool commit(const StepContext &, const State &state) override
   {
     for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
       for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
         contact.commit(discontinuity, c, i, state.current.extra);
+    return false;
   }
 
   std::vector<std::string> take_messages() override

@@ -12,8 +12,8 @@ void register_law(RockLawRegistry &registry)
 {
   RockLawEntry entry;
   entry.description = "Isotropic and linear.";
-  entry.create = [](const dealii::ParameterHandler &, const std::string &, const RockProperties &)
-  { return std::make_unique<LinearRockLaw>(); };
+  entry.create = [](const dealii::ParameterHandler &, const std::string &,
+                    const RockProperties &rock) { return std::make_unique<LinearRockLaw>(rock); };
   registry.add("elastic", entry);
 }
 } // namespace elastic

@@ -139,8 +139,8 @@ void register_law(RockLawRegistry &registry)
   entry.description = "Linear, in layers: five constants and 'Rock/Normal of the layers'.";
   entry.declare_parameters = declare_parameters;
   entry.stiffness = stiffness;
-  entry.create = [](const ParameterHandler &, const std::string &, const RockProperties &)
-  { return std::make_unique<LinearRockLaw>(); };
+  entry.create = [](const ParameterHandler &, const std::string &, const RockProperties &rock)
+  { return std::make_unique<LinearRockLaw>(rock); };
   registry.add("transversely isotropic", entry);
 }
 } // namespace transversely_isotropic

@@ -1,0 +1,132 @@
+// Permeability that falls with the effective stress: derivatives of the law, and steady flow
+// through a column against its closed form.
+#include <doctest/doctest.h>
+
+#include "scenario.h"
+
+#include "rock/mohr_coulomb/law.h"
+#include "rock/stress_dependent_permeability.h"
+#include "stockwork/rock/linear_law.h"
+
+#include <deal.II/base/function_lib.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <cmath>
+#include <random>
+
+namespace stockwork::stress_dependent_permeability_test
+{
+using namespace dealii;
+
+namespace
+{
+RockProperties properties()
+{
+  RockProperties rock;
+  rock.young_modulus = 1e10;
+  rock.poisson_ratio = 0.25;
+  rock.biot_coefficient = 0.7;
+  rock.inverse_biot_modulus = 1. / 12e9;
+  rock.permeability = 3e-15;
+  rock.permeability_across = 1e-15;
+  rock.layer_normal[1] = 1.;
+  rock.permeability_decay_stress = 7e6;
+  return rock;
+}
+
+
+RockResponse ask(const RockLaw &law, const RockState &state)
+{
+  RockResponse response;
+  std::vector<double> history(law.n_history() + 1);
+  response.history = history.data();
+  law.evaluate(ArrayView<const RockState>(&state, 1), ArrayView<RockResponse>(&response, 1));
+  response.history = nullptr;
+  return response;
+}
+} // namespace
+
+
+TEST_CASE(
+  "stress-dependent permeability: derivatives, in rock that is linear and in rock that yields")
+{
+  const RockProperties rock = properties();
+  const mohr_coulomb::Strength strength{1e6, 0.5, 0.1};
+  const StressDependentPermeability linear(std::make_unique<LinearRockLaw>(rock), rock),
+    yielding(std::make_unique<mohr_coulomb::MohrCoulomb>(rock, strength), rock);
+  std::mt19937 generator(4711);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  const auto random = [&](const double size)
+  {
+    SymmetricTensor<2, 3> result;
+    for (unsigned int i = 0; i < 6; ++i)
+      result.access_raw_entry(i) = size * uniform(generator);
+    return result;
+  };
+  for (const RockLaw *law : std::initializer_list<const RockLaw *>{&linear, &yielding})
+    for (unsigned int i = 0; i < 200; ++i)
+    {
+      RockState state;
+      state.in_situ_stress = -10e6 * unit_symmetric_tensor<3>() + random(1e6);
+      state.in_situ_pressure = 2e6;
+      state.strain = random(5e-4);
+      state.pressure = 3e6 * uniform(generator);
+      const RockResponse here = ask(*law, state);
+      const SymmetricTensor<2, 3> direction = random(1.);
+      const double step = 1e-9, pressure_step = 10.;
+      RockState up = state, down = state;
+      up.strain += step * direction;
+      down.strain -= step * direction;
+      const auto by_strain =
+        (ask(*law, up).permeability - ask(*law, down).permeability) / (2. * step);
+      const double size = (here.permeability_by_strain * direction).norm();
+      CHECK((by_strain - here.permeability_by_strain * direction).norm() < 1e-5 * size);
+      up = down = state;
+      up.pressure += pressure_step;
+      down.pressure -= pressure_step;
+      const auto by_pressure =
+        (ask(*law, up).permeability - ask(*law, down).permeability) / (2. * pressure_step);
+      CHECK((by_pressure - here.permeability_by_pressure).norm() <
+            1e-6 * here.permeability.norm() / 7e6);
+    }
+}
+
+
+TEST_CASE("stress-dependent permeability: steady flow through a column")
+{
+  // With the total stress -S along the column and no strain across it, the mean effective stress is
+  // (S - alpha p) m with m = (1 + nu) / (3 (1 - nu)). So k is k_1 exp(a p) with a = alpha m / s,
+  // and exp(a p) is linear along the column (Kirchhoff's transformation).
+  const double S = 10e6, alpha = 0.8, nu = 0.25, s = 4e6, inlet = 5e6, length = 10.;
+  const double a = alpha * (1. + nu) / (3. * (1. - nu)) / s;
+  std::vector<double> errors;
+  for (const std::string cells : {"8", "16"})
+  {
+    Scenario scenario(STOCKWORK_SOURCE "/tests/rock/permeability.prm",
+                      {"Mesh/Box/Y spacing=" + cells + " cells"});
+    for (unsigned int step = 0; step < 10; ++step)
+      scenario.advance();
+    double worst = 0.;
+    for (double y = 0.; y <= length; y += length / 8.)
+    {
+      Vector<double> values(3);
+      VectorTools::point_value(*scenario.mapping, scenario.system.bulk_dofs(),
+                               scenario.stepper.committed.bulk, Point<2>(0.5, y), values);
+      const double exact = std::log(std::exp(a * inlet) * (1. - y / length) + y / length) / a;
+      worst = std::max(worst, std::abs(values(2) - exact) / inlet);
+    }
+    errors.push_back(worst);
+
+    // What flows out above in a step is what flows in below, q = k_1 (exp(a p) - 1) / (a mu L).
+    const double k = 1e-12 * std::exp(-S * a / alpha);
+    const double flux = k / 1e-3 * (std::exp(a * inlet) - 1.) / (a * length);
+    const double fluid =
+      scenario.system.pore_fluid(scenario.stepper.last_context(), scenario.stepper.last_state())
+        .outflow;
+    CHECK(std::abs(fluid) < 1e-6 * flux * scenario.stepper.last_context().dt);
+  }
+  // The mean over a linear element is second order, its nodes are nearly exact.
+  CHECK(errors[0] < 1e-3);
+  CHECK(errors[1] < 0.3 * errors[0]);
+}
+} // namespace stockwork::stress_dependent_permeability_test
