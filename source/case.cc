@@ -507,7 +507,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
       "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
   if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
-                     "backward Euler (or Newmark) with a finite 'Fracture flow/Least pressure'");
+                     "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
 
   CouplingParameters coupling;
   coupling.parse_parameters(prm);

@@ -65,15 +65,13 @@ int run_program(const CommandLine &command_line, RunContext &run)
   {
     plug_ins.load(deck);
     declare_all_parameters(prm, plug_ins);
-    const std::vector<std::string> warnings = deck.parse_into(prm);
+    deck.parse_into(prm);
     if (command_line.action == CommandLine::Action::print_parameters)
     {
       if (run.rank == 0)
         print_parameters(prm, command_line.parameter_format, std::cout);
       return 0;
     }
-    for (const std::string &warning : warnings)
-      run.warn(warning);
 
     SimulationOptions options;
     options.deck = std::filesystem::absolute(command_line.deck).string();

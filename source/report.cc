@@ -298,7 +298,7 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     // of the fluid in fractures is in it.
     const FluidBalance &balance = stepper.fluid_balance();
     if (network.needs_pore_pressure() || balance.total.leaked == 0.)
-      observed["missing_volume"] = balance.total.injected - summary.fluid_balance.outflow -
+      observed["fluid_volume_defect"] = balance.total.injected - summary.fluid_balance.outflow -
                                    balance.fracture_volume - balance.total.in_boreholes -
                                    pores.volume;
   }

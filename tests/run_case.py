@@ -43,7 +43,7 @@ MPIRUN = "mpirun --allow-run-as-root --oversubscribe -np"
 
 # Columns and finals that differ between equal computations.
 NOT_PHYSICS = re.compile(
-    r"wall|second|iteration|memory|relative_error|residual|time_left|missing_volume")
+    r"wall|second|iteration|memory|relative_error|residual|time_left|fluid_volume_defect")
 
 OPERATORS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge,
              "==": operator.eq}

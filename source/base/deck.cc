@@ -259,7 +259,7 @@ std::optional<std::string> Deck::peek(const std::string &path) const
   return entry->second.value;
 }
 
-std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
+void Deck::parse_into(dealii::ParameterHandler &prm) const
 {
   const std::vector<DeclaredEntry> declared = declared_entries(prm);
   std::map<std::string, const DeclaredEntry *> by_path;
@@ -278,7 +278,6 @@ std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
   };
 
   std::vector<std::pair<Origin, std::string>> errors;
-  std::vector<std::string> warnings;
   for (const auto &[path, origin] : sections)
     if (!is_section(path) && is_section(section_of(path)))
       errors.emplace_back(origin, "there is no section '" + path + "'" +
@@ -303,8 +302,10 @@ std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
         ? &entry
         : by_path.at(entry.section.empty() ? entry.alias_of : entry.section + "/" + entry.alias_of);
     if (entry.deprecated)
-      warnings.push_back(given.origin.text() + ": '" + path + "' is now called '" + target->path() +
-                         "'; the old name still works");
+    {
+      errors.emplace_back(given.origin, "'" + path + "' is now called '" + target->path() + "'");
+      continue;
+    }
     try
     {
       const EnteredSections entered(prm, target->section);
@@ -327,7 +328,6 @@ std::vector<std::string> Deck::parse_into(dealii::ParameterHandler &prm) const
       texts.push_back(origin.text() + ": " + text);
     throw_all(file_name, texts);
   }
-  return warnings;
 }
 
 Origin Deck::origin(const std::string &path) const

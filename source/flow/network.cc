@@ -26,13 +26,14 @@ void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
     "only, never the volume. Small beside the aperture near the tip: a larger "
     "value lets viscous fluid run ahead. Empty: a hundredth of the aperture that the first crack "
     "has when it sets out, by toughness or viscosity, which is printed.");
-  prm.declare_entry("Least pressure", "-inf",
+  prm.declare_entry("Vapour pressure", "-inf",
                     Quantity(dimension::pressure, Range{-INFINITY, INFINITY, false, true}),
-                    "At which the fluid boils. A segment that it cannot fill keeps this pressure, "
-                    "and the fluid lags behind the tip. Where pressures are net ones, for the rock "
+                    "Cavitation pressure: where a segment cannot be filled at it, the rest is vapour, and "
+                    "the fluid lags behind the tip. Where pressures are net ones, for the rock "
                     "is unstressed, it is minus the stress that is left out. -inf: the fluid fills "
                     "every tip, by suction if need be. Not with Carter's leak-off, BDF2, nor a "
                     "permeability tensor.");
+  prm.declare_alias("Vapour pressure", "Least pressure", true);
   prm.declare_entry("Leak-off", "none", Patterns::Selection("none|carter|filter cake|resolved"),
                     "How fluid passes from fractures into the rock. carter: C_L/sqrt(t-t_0) "
                     "per face, out of the model. filter cake: c_l (p_f - p_m) per face, into the "
@@ -52,8 +53,8 @@ template <int dim>
 void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
 {
   prm.enter_subsection("Fracture flow");
-  least_pressure = get_quantity(prm, "Least pressure", dimension::pressure);
-  const std::string least_text = prm.get("Least pressure");
+  least_pressure = get_quantity(prm, "Vapour pressure", dimension::pressure);
+  const std::string least_text = prm.get("Vapour pressure");
   carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
   filter_cake_coefficient =
     get_quantity(prm, "Filter cake coefficient", dimension::leakoff_per_pressure);
@@ -67,7 +68,7 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   if (leak_off == LeakOff::carter && carter_coefficient == 0.)
     throw EntryError("Fracture flow/Carter coefficient", "0", "a value > 0 with Carter leak-off");
   if (leak_off == LeakOff::carter && may_boil())
-    throw EntryError("Fracture flow/Least pressure", least_text,
+    throw EntryError("Fracture flow/Vapour pressure", least_text,
                      "-inf with Carter leak-off, which takes fluid that may not be there");
   if (leak_off == LeakOff::filter_cake && filter_cake_coefficient == 0.)
     throw EntryError("Fracture flow/Filter cake coefficient", "0",

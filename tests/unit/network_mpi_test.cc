@@ -353,7 +353,7 @@ TEST_CASE("fluid that would have to be pulled boils and lags")
       for (auto &segment : segments)
         segment.opening.constant = slot;
     };
-    chain.set_up(one_well + Chain::Entries{{"Fracture flow/Least pressure", "-0.3 MPa"}});
+    chain.set_up(one_well + Chain::Entries{{"Fracture flow/Vapour pressure", "-0.3 MPa"}});
   };
   const auto grow = [](Chain &chain)
   {
@@ -542,7 +542,7 @@ TEST_CASE("decks that make no sense")
   check({{"Fracture flow/Leak-off", "carter"}}, "Carter coefficient");
   check({{"Fracture flow/Leak-off", "carter"},
          {"Fracture flow/Carter coefficient", "1e-5"},
-         {"Fracture flow/Least pressure", "0"}},
-        "'Fracture flow/Least pressure' is '0'; allowed is -inf with Carter leak-off");
+         {"Fracture flow/Vapour pressure", "0"}},
+        "'Fracture flow/Vapour pressure' is '0'; allowed is -inf with Carter leak-off");
 }
 } // namespace stockwork::network_mpi_test

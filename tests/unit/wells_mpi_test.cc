@@ -84,7 +84,7 @@ TEST_CASE("without an entry the bound is vacuum, or where the fluid boils; an in
   REQUIRE(bounds(well(in_and_out)).size() == 1);
   CHECK(bounds(well(in_and_out))[0].second == 0.);
   CHECK(bounds(well("f(t) = 1e-4*cos(t)"))[0].second == 0.);
-  CHECK(bounds(well(in_and_out, {{"Fracture flow/Least pressure", "-3 MPa"}}))[0].second == -3e6);
+  CHECK(bounds(well(in_and_out, {{"Fracture flow/Vapour pressure", "-3 MPa"}}))[0].second == -3e6);
   CHECK(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Least pressure", "2 MPa"}}))[0].second == 2e6);
   CHECK_THROWS_AS(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Least pressure", "2 m"}})), InputError);
   CHECK_THROWS_AS(bounds(well("0", {{"Wells/Well 1/Control", "pressure"},

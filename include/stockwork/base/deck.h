@@ -54,10 +54,10 @@ public:
   std::optional<std::string> peek(const std::string &path) const;
 
   /// Set every entry of the deck in @p prm.
-  /// @return warnings about deprecated names
-  /// @throws InputError naming all unknown sections and entries and all values that are not
-  /// allowed, with file, line and the nearest valid names
-  std::vector<std::string> parse_into(dealii::ParameterHandler &prm) const;
+  /// @throws InputError naming all unknown sections and entries, entries that have another name now
+  /// (deprecated aliases) and all values that are not allowed, with file, line and the nearest valid
+  /// names
+  void parse_into(dealii::ParameterHandler &prm) const;
 
   /// Where the effective value of "Section/Sub/Entry" was written.
   Origin origin(const std::string &path) const;

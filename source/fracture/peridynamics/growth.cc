@@ -232,7 +232,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     if (verdict.kind != Verdict::Kind::accept)
       return verdict;
     verdict.dt_limit = context.dt * (n_new > n_tips ? 0.6 : n_new > 0 ? 0.8 : 1.25);
-    if (followed < 1.)
+    if (damage_relaxation < 1.)
       verdict.dt_limit = context.dt * std::pow(2., context.attempt);
     return verdict;
   }

@@ -63,12 +63,11 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
                     "that is spread over more cells. State-based bonds are always brittle.");
   prm.declare_entry(
-    "Stretch", "effective", Patterns::Selection("effective|total"),
-    "What breaks a bond. effective: its stretch, and so much more that it takes the "
-    "energy of a crack less the work of the fluid that enters cells which are open "
-    "already, of which the rock has nothing. total: its stretch alone; pressurised "
-    "fractures are tougher then, by a share that falls with the root of the cells' "
-    "size.");
+    "Critical stretch", "reduced by fluid", Patterns::Selection("reduced by fluid|of dry rock"),
+    "reduced by fluid: by the work that the fluid does on the opening which a cell has when it is "
+    "wetted, of which the rock has nothing. of dry rock: not reduced; pressurised fractures are "
+    "tougher then, by a share that falls with the root of the cells' size.");
+  prm.declare_alias("Critical stretch", "Stretch", true);
   prm.declare_entry("Surface correction", "true", Patterns::Bool(),
                     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
                     "which makes its faces too soft. With the correction, the bonds that are left "
@@ -114,8 +113,8 @@ double parse_tensor_fluid(dealii::ParameterHandler &prm)
     throw EntryError("Fracture flow/Leak-off", prm.get("Leak-off"),
                      "'resolved' with 'Fracture/peridynamics/Fluid = permeability tensor', where "
                      "the pore pressure is that of the fractures");
-  if (std::isfinite(get_quantity(prm, "Least pressure", dimension::pressure)))
-    throw EntryError("Fracture flow/Least pressure", prm.get("Least pressure"),
+  if (std::isfinite(get_quantity(prm, "Vapour pressure", dimension::pressure)))
+    throw EntryError("Fracture flow/Vapour pressure", prm.get("Vapour pressure"),
                      "-inf with 'Fracture/peridynamics/Fluid = permeability tensor': the elements "
                      "of the pore pressure have no vapour");
   const double minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
@@ -160,7 +159,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   p.softening = p.state_based ? 1. : prm.get_double("Softening");
   if (p.softening > 1. && p.softening < 3.)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
-  p.effective_stretch = prm.get("Stretch") == "effective";
+  p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";
   p.as_published = prm.get("Closure") == "as published";
   p.tensor_fluid = prm.get("Fluid") == "permeability tensor";
   p.growth = prm.get_bool("Growth");

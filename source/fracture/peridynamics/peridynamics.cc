@@ -244,9 +244,9 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   passes = 0;
   // An attempt that this model has not rejected has not converged. Half of the step may do.
   if (context.attempt == 0)
-    followed = std::min(1., 1.25 * committed_followed);
+    damage_relaxation = std::min(1., 1.25 * committed_damage_relaxation);
   else if (context.attempt > 1 && !has_rejected)
-    followed *= 0.5;
+    damage_relaxation *= 0.5;
   has_rejected = false;
   dissipated = committed_energy;
   n_messages_before = messages.size();
@@ -278,7 +278,7 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &)
       {bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
   }
   committed_energy = dissipated;
-  committed_followed = followed;
+  committed_damage_relaxation = damage_relaxation;
   const double settled = (parameters.horizon + 1.5) * zone.spacing();
   std::vector<Point<dim>> front;
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -383,7 +383,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   for (auto box = shape.boxes.begin() + parameters.boxes.size(); box != shape.boxes.end(); ++box)
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
-          << committed_normals << committed_correction << committed_energy << committed_followed
+          << committed_normals << committed_correction << committed_energy << committed_damage_relaxation
           << told_of_rim << told_of_pressure;
 }
 
@@ -394,7 +394,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::array<double, dim> origin;
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
-    committed_normals >> committed_correction >> committed_energy >> committed_followed >>
+    committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
     told_of_rim >> told_of_pressure;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)

@@ -305,7 +305,7 @@ private:
   /// How far bonds soften within the step, of what their stretch asks for. Where a crack jumps, no
   /// step is short enough; so an attempt after one that has not converged lets them soften by less,
   /// and the rest is left to the steps that follow.
-  double followed = 1., committed_followed = 1.;
+  double damage_relaxation = 1., committed_damage_relaxation = 1.;
   bool has_rejected = false;        ///< the last attempt
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]

@@ -96,7 +96,7 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
 template <int dim>
 double Peridynamics<dim>::greatest_stretch(const SofteningBond &bond, const double stretch) const
 {
-  return bond.committed + followed * std::max(0., stretch - bond.committed);
+  return bond.committed + damage_relaxation * std::max(0., stretch - bond.committed);
 }
 
 
@@ -152,7 +152,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     const double damage = softening.damage(kappa);
     // Of damage times elongation by the elongation.
     const double slope = stretch > committed && total != 0.
-                           ? damage + (softening.slope(kappa) - damage) * followed * stretch /
+                           ? damage + (softening.slope(kappa) - damage) * damage_relaxation * stretch /
                                         kappa * elongation / total
                            : damage;
     law_of_bond.reinit();
