@@ -1,5 +1,7 @@
 #include "rock/mohr_coulomb/hardening.h"
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>

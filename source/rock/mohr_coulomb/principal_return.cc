@@ -1,5 +1,7 @@
 #include "rock/mohr_coulomb/principal_return.h"
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,24 +67,25 @@ unsigned int n_active_sets(const Strength &strength)
 }
 
 
-Plane shear_plane(const unsigned int i, const unsigned int j, const Strength &strength)
-{
-  Plane result;
-  result.a[i] = 1. + std::sin(strength.friction_angle);
-  result.a[j] = -1. + std::sin(strength.friction_angle);
-  result.g[i] = 1. + std::sin(strength.dilation_angle);
-  result.g[j] = -1. + std::sin(strength.dilation_angle);
-  result.k = 2. * std::cos(strength.friction_angle);
-  return result;
-}
-
-
 Planes planes_of(const Strength &strength)
 {
+  const double friction = std::sin(strength.friction_angle),
+               dilation = std::sin(strength.dilation_angle),
+               k = 2. * std::cos(strength.friction_angle);
+  const auto shear_plane = [&](const unsigned int i, const unsigned int j)
+  {
+    Plane plane;
+    plane.a[i] = 1. + friction;
+    plane.a[j] = -1. + friction;
+    plane.g[i] = 1. + dilation;
+    plane.g[j] = -1. + dilation;
+    plane.k = k;
+    return plane;
+  };
   Planes planes;
-  planes[shear_13] = shear_plane(0, 2, strength);
-  planes[shear_23] = shear_plane(1, 2, strength);
-  planes[shear_12] = shear_plane(0, 1, strength);
+  planes[shear_13] = shear_plane(0, 2);
+  planes[shear_23] = shear_plane(1, 2);
+  planes[shear_12] = shear_plane(0, 1);
   if (strength.has_cut_off())
     for (unsigned int i = 0; i < 3; ++i)
     {
@@ -153,16 +156,23 @@ PrincipalMatrix principal_stiffness(const double lame_lambda, const double shear
 }
 
 
-double excess(const PrincipalVector &stress, const Strength &strength, const double cohesion)
+double
+yield_function(const PrincipalVector &stress, const Strength &strength, const double cohesion)
 {
   const double greatest = std::max({stress[0], stress[1], stress[2]}),
                smallest = std::min({stress[0], stress[1], stress[2]});
-  const Plane shear = shear_plane(0, 2, strength);
-  const double beyond_shear = shear.a * Vector({greatest, 0., smallest}) - cohesion * shear.k;
+  return (greatest - smallest) + (greatest + smallest) * std::sin(strength.friction_angle) -
+         2. * cohesion * std::cos(strength.friction_angle);
+}
+
+
+double excess(const PrincipalVector &stress, const Strength &strength, const double cohesion)
+{
+  const double f = yield_function(stress, strength, cohesion);
   if (!strength.has_cut_off())
-    return beyond_shear;
-  return std::max(beyond_shear,
-                  greatest - strength.tension_cut_off * (cohesion / strength.cohesion));
+    return f;
+  return std::max(f, std::max({stress[0], stress[1], stress[2]}) -
+                       strength.tension_cut_off * (cohesion / strength.cohesion));
 }
 
 

@@ -39,6 +39,9 @@ struct PrincipalReturn
 /// d(principal stress)/d(principal strain) of elastic rock.
 PrincipalMatrix principal_stiffness(double lame_lambda, double shear_modulus);
 
+/// f of strength.h, of principal stresses in any order [Pa].
+double yield_function(const PrincipalVector &stress, const Strength &strength, double cohesion);
+
 /// The greater of f and s1 - T, of principal stresses in any order; below zero inside [Pa].
 double excess(const PrincipalVector &stress, const Strength &strength, double cohesion);
 

@@ -17,20 +17,12 @@ PrincipalVector principal_values(const SymmetricTensor<2, 3> &stress)
   const auto s = eigenvalues(stress);
   return PrincipalVector({s[0], s[1], s[2]});
 }
-
-
-/// By how much f is above zero [Pa].
-double excess_shear(const PrincipalVector &s, const Strength &strength)
-{
-  return (s[0] - s[2]) + (s[0] + s[2]) * std::sin(strength.friction_angle) -
-         2. * strength.cohesion * std::cos(strength.friction_angle);
-}
 } // namespace
 
 
 double distance_to_yield(const SymmetricTensor<2, 3> &stress, const Strength &strength)
 {
-  return excess_shear(principal_values(stress), strength) /
+  return yield_function(principal_values(stress), strength, strength.cohesion) /
          (2. * strength.cohesion * std::cos(strength.friction_angle));
 }
 
@@ -40,7 +32,8 @@ double margin_to_yield(const SymmetricTensor<2, 3> &stress, const Strength &stre
   // Principal stresses change by no more than the stress does (Hoffman & Wielandt 1953).
   const PrincipalVector s = principal_values(stress);
   const double sine = std::sin(strength.friction_angle);
-  return std::min(-excess_shear(s, strength) / std::sqrt(2. + 2. * sine * sine),
+  return std::min(-yield_function(s, strength, strength.cohesion) /
+                    std::sqrt(2. + 2. * sine * sine),
                   strength.tension_cut_off - s[0]);
 }
 
