@@ -299,8 +299,8 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     const FluidBalance &balance = stepper.fluid_balance();
     if (network.needs_pore_pressure() || balance.total.leaked == 0.)
       observed["fluid_volume_defect"] = balance.total.injected - summary.fluid_balance.outflow -
-                                   balance.fracture_volume - balance.total.in_boreholes -
-                                   pores.volume;
+                                        balance.fracture_volume - balance.total.in_boreholes -
+                                        pores.volume;
   }
 
   const auto set = [this](const std::string &name, const double value)

@@ -315,13 +315,14 @@ void Simulation<dim>::pass_on_remarks()
   NonlinearRock<dim> *const rock = system.nonlinear_rock();
   if (rock == nullptr)
     return;
-  const char *const mine = rock->totals().remark;
-  if (Utilities::MPI::max(mine != nullptr ? 1 : 0, run.communicator) == 0)
+  const std::set<std::string> &mine = rock->totals().remarks;
+  if (Utilities::MPI::max(mine.size(), run.communicator) == 0)
     return;
-  for (const std::string &remark :
-       Utilities::MPI::all_gather(run.communicator, std::string(mine != nullptr ? mine : "")))
-    if (!remark.empty() && remarks.insert(remark).second)
-      run.warn(remark);
+  const std::vector<std::string> here(mine.begin(), mine.end());
+  for (const auto &of_rank : Utilities::MPI::all_gather(run.communicator, here))
+    for (const std::string &remark : of_rank)
+      if (remarks.insert(remark).second)
+        run.warn(remark);
 }
 
 

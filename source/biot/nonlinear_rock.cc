@@ -529,7 +529,7 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell,
         (evaluator->pressure_value(a, q) * gained + evaluator->pressure_gradient(a, q) * flow);
     last_totals.dissipated_energy += w * core[dissipated];
     if (responses[q].remark != nullptr)
-      last_totals.remark = responses[q].remark;
+      last_totals.remarks.insert(responses[q].remark);
     last_totals.stored_energy_beyond +=
       w * (responses[q].energy - 0.5 * (linear.stress * now[q].strain));
     if (std::any_of(core + n_core, core + n, [](const double v) { return v != 0.; }))

@@ -13,6 +13,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace stockwork
@@ -77,7 +79,7 @@ public:
     double greatest_used = 0.;     ///< of the linear range, by points without
     double dissipated_energy = 0.; ///< in the rock [J (/m)]
 
-    const char *remark = nullptr; ///< of a law on a point, if it had one
+    std::set<std::string> remarks; ///< of laws on points
 
     // What the audit of energy, done as in linear rock, does not see [J (/m)].
     double stored_energy_beyond = 0.;

@@ -130,7 +130,8 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
         report.reason += "; the fracture model still changes by " + std::to_string(model_change);
       explain(report, norms, allowed, n_limited, n_halved);
       if (system.rock_change != nullptr)
-        report.advice += " Rock that yields may have come to its limit load.";
+        report.advice += " Rock that yields may have come to its limit load; rock that softens, to "
+                         "a state from which it jumps to another.";
       return report;
     }
 

@@ -26,13 +26,14 @@ void Network<dim>::declare_parameters(dealii::ParameterHandler &prm)
     "only, never the volume. Small beside the aperture near the tip: a larger "
     "value lets viscous fluid run ahead. Empty: a hundredth of the aperture that the first crack "
     "has when it sets out, by toughness or viscosity, which is printed.");
-  prm.declare_entry("Vapour pressure", "-inf",
-                    Quantity(dimension::pressure, Range{-INFINITY, INFINITY, false, true}),
-                    "Cavitation pressure: where a segment cannot be filled at it, the rest is vapour, and "
-                    "the fluid lags behind the tip. Where pressures are net ones, for the rock "
-                    "is unstressed, it is minus the stress that is left out. -inf: the fluid fills "
-                    "every tip, by suction if need be. Not with Carter's leak-off, BDF2, nor a "
-                    "permeability tensor.");
+  prm.declare_entry(
+    "Vapour pressure", "-inf",
+    Quantity(dimension::pressure, Range{-INFINITY, INFINITY, false, true}),
+    "Cavitation pressure: where a segment cannot be filled at it, the rest is vapour, and "
+    "the fluid lags behind the tip. Where pressures are net ones, for the rock "
+    "is unstressed, it is minus the stress that is left out. -inf: the fluid fills "
+    "every tip, by suction if need be. Not with Carter's leak-off, BDF2, nor a "
+    "permeability tensor.");
   prm.declare_alias("Vapour pressure", "Least pressure", true);
   prm.declare_entry("Leak-off", "none", Patterns::Selection("none|carter|filter cake|resolved"),
                     "How fluid passes from fractures into the rock. carter: C_L/sqrt(t-t_0) "

@@ -210,7 +210,7 @@ TEST_CASE("all errors of a deck are reported together")
 
 TEST_CASE("an old name is refused with the new one and the place")
 {
-  CHECK(has(error_of("subsection Rock\nset E = 3 GPa\nend\n"),
+  CHECK(has(error_of_deck("subsection Rock\nset E = 3 GPa\nend\n"),
             "a.prm:2: 'Rock/E' is now called 'Rock/Young modulus'"));
 }
 

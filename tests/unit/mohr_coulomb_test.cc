@@ -2,6 +2,7 @@
 // edges and the apex at random, and the tangent against differences.
 #include <doctest/doctest.h>
 
+#include "mohr_coulomb_search.h"
 #include "reference_table.h"
 #include "rock/mohr_coulomb/return_map.h"
 
@@ -73,93 +74,6 @@ double difference_from_table(const double factor)
   }
   return greatest;
 }
-
-
-/// The stress among all solutions of the return equations on one, two or three of the six planes,
-/// unsorted: admissible, and with flow along each of them only forwards. None where psi = 0 and
-/// the mean stress is beyond the apex.
-std::vector<std::array<double, 3>> all_solutions(const std::array<double, 3> &trial,
-                                                 const Strength &s)
-{
-  const double k = 2. * s.cohesion * std::cos(s.friction_angle);
-  const double up = 1. + std::sin(s.friction_angle), down = 1. - std::sin(s.friction_angle);
-  const double flow_up = 1. + std::sin(s.dilation_angle),
-               flow_down = 1. - std::sin(s.dilation_angle);
-  std::vector<std::array<double, 3>> normals, steps;
-  for (unsigned int i = 0; i < 3; ++i)
-    for (unsigned int j = 0; j < 3; ++j)
-      if (i != j)
-      {
-        std::array<double, 3> a{}, g{};
-        a[i] = up;
-        a[j] = -down;
-        g[i] = flow_up;
-        g[j] = -flow_down;
-        const double volume = lambda * (g[0] + g[1] + g[2]);
-        normals.push_back(a);
-        steps.push_back(
-          {{volume + 2. * mu * g[0], volume + 2. * mu * g[1], volume + 2. * mu * g[2]}});
-      }
-  const auto dot = [](const auto &a, const auto &b)
-  { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-
-  std::vector<std::array<double, 3>> found;
-  for (unsigned int set = 1; set < 64; ++set)
-  {
-    std::vector<unsigned int> active;
-    for (unsigned int p = 0; p < 6; ++p)
-      if (set & (1u << p))
-        active.push_back(p);
-    const unsigned int n = active.size();
-    if (n > 3)
-      continue;
-    // Gauss's elimination of (a_i . D g_j) multiplier_j = a_i . trial - k
-    double m[3][4];
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      for (unsigned int j = 0; j < n; ++j)
-        m[i][j] = dot(normals[active[i]], steps[active[j]]);
-      m[i][n] = dot(normals[active[i]], trial) - k;
-    }
-    bool singular = false;
-    for (unsigned int c = 0; c < n && !singular; ++c)
-    {
-      unsigned int pivot = c;
-      for (unsigned int r = c + 1; r < n; ++r)
-        if (std::abs(m[r][c]) > std::abs(m[pivot][c]))
-          pivot = r;
-      singular = std::abs(m[pivot][c]) < 1e-9 * mu;
-      if (singular)
-        break;
-      for (unsigned int col = 0; col <= n; ++col)
-        std::swap(m[c][col], m[pivot][col]);
-      for (unsigned int r = 0; r < n; ++r)
-        if (r != c)
-        {
-          const double factor = m[r][c] / m[c][c];
-          for (unsigned int col = c; col <= n; ++col)
-            m[r][col] -= factor * m[c][col];
-        }
-    }
-    if (singular)
-      continue;
-    std::array<double, 3> stress = trial;
-    bool forwards = true;
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const double multiplier = m[i][n] / m[i][i];
-      forwards = forwards && multiplier > -1e-12 * k / mu;
-      for (unsigned int d = 0; d < 3; ++d)
-        stress[d] -= multiplier * steps[active[i]][d];
-    }
-    bool admissible = forwards;
-    for (const auto &normal : normals)
-      admissible = admissible && dot(normal, stress) < k * (1. + 1e-9);
-    if (admissible)
-      found.push_back(stress);
-  }
-  return found;
-}
 } // namespace
 
 // A step of the stress, of every kind, by hand: tests/data/reference/mc_return_points.csv says how
@@ -201,6 +115,7 @@ TEST_CASE("random trial stresses return where a search over all faces, edges and
     const Strength rock = strength(27., psi);
     const double k = 2. * rock.cohesion * std::cos(rock.friction_angle);
     const double apex = rock.cohesion / std::tan(rock.friction_angle);
+    const test::MohrCoulombSearch search(rock, lambda, mu);
     unsigned int plastic = 0, decreed = 0, without_solution = 0;
     double greatest = 0.;
     for (unsigned int trial = 0; trial < 34000; ++trial)
@@ -213,7 +128,7 @@ TEST_CASE("random trial stresses return where a search over all faces, edges and
       if (back.place == Place::elastic)
         continue;
       ++plastic;
-      const auto solutions = all_solutions(s, rock);
+      const auto solutions = search(s);
       decreed += back.by_decree;
       without_solution += solutions.empty();
       if (solutions.empty())
@@ -232,14 +147,85 @@ TEST_CASE("random trial stresses return where a search over all faces, edges and
 }
 
 
+// With T = 0, T next to the apex, no dilation, and no friction, where there is no apex.
+TEST_CASE("random trial stresses return where that search ends, with a tension cut-off")
+{
+  std::mt19937 generator(815);
+  std::uniform_real_distribution<double> wide(-6e7, 2.5e7);
+  std::map<Place, unsigned int> seen;
+  for (const auto &[phi, psi, cut_off] :
+       std::vector<std::array<double, 3>>{{27., 27., 1e6},
+                                          {27., 8., 0.},
+                                          {27., 8., 5.8e6}, // apex: 5.888 MPa
+                                          {27., 0., 3e6},
+                                          {0., 0., 2e6}})
+  {
+    Strength rock = strength(phi, psi);
+    rock.tension_cut_off = cut_off;
+    const test::MohrCoulombSearch search(rock, lambda, mu);
+    double greatest = 0.;
+    unsigned int without_solution = 0, decreed = 0;
+    for (unsigned int trial = 0; trial < 20000; ++trial)
+    {
+      const std::array<double, 3> s{{wide(generator), wide(generator), wide(generator)}};
+      Stress stress;
+      for (unsigned int d = 0; d < 3; ++d)
+        stress[d][d] = s[d];
+      const Return back = return_to_surface(stress, lambda, mu, rock);
+      ++seen[back.place];
+      if (back.place == Place::elastic)
+        continue;
+      const auto solutions = search(s);
+      without_solution += solutions.empty();
+      decreed += back.by_decree;
+      for (const auto &solution : solutions)
+        for (unsigned int d = 0; d < 3; ++d)
+          greatest = std::max(greatest, std::abs(back.stress[d][d] - solution[d]) / rock.cohesion);
+    }
+    INFO("phi ", phi, ", psi ", psi, ", T ", cut_off);
+    CHECK(greatest < 1e-10);
+    CHECK(without_solution == 0);
+    CHECK(decreed == 0);
+  }
+  for (const Place place :
+       {Place::elastic, Place::face, Place::compression_edge, Place::extension_edge, Place::cut_off,
+        Place::cut_off_face, Place::cut_off_edge, Place::cut_off_extension,
+        Place::cut_off_compression, Place::cut_off_corner})
+    CHECK(seen[place] > 20);
+  CHECK(seen[Place::apex] == 0);
+}
+
+
+TEST_CASE("the share of the strength is 1 where the cut-off is reached, and the margin 0")
+{
+  Strength rock = strength(27., 8.);
+  rock.tension_cut_off = 1e6;
+  Stress stress;
+  stress[0][0] = 1e6;
+  stress[1][1] = -4e6;
+  stress[2][2] = -2e6;
+  CHECK(share_of_strength(stress, rock) == doctest::Approx(1.));
+  CHECK(margin_to_yield(stress, rock) == doctest::Approx(0.));
+  CHECK(distance_to_yield(stress, rock) < -0.1); // far from shear
+  stress[0][0] = 0.4e6;
+  CHECK(share_of_strength(stress, rock) < 1.);
+  CHECK(margin_to_yield(stress, rock) == doctest::Approx(0.6e6));
+  CHECK(share_of_strength(3e6 * unit_symmetric_tensor<3>(), rock) > 1.); // in all directions
+  rock.tension_cut_off = 0.;
+  CHECK(share_of_strength(Stress(), rock) == 1.);
+}
+
+
 TEST_CASE("the tangent is the derivative")
 {
   std::mt19937 generator(12);
   std::uniform_real_distribution<double> wide(-5e7, 2e7), small(-1., 1.);
   std::map<Place, unsigned int> seen;
-  for (unsigned int trial = 0; trial < 4000; ++trial)
+  for (unsigned int trial = 0; trial < 40000; ++trial)
   {
-    const Strength rock = strength(27., trial % 2 == 0 ? 8. : 27.);
+    Strength rock = strength(27., trial % 2 == 0 ? 8. : 27.);
+    if (trial % 3 > 0)
+      rock.tension_cut_off = trial % 3 * 1e6;
     Stress stress, direction;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = i; j < 3; ++j)
@@ -247,6 +233,7 @@ TEST_CASE("the tangent is the derivative")
         stress[i][j] = (i == j ? 1. : 0.2) * wide(generator);
         direction[i][j] = small(generator);
       }
+    stress += trial % 5 / 4 * 4e7 * unit_symmetric_tensor<3>(); // some in tension
     const double step = 1e-9;
     const auto at = [&](const double sign) {
       return return_to_surface(stress + sign * step * elastic_stress(direction), lambda, mu, rock);
@@ -259,7 +246,9 @@ TEST_CASE("the tangent is the derivative")
     CHECK((middle.tangent * direction - difference).norm() < 1e-5 * 2. * mu);
   }
   for (const Place place :
-       {Place::elastic, Place::face, Place::compression_edge, Place::extension_edge, Place::apex})
+       {Place::elastic, Place::face, Place::compression_edge, Place::extension_edge, Place::apex,
+        Place::cut_off, Place::cut_off_face, Place::cut_off_edge, Place::cut_off_extension,
+        Place::cut_off_compression, Place::cut_off_corner})
     CHECK(seen[place] > 20);
 }
 

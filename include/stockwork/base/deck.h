@@ -55,8 +55,8 @@ public:
 
   /// Set every entry of the deck in @p prm.
   /// @throws InputError naming all unknown sections and entries, entries that have another name now
-  /// (deprecated aliases) and all values that are not allowed, with file, line and the nearest valid
-  /// names
+  /// (deprecated aliases) and all values that are not allowed, with file, line and the nearest
+  /// valid names
   void parse_into(dealii::ParameterHandler &prm) const;
 
   /// Where the effective value of "Section/Sub/Entry" was written.

@@ -383,8 +383,8 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   for (auto box = shape.boxes.begin() + parameters.boxes.size(); box != shape.boxes.end(); ++box)
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
-          << committed_normals << committed_correction << committed_energy << committed_damage_relaxation
-          << told_of_rim << told_of_pressure;
+          << committed_normals << committed_correction << committed_energy
+          << committed_damage_relaxation << told_of_rim << told_of_pressure;
 }
 
 

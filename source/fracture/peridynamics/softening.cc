@@ -152,8 +152,8 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     const double damage = softening.damage(kappa);
     // Of damage times elongation by the elongation.
     const double slope = stretch > committed && total != 0.
-                           ? damage + (softening.slope(kappa) - damage) * damage_relaxation * stretch /
-                                        kappa * elongation / total
+                           ? damage + (softening.slope(kappa) - damage) * damage_relaxation *
+                                        stretch / kappa * elongation / total
                            : damage;
     law_of_bond.reinit();
     law_of_bond.residual(2 * dim) = k * (x - damage * elongation);

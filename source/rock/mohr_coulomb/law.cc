@@ -3,6 +3,7 @@
 #include "stockwork/base/quantity.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace stockwork::mohr_coulomb
@@ -23,6 +24,24 @@ SymmetricTensor<2, 3> plastic_strain(const RockState &state)
       strain.access_raw_entry(i) = state.history[i];
   return strain;
 }
+
+
+const char *remark_on(const Return &back, const Strength &strength)
+{
+  if (back.by_decree)
+    return "The rock has come to a tension beyond c cot phi, from which plastic flow with a "
+           "dilation "
+           "angle of 0 does not lead back: the stress was put to c cot phi in all directions, "
+           "though "
+           "that changes the volume. A dilation angle above 0, or a 'Tension cut-off', has no such "
+           "states.";
+  if (back.place != Place::elastic && strength.hardening_modulus < 0.)
+    return "The rock has yielded and softens ('Hardening modulus' below 0): it goes on to yield in "
+           "a "
+           "band as wide as the cells, so what happens from there on depends on the mesh, and so "
+           "does the energy that is dissipated. Compare meshes.";
+  return nullptr;
+}
 } // namespace
 
 
@@ -38,7 +57,8 @@ MohrCoulomb::MohrCoulomb(const RockProperties &properties, const Strength &stren
 
 bool MohrCoulomb::is_symmetric() const
 {
-  return strength.dilation_angle == strength.friction_angle;
+  // The flow changes the cohesion, which the stress does not do to the flow.
+  return strength.dilation_angle == strength.friction_angle && strength.is_perfectly_plastic();
 }
 
 
@@ -69,7 +89,8 @@ void MohrCoulomb::evaluate(const ArrayView<const RockState> states,
     RockResponse &response = responses[q];
     const Tensor2 before = plastic_strain(state), trial_strain = state.strain - before,
                   trial = trial_stress(state, trial_strain);
-    const Return back = return_to_surface(trial, lambda, mu, strength);
+    const double equivalent = state.history != nullptr ? state.history[at_equivalent] : 0.;
+    const Return back = return_to_surface(trial, lambda, mu, strength, equivalent);
 
     // The plastic strain is what the return has taken from the stress, by the elastic compliance.
     const Tensor2 lost = trial - back.stress;
@@ -96,18 +117,12 @@ void MohrCoulomb::evaluate(const ArrayView<const RockState> states,
       (1. - alpha) / bulk * (identity * (back.tangent * identity) / (9. * bulk) - 1.);
     response.content_by_pressure = inverse_biot_modulus - (1. - alpha) * strain_by_pressure;
 
-    if (back.by_decree)
-      response.remark =
-        "The rock has come to a tension beyond c cot phi, from which plastic flow with a dilation "
-        "angle of 0 does not lead back: the stress was put to c cot phi in all directions, though "
-        "that changes the volume. A dilation angle above 0 has no such states.";
+    response.remark = remark_on(back, strength);
     if (response.history != nullptr)
     {
       for (unsigned int i = 0; i < 6; ++i)
         response.history[i] = plastic.access_raw_entry(i);
-      response.history[at_equivalent] =
-        (state.history != nullptr ? state.history[at_equivalent] : 0.) +
-        std::sqrt(2. / 3. * (flow * flow));
+      response.history[at_equivalent] = equivalent + std::sqrt(2. / 3. * (flow * flow));
     }
   }
 }
@@ -121,11 +136,7 @@ double MohrCoulomb::used(const RockState &state) const
 
 double MohrCoulomb::margin(const RockState &state) const
 {
-  // Principal stresses change by no more than the stress does (Hoffman & Wielandt 1953).
-  const double sine = std::sin(strength.friction_angle);
-  const double yield = 2. * strength.cohesion * std::cos(strength.friction_angle);
-  return -yield * distance_to_yield(trial_stress(state, state.strain), strength) /
-         std::sqrt(2. + 2. * sine * sine);
+  return margin_to_yield(trial_stress(state, state.strain), strength);
 }
 
 
@@ -138,7 +149,19 @@ std::string MohrCoulomb::describe() const
     text << value / degree << " deg";
     return text.str();
   };
-  return "cohesion " + to_string(strength.cohesion, dimension::stress) + ", friction angle " +
-         angle(strength.friction_angle) + ", dilation angle " + angle(strength.dilation_angle);
+  std::string text = "cohesion " + to_string(strength.cohesion, dimension::stress) +
+                     ", friction angle " + angle(strength.friction_angle) + ", dilation angle " +
+                     angle(strength.dilation_angle);
+  if (strength.has_cut_off())
+    text += ", tension cut-off " + to_string(strength.tension_cut_off, dimension::stress);
+  if (strength.is_perfectly_plastic())
+    return text;
+  text += ", hardening modulus " + to_string(strength.hardening_modulus, dimension::stress);
+  if (strength.final_cohesion < std::numeric_limits<double>::infinity())
+    text += ", final cohesion " + to_string(strength.final_cohesion, dimension::stress);
+  if (strength.hardening_modulus < 0.)
+    text += " (softens: a band that yields is as wide as the cells, so the answer depends on the "
+            "mesh)";
+  return text;
 }
 } // namespace stockwork::mohr_coulomb

@@ -5,7 +5,8 @@
 
 namespace stockwork::mohr_coulomb
 {
-/// Perfectly plastic Mohr-Coulomb rock, non-associated unless psi = phi (Wang 2016, section 2.2).
+/// Mohr-Coulomb rock, non-associated unless psi = phi (Wang 2016, section 2.2); perfectly plastic,
+/// or with a cohesion that changes with the plastic strain; with a tension cut-off or without.
 ///
 /// Porous rock yields by sigma + p, Terzaghi's effective stress, and deforms by sigma + alpha p,
 /// Biot's. With elastic strain e = eps - eps^p,
@@ -14,7 +15,7 @@ namespace stockwork::mohr_coulomb
 ///
 /// each over in situ: plastic dilation opens pores and nothing else (Coussy 2004, with the
 /// coefficient of the yield function, 1), so that d(sigma)/dp and -d(zeta)/d(eps) are alike where
-/// the flow is associated.
+/// the flow is associated. What changes the cohesion is dissipated: the energy stored is elastic.
 class MohrCoulomb : public RockLaw
 {
 public:

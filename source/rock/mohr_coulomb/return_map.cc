@@ -1,8 +1,10 @@
 #include "rock/mohr_coulomb/return_map.h"
 
+#include "rock/mohr_coulomb/hardening.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 
 namespace stockwork::mohr_coulomb
 {
@@ -10,154 +12,60 @@ using namespace dealii;
 
 namespace
 {
-using Vector = Tensor<1, 3>; ///< of principal values, sorted by those of the trial stress
-using Matrix = Tensor<2, 3>;
-
-/// One plane of the surface: a . s = k, with the flow along g.
-struct Plane
+PrincipalVector principal_values(const SymmetricTensor<2, 3> &stress)
 {
-  Vector a, g;
-};
-
-/// The plane on which s[i] is the greatest and s[j] the smallest principal stress.
-Plane plane(const unsigned int i, const unsigned int j, const Strength &strength)
-{
-  Plane result;
-  result.a[i] = 1. + std::sin(strength.friction_angle);
-  result.a[j] = -1. + std::sin(strength.friction_angle);
-  result.g[i] = 1. + std::sin(strength.dilation_angle);
-  result.g[j] = -1. + std::sin(strength.dilation_angle);
-  return result;
-}
-
-
-double yield_stress(const Strength &strength)
-{
-  return 2. * strength.cohesion * std::cos(strength.friction_angle);
-}
-
-
-struct PrincipalReturn
-{
-  Vector stress;
-  Matrix tangent; ///< d(principal stress)/d(principal strain)
-  Place place;
-};
-
-
-/// Back to one plane.
-PrincipalReturn to_face(const Vector &trial, const Matrix &elastic, const Plane &p, const double k)
-{
-  const Vector step = elastic * p.g, drop = elastic * p.a;
-  const double stiffness = p.a * step, multiplier = (p.a * trial - k) / stiffness;
-  return {trial - multiplier * step, elastic - outer_product(step, drop) / stiffness, Place::face};
-}
-
-
-/// Back to the edge of two planes, if that takes flow along both.
-/// @param slack that rounding takes: a stress that is on the edge already must stay there [Pa]
-std::optional<PrincipalReturn> to_edge(const Vector &trial,
-                                       const Matrix &elastic,
-                                       const std::array<Plane, 2> &planes,
-                                       const double k,
-                                       const double slack,
-                                       const Place place)
-{
-  Tensor<2, 2> stiffness;
-  Tensor<1, 2> excess;
-  std::array<Vector, 2> steps, drops;
-  for (unsigned int i = 0; i < 2; ++i)
-  {
-    steps[i] = elastic * planes[i].g;
-    drops[i] = elastic * planes[i].a;
-    excess[i] = planes[i].a * trial - k;
-  }
-  for (unsigned int i = 0; i < 2; ++i)
-    for (unsigned int j = 0; j < 2; ++j)
-      stiffness[i][j] = planes[i].a * steps[j];
-  const Tensor<2, 2> compliance = invert(stiffness);
-  const Tensor<1, 2> multipliers = compliance * excess;
-  for (unsigned int i = 0; i < 2; ++i)
-    if (multipliers[i] * steps[i].norm() < -slack)
-      return {};
-  PrincipalReturn result{trial, elastic, place};
-  for (unsigned int i = 0; i < 2; ++i)
-  {
-    result.stress -= multipliers[i] * steps[i];
-    for (unsigned int j = 0; j < 2; ++j)
-      result.tangent -= compliance[i][j] * outer_product(steps[i], drops[j]);
-  }
-  // Beyond the apex the planes meet the wrong way round.
-  if (result.stress[0] < result.stress[2] - slack)
-    return {};
-  return result;
-}
-
-
-/// Sorted trial stresses that lie outside.
-PrincipalReturn
-principal_return(const Vector &trial, const Matrix &elastic, const Strength &strength)
-{
-  const double k = yield_stress(strength);
-  const Plane main = plane(0, 2, strength);
-  const PrincipalReturn face = to_face(trial, elastic, main, k);
-  const Vector &s = face.stress;
-  const double slack = 1e-12 * (k + trial.norm());
-  if (s[0] >= s[1] - slack && s[1] >= s[2] - slack)
-    return face;
-  if (s[1] > s[0])
-    if (const auto edge = to_edge(trial, elastic, {{main, plane(1, 2, strength)}}, k, slack,
-                                  Place::compression_edge))
-      return *edge;
-  if (s[2] > s[1])
-    if (const auto edge =
-          to_edge(trial, elastic, {{main, plane(0, 1, strength)}}, k, slack, Place::extension_edge))
-      return *edge;
-  const double apex = strength.cohesion / std::tan(strength.friction_angle);
-  return {Vector({apex, apex, apex}), Matrix(), Place::apex};
-}
-
-
-Matrix principal_stiffness(const double lame_lambda, const double shear_modulus)
-{
-  Matrix elastic;
-  for (unsigned int i = 0; i < 3; ++i)
-    for (unsigned int j = 0; j < 3; ++j)
-      elastic[i][j] = lame_lambda + (i == j ? 2. * shear_modulus : 0.);
-  return elastic;
+  const auto s = eigenvalues(stress);
+  return PrincipalVector({s[0], s[1], s[2]});
 }
 } // namespace
 
 
 double distance_to_yield(const SymmetricTensor<2, 3> &stress, const Strength &strength)
 {
-  const auto s = eigenvalues(stress);
-  const double k = yield_stress(strength);
-  return (plane(0, 2, strength).a * Vector({s[0], s[1], s[2]}) - k) / k;
+  return yield_function(principal_values(stress), strength, strength.cohesion) /
+         (2. * strength.cohesion * std::cos(strength.friction_angle));
+}
+
+
+double margin_to_yield(const SymmetricTensor<2, 3> &stress, const Strength &strength)
+{
+  // Principal stresses change by no more than the stress does (Hoffman & Wielandt 1953).
+  const PrincipalVector s = principal_values(stress);
+  const double sine = std::sin(strength.friction_angle);
+  return std::min(-yield_function(s, strength, strength.cohesion) /
+                    std::sqrt(2. + 2. * sine * sine),
+                  strength.tension_cut_off - s[0]);
 }
 
 
 double share_of_strength(const SymmetricTensor<2, 3> &stress, const Strength &strength)
 {
-  const auto s = eigenvalues(stress);
-  const double room = yield_stress(strength) - (s[0] + s[2]) * std::sin(strength.friction_angle);
+  const PrincipalVector s = principal_values(stress);
+  const double yield = 2. * strength.cohesion * std::cos(strength.friction_angle),
+               both = s[0] + s[2];
+  // The diameter at which the circle would touch the straight line, or the cut-off.
+  const double room = std::min(yield - both * std::sin(strength.friction_angle),
+                               2. * strength.tension_cut_off - both);
   // Beyond the apex there is no circle that would touch.
-  return room > 0. ? (s[0] - s[2]) / room : 2. + distance_to_yield(stress, strength);
+  return room > 0. ? (s[0] - s[2]) / room
+                   : 1. + std::max(0., excess(s, strength, strength.cohesion)) / yield;
 }
 
 
 Return return_to_surface(const SymmetricTensor<2, 3> &trial,
                          const double lame_lambda,
                          const double shear_modulus,
-                         const Strength &strength)
+                         const Strength &strength,
+                         const double plastic_strain)
 {
   const auto identity = unit_symmetric_tensor<3>();
   Return result;
   const auto pairs = eigenvectors(trial, SymmetricTensorEigenvectorMethod::jacobi);
-  Vector s;
+  PrincipalVector s;
   for (unsigned int i = 0; i < 3; ++i)
     s[i] = pairs[i].first;
-  if (plane(0, 2, strength).a * s <= yield_stress(strength))
+  const double cohesion = strength.cohesion_after(plastic_strain);
+  if (excess(s, strength, cohesion) <= 0.)
   {
     result.stress = trial;
     result.tangent =
@@ -165,8 +73,10 @@ Return return_to_surface(const SymmetricTensor<2, 3> &trial,
     return result;
   }
 
-  const PrincipalReturn principal =
-    principal_return(s, principal_stiffness(lame_lambda, shear_modulus), strength);
+  const PrincipalMatrix elastic = principal_stiffness(lame_lambda, shear_modulus);
+  const PrincipalReturn principal = strength.is_perfectly_plastic()
+                                      ? principal_return(s, elastic, strength, cohesion)
+                                      : hardening_return(s, elastic, strength, plastic_strain);
   result.place = principal.place;
   result.by_decree = principal.place == Place::apex && strength.dilation_angle == 0.;
 
@@ -180,7 +90,7 @@ Return return_to_surface(const SymmetricTensor<2, 3> &trial,
     axes[i] = symmetrize(outer_product(pairs[i].second, pairs[i].second));
     result.stress += principal.stress[i] * axes[i];
   }
-  const Matrix &t = principal.tangent;
+  const PrincipalMatrix &t = principal.tangent;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
       result.tangent += t[i][j] * outer_product(axes[i], axes[j]);

@@ -4,6 +4,7 @@
 #include "rock/laws.h"
 #include "rock/mohr_coulomb/law.h"
 #include "verification/analytical/mohr_coulomb_cavity.h"
+#include "verification/reference/perfectly_plastic.h"
 #include "verification/reference/problems.h"
 
 namespace stockwork::reference
@@ -101,6 +102,7 @@ Made<2> make_borehole(const ParameterHandler &, const ReferenceInput<2> &input)
   const auto *law = dynamic_cast<const mohr_coulomb::MohrCoulomb *>(input.law);
   if (law == nullptr)
     throw InputError("'borehole' is of rock with 'Rock/Law = mohr coulomb'");
+  require_perfectly_plastic(law->surface(), "borehole");
   if (!(input.hole_radius > 0.))
     throw InputError("'borehole' is in a 'Mesh/Shape = quarter ring'");
   if (input.has_pore_pressure)

@@ -2,6 +2,7 @@
 #include "stockwork/base/quantity.h"
 
 #include "rock/mohr_coulomb/law.h"
+#include "verification/reference/perfectly_plastic.h"
 #include "verification/reference/problems.h"
 
 #include <cmath>
@@ -58,6 +59,7 @@ Made<2> make_footing(const ParameterHandler &prm, const ReferenceInput<2> &input
   const auto *law = dynamic_cast<const mohr_coulomb::MohrCoulomb *>(input.law);
   if (law == nullptr)
     throw InputError("'footing' is on rock with 'Rock/Law = mohr coulomb'");
+  require_perfectly_plastic(law->surface(), "footing");
   if (!law->is_symmetric())
     throw InputError("'footing' is on rock whose dilation angle is its friction angle: otherwise "
                      "the limit load is not unique");
