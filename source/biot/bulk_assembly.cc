@@ -38,6 +38,7 @@ BulkAssembly<dim>::BulkAssembly(const Rock &rock,
   , loads(loads)
   , discretization(discretization)
   , matrices(discretization.mapping, discretization.dof_handler.get_fe(), rock, stabilisation, role)
+  , cut_evaluator(discretization.mapping, discretization.dof_handler.get_fe(), QMidpoint<dim>())
   , face_values(discretization.mapping,
                 discretization.dof_handler.get_fe(),
                 QGauss<dim - 1>(discretization.dof_handler.get_fe().base_element(0).degree + 1),

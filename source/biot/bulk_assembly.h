@@ -10,6 +10,7 @@
 #include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
+#include "biot/cell_evaluator.h"
 #include "biot/cell_matrices.h"
 
 #include <functional>
@@ -63,6 +64,12 @@ public:
   /// Add what cut cells have beyond an ordinary cell: matrix and residual of the extra columns.
   void
   cut_cells(const StepContext &context, const State &state, const Role &role, Sink &sink) const;
+
+  /// The cuts of cells may have changed.
+  void forget_cuts()
+  {
+    cut_evaluator.forget_cuts();
+  }
 
   /// Fluid that the pores of the owned cells have gained since the rate references [m^3 (/m)].
   double stored_fluid(const StepContext &context, const State &state, const Role &role) const;
@@ -118,6 +125,7 @@ private:
   dealii::TrilinosWrappers::MPI::BlockVector content;
 
   mutable CellMatrices<dim> matrices;
+  mutable CellEvaluator<dim> cut_evaluator;
   mutable dealii::FEFaceValues<dim> face_values;
 };
 } // namespace stockwork

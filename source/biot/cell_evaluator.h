@@ -75,11 +75,26 @@ public:
                                       : cut_cell->component[function - layout.u.size()];
   }
 
+  /// Of the function's one component.
+  double value(const unsigned int function, const unsigned int q) const
+  {
+    return function < layout.u.size()
+             ? values->shape_value(layout.u[function], q)
+             : cut_cell->values[q * n_extra() + function - layout.u.size()];
+  }
+
   dealii::Tensor<1, dim> gradient(const unsigned int function, const unsigned int q) const
   {
     return function < layout.u.size()
              ? values->shape_grad(layout.u[function], q)
              : cut_cell->gradients[q * n_extra() + function - layout.u.size()];
+  }
+
+  dealii::SymmetricTensor<2, dim> strain_of(const unsigned int function, const unsigned int q) const
+  {
+    dealii::Tensor<2, dim> of_displacement;
+    of_displacement[component(function)] = gradient(function, q);
+    return symmetrize(of_displacement);
   }
 
   /// Of pressure node a.

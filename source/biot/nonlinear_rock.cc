@@ -335,9 +335,7 @@ void NonlinearRock<dim>::add_stress_and_content(const RockProperties &rock,
   const double storage = response.content_by_pressure - linear.content_by_pressure;
   for (unsigned int j = 0; j < n; ++j)
   {
-    Tensor<2, dim> gradient;
-    gradient[evaluator->component(j)] = evaluator->gradient(j, q);
-    const Tensor<2, dim> change = w * (stiffness * symmetrize(gradient));
+    const Tensor<2, dim> change = w * (stiffness * evaluator->strain_of(j, q));
     for (unsigned int i = 0; i < n; ++i)
       local.matrix(place(i), place(j)) +=
         change[evaluator->component(i)] * evaluator->gradient(i, q);
@@ -388,11 +386,7 @@ void NonlinearRock<dim>::add_flow(const RockProperties &rock,
     per_viscosity * (in_plane<dim>(responses[q].permeability_by_pressure) * slope);
   std::vector<Tensor<1, dim>> by_function(evaluator->n_functions());
   for (unsigned int j = 0; j < by_function.size(); ++j)
-  {
-    Tensor<2, dim> gradient;
-    gradient[evaluator->component(j)] = evaluator->gradient(j, q);
-    by_function[j] = per_viscosity * ((by_strain * symmetrize(gradient)) * slope);
-  }
+    by_function[j] = per_viscosity * ((by_strain * evaluator->strain_of(j, q)) * slope);
   for (unsigned int a = 0; a < p.size(); ++a)
   {
     const Tensor<1, dim> test = w * evaluator->pressure_gradient(a, q);

@@ -217,6 +217,7 @@ void CoupledSystem<dim>::adopt_extra(const ExtraNumbering &from,
     if (vector->size() == from.size()) // a quasi-static run has no reference of acceleration
       *vector = now.transfer(from, *vector);
   numbering = std::move(now);
+  bulk->forget_cuts();
   if (nonlinear)
     nonlinear->topology_changed();
   ++stamps.extra;

@@ -2,6 +2,7 @@
 
 #include "stockwork/rock/linear_stiffness.h"
 
+#include "biot/cell_evaluator.h"
 #include "biot/prescribed_part.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -108,75 +109,51 @@ MechanicalEnergy mechanical_energy(
 {
   const auto &fe = discretization.dof_handler.get_fe();
   const auto &constraints = discretization.constraints;
-  const QGauss<dim> gauss(fe.degree + 1);
-  const FEValuesExtractors::Vector displacement(0);
-  FEValues<dim> ordinary(discretization.mapping, fe, gauss, update_gradients | update_JxW_values);
-  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-  std::vector<unsigned int> held; // local indices of displacements that are prescribed or hang
+  CellEvaluator<dim> evaluator(discretization.mapping, fe, QGauss<dim>(fe.degree + 1));
+  std::vector<SymmetricTensor<2, dim>> now, before;
+  std::vector<unsigned int> held; // functions whose displacement is prescribed or hangs
 
   MovingCell<dim> moving(discretization, loads);
   double stored = 0., kinetic = 0., work = 0., force = 0., greatest = 0.;
-  double share = 1.; // of the cell, that belongs to nodes of the elements
-  const auto add_cell =
-    [&](const FEValues<dim> &values, const CutCell<dim> *cut, const RockProperties &properties)
+  const auto add_work = [&](const unsigned int q, const SymmetricTensor<2, dim> &mean_stress,
+                            const SymmetricTensor<2, dim> &stress)
   {
-    const LinearStiffness<dim> hooke(properties);
-    std::vector<SymmetricTensor<2, dim>> now(values.n_quadrature_points), before(now.size());
-    values[displacement].get_function_symmetric_gradients(state.current.bulk, now);
-    if (!held.empty())
-      values[displacement].get_function_symmetric_gradients(state.committed.bulk, before);
-    for (unsigned int q = 0; q < now.size(); ++q)
+    for (const unsigned int function : held)
     {
-      if (cut != nullptr)
-        for (unsigned int c = 0; c < cut->n_columns(); ++c)
-        {
-          Tensor<2, dim> gradient;
-          gradient[cut->component[c]] = cut->gradients[q * cut->n_columns() + c];
-          now[q] += state.current.extra[cut->extra[c]] * symmetrize(gradient);
-          before[q] += state.committed.extra[cut->extra[c]] * symmetrize(gradient);
-        }
-      const double weight = cut != nullptr ? cut->weights[q] : values.JxW(q);
-      const SymmetricTensor<2, dim> stress_now = hooke.stress(now[q]);
-      stored += share * 0.5 * weight * (stress_now * now[q]);
-      if (held.empty())
-        continue;
-      const SymmetricTensor<2, dim> mean = 0.5 * (stress_now + hooke.stress(before[q]));
-      for (const unsigned int i : held)
-      {
-        const SymmetricTensor<2, dim> strain = values[displacement].symmetric_gradient(i, q);
-        const double u = prescribed_part(constraints, dofs[i], state.current.bulk);
-        work += weight * (mean * strain) *
-                (u - prescribed_part(constraints, dofs[i], state.committed.bulk));
-        force += weight * (stress_now * strain) * u;
-        greatest = std::max(greatest, std::abs(u));
-      }
+      const auto dof = evaluator.dofs()[evaluator.layout.u[function]];
+      const SymmetricTensor<2, dim> strain = evaluator.weight(q) * evaluator.strain_of(function, q);
+      const double u = prescribed_part(constraints, dof, state.current.bulk);
+      work +=
+        (mean_stress * strain) * (u - prescribed_part(constraints, dof, state.committed.bulk));
+      force += (stress * strain) * u;
+      greatest = std::max(greatest, std::abs(u));
     }
   };
 
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
-      held.clear();
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (fe.system_to_component_index(i).first < dim && constraints.is_constrained(dofs[i]))
-          held.push_back(i);
-      const RockProperties &properties = rock(cell->material_id());
       const CellRole<dim> cell_role = role(cell);
-      share = 1.;
+      evaluator.reinit(cell, cell_role.cut);
+      held.clear();
+      for (unsigned int k = 0; k < evaluator.layout.u.size(); ++k)
+        if (constraints.is_constrained(evaluator.dofs()[evaluator.layout.u[k]]))
+          held.push_back(k);
+      const RockProperties &properties = rock(cell->material_id());
+      const LinearStiffness<dim> hooke(properties);
+      double share = 1.; // of the cell, that belongs to nodes of the elements
       if (const std::vector<bool> *skipped = cell_role.skip_stiffness)
         share -= double(std::count(skipped->begin(), skipped->end(), true)) / skipped->size();
-      if (const CutCell<dim> *cut = cell_role.cut)
+
+      evaluator.strain(state.current, now);
+      if (!held.empty())
+        evaluator.strain(state.committed, before);
+      for (unsigned int q = 0; q < now.size(); ++q)
       {
-        FEValues<dim> values(discretization.mapping, fe, Quadrature<dim>(cut->points),
-                             update_gradients);
-        values.reinit(cell);
-        add_cell(values, cut, properties);
-      }
-      else
-      {
-        ordinary.reinit(cell);
-        add_cell(ordinary, nullptr, properties);
+        const SymmetricTensor<2, dim> stress = hooke.stress(now[q]);
+        stored += share * 0.5 * evaluator.weight(q) * (stress * now[q]);
+        if (!held.empty())
+          add_work(q, 0.5 * (stress + hooke.stress(before[q])), stress);
       }
       if (context.acceleration > 0.)
       {

@@ -2,9 +2,10 @@
 
 #include "stockwork/rock/linear_law.h"
 
+#include "biot/cell_evaluator.h"
 #include "biot/cell_matrices.h"
 
-#include <deal.II/fe/fe_values.h>
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 
@@ -34,28 +35,21 @@ BulkFields<dim>::BulkFields(const Discretization<dim> &discretization,
                          [&](const HistoryField &known) { return known.name == field.name; }))
           remembered.push_back(field);
     }
+  CellEvaluator<dim> evaluator(discretization.mapping, discretization.dof_handler.get_fe(),
+                               QMidpoint<dim>());
+  std::vector<SymmetricTensor<2, dim>> strain;
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       if (const CutCell<dim> *cut = model.role(cell).cut)
       {
-        FEValues<dim> fe_values(discretization.mapping, discretization.dof_handler.get_fe(),
-                                Quadrature<dim>(cut->points), update_gradients);
-        fe_values.reinit(cell);
-        std::vector<SymmetricTensor<2, dim>> strain(cut->points.size());
-        fe_values[FEValuesExtractors::Vector(0)].get_function_symmetric_gradients(
-          state.current.bulk, strain);
+        evaluator.reinit(cell, cut);
+        evaluator.strain(state.current, strain);
         SymmetricTensor<2, dim> sum;
         double volume = 0.;
-        for (unsigned int q = 0; q < cut->points.size(); ++q)
+        for (unsigned int q = 0; q < strain.size(); ++q)
         {
-          volume += cut->weights[q];
-          sum += cut->weights[q] * strain[q];
-          for (unsigned int c = 0; c < cut->n_columns(); ++c)
-          {
-            Tensor<2, dim> gradient;
-            gradient[cut->component[c]] = cut->gradients[q * cut->n_columns() + c];
-            sum += cut->weights[q] * state.current.extra[cut->extra[c]] * symmetrize(gradient);
-          }
+          volume += evaluator.weight(q);
+          sum += evaluator.weight(q) * strain[q];
         }
         mean_strain[cell->active_cell_index()] = sum / volume;
       }
