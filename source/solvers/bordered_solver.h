@@ -32,9 +32,8 @@ public:
                      std::vector<double> &dx_extra) override;
 
   /// Where the bulk is definite and unchanged since it was factorised.
-  std::unique_ptr<CondensedSystem> condense(const LinearSystem &system,
-                                            const SystemStamps &stamps,
-                                            double tolerance) override;
+  std::unique_ptr<CondensedSystem>
+  condense(const LinearSystem &system, const SystemStamps &stamps, double tolerance) override;
 
 private:
   class Condensed;

@@ -101,9 +101,8 @@ public:
     return report;
   }
 
-  std::unique_ptr<CondensedSystem> condense(const LinearSystem &system,
-                                            const SystemStamps &stamps,
-                                            const double tolerance) override
+  std::unique_ptr<CondensedSystem>
+  condense(const LinearSystem &system, const SystemStamps &stamps, const double tolerance) override
   {
     return system.elastic && bordered && !wants_hierarchy(system.residual_bulk.size())
              ? bordered->condense(system, stamps, tolerance)
