@@ -343,7 +343,11 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
   if (numbering.size() > 0)
     communication.sum(system.residual_extra);
 
-  bulk_was_touched = communication.max(sink.bulk_touched ? 1. : 0.) > 0.;
+  const bool grown_border = system.bulk_extra.values.size() > n_linear_bulk_extra ||
+                            system.extra_bulk.values.size() > n_linear_extra_bulk;
+  const double touched = communication.max(sink.bulk_touched ? 2. : grown_border ? 1. : 0.);
+  bulk_was_touched = touched == 2.;
+  fracture_sees_bulk = touched > 0.;
   if (bulk_was_touched)
   {
     system.bulk.compress(VectorOperation::add);

@@ -180,6 +180,9 @@ private:
                               const dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                               const std::vector<double> &dx_extra);
 
+  /// One solve: newton.cc.
+  class Newton;
+
   struct Norms
   {
     double momentum = 0., mass = 0., extra = 0., fracture_fluid = 0.;
@@ -260,6 +263,8 @@ private:
 
   bool matrix_is_current = false;
   bool bulk_was_touched = false;
+  /// The terms that are assembled in every iteration have derivatives by the bulk, or in its rows.
+  bool fracture_sees_bulk = false;
   unsigned int kept_version = 0; ///< of the model's terms in the kept matrix
   StepContext matrix_context;
 };

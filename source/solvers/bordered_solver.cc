@@ -205,30 +205,31 @@ std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &le
   return result;
 }
 
+void BorderedSolver::solve_bulk(const LinearSystem &system,
+                                const dealii::TrilinosWrappers::MPI::BlockVector &load,
+                                dealii::TrilinosWrappers::MPI::BlockVector &solution)
+{
+  const BulkTransfer transfer(system.residual_bulk, communicator);
+  std::vector<double> x(is_root ? factor->size() : 0);
+  transfer.to_root(load, factor_scaling.bulk, x.data());
+  factor->solve(x);
+  transfer.from_root(x.data(), factor_scaling.bulk, solution);
+}
+
 void BorderedSolver::eliminate(const SystemOperator &op,
                                const SystemOperator::Border &border,
                                const SystemVector &r,
                                SystemVector &dx,
                                const bool skip_bulk_load)
 {
-  const BulkTransfer transfer(op.system().residual_bulk, communicator);
-  std::vector<double> x(is_root ? factor->size() : 0);
-  SystemVector y = op.make_vector();
-  const auto solve_bulk = [&](const SystemVector &load)
-  {
-    transfer.to_root(load.bulk, factor_scaling.bulk, x.data());
-    factor->solve(x);
-    transfer.from_root(x.data(), factor_scaling.bulk, y.bulk);
-  };
-
-  SystemVector load = r;
+  SystemVector y = op.make_vector(), load = r;
   if (border.n > 0)
   {
     // S z = r_extra - C A^-1 r_bulk
     std::vector<double> z(border.n, 0.);
     if (!skip_bulk_load)
     {
-      solve_bulk(r);
+      solve_bulk(op.system(), r.bulk, y.bulk);
       for (const auto &e : border.extra_bulk)
       {
         const auto [block, local] = op.locate(e.column);
@@ -247,8 +248,24 @@ void BorderedSolver::eliminate(const SystemOperator &op,
       SystemOperator::entry(load.bulk, block, local) -= e.value * z[e.column];
     }
   }
-  solve_bulk(load);
+  solve_bulk(op.system(), load.bulk, y.bulk);
   dx.bulk -= y.bulk;
+}
+
+bool BorderedSolver::has_factor(const LinearSystem &system, const SystemStamps &stamps) const
+{
+  return factor && stamps.mesh == factor_stamps.mesh &&
+         factor_scaling.bulk.n_blocks() == system.residual_bulk.n_blocks() &&
+         factor_scaling.bulk.size() == system.residual_bulk.size();
+}
+
+bool BorderedSolver::in_balance(const SystemOperator &op,
+                                const SystemVector &r,
+                                const double allowed)
+{
+  SystemVector bulk_only = op.make_vector();
+  bulk_only.bulk = r.bulk;
+  return op.scaled_norm(bulk_only) <= 1e-2 * allowed;
 }
 
 LinearReport BorderedSolver::solve(const LinearSystem &system,
@@ -258,11 +275,9 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
                                    std::vector<double> &dx_extra)
 {
   const Stopwatch stopwatch;
-  const bool has_factor = factor && stamps.mesh == factor_stamps.mesh &&
-                          factor_scaling.bulk.n_blocks() == system.residual_bulk.n_blocks() &&
-                          factor_scaling.bulk.size() == system.residual_bulk.size();
-  const bool same_bulk = has_factor && stamps.bulk_values == values_with_changes;
-  const bool may_keep = has_factor && keeps_values &&
+  const bool has_one = has_factor(system, stamps);
+  const bool same_bulk = has_one && stamps.bulk_values == values_with_changes;
+  const bool may_keep = has_one && keeps_values &&
                         solutions.size() <= std::max(most_solutions, least_memory / factor->size());
   auto op = std::make_unique<SystemOperator>(
     system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);
@@ -304,10 +319,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
   {
     // In a Newton iteration after the first, the bulk is in equilibrium already: its load would
     // be rounding errors.
-    SystemVector bulk_only = op->make_vector();
-    bulk_only.bulk = r.bulk;
-    const bool in_balance = op->scaled_norm(bulk_only) <= 1e-2 * tolerance * size;
-    eliminate(*op, border, r, dx, in_balance);
+    eliminate(*op, border, r, dx, in_balance(*op, r, tolerance * size));
 
     op->residual(r, dx);
     const double now = op->scaled_norm(r);

@@ -31,7 +31,24 @@ public:
                      dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                      std::vector<double> &dx_extra) override;
 
+  /// Where the bulk is definite and unchanged since it was factorised.
+  std::unique_ptr<CondensedSystem>
+  condense(const LinearSystem &system, const SystemStamps &stamps, double tolerance) override;
+
 private:
+  class Condensed;
+
+  /// Whether there is a factor, of this bulk or of an earlier one on the same mesh.
+  bool has_factor(const LinearSystem &system, const SystemStamps &stamps) const;
+
+  /// Whether solve() may take the residual of the bulk for rounding errors.
+  static bool in_balance(const SystemOperator &op, const SystemVector &r, double allowed);
+
+  /// A^-1 load
+  void solve_bulk(const LinearSystem &system,
+                  const dealii::TrilinosWrappers::MPI::BlockVector &load,
+                  dealii::TrilinosWrappers::MPI::BlockVector &solution);
+
   void factorise(const SystemOperator &, const SystemStamps &);
 
   /// Find the rows of A that have changed since it was factorised.

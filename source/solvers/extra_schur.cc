@@ -162,16 +162,11 @@ void ExtraSchur::update_products(const std::vector<Border> &borders, const bool 
     forget_unused();
 }
 
-void ExtraSchur::factorise(const SystemOperator::Border &border)
+void ExtraSchur::factorise(const dealii::FullMatrix<double> &corner)
 {
-  const unsigned int n = border.n;
-  corner_of_factor = border.extra_extra;
-  place_of_factor = place;
+  const unsigned int n = corner.m();
   has_factor = false;
-
-  dealii::FullMatrix<double> s(n, n);
-  for (const auto &e : border.extra_extra)
-    s(e.row, e.column) += e.value;
+  dealii::FullMatrix<double> s(corner);
   for (unsigned int i = 0; i < n; ++i)
     if (place[i] != no_place)
       for (unsigned int j = 0; j < n; ++j)
@@ -186,7 +181,15 @@ void ExtraSchur::factorise(const SystemOperator::Border &border)
   {
     throw_singular();
   }
-  has_factor = true;
+}
+
+void ExtraSchur::update_border(const SystemOperator &op,
+                               const SystemOperator::Border &border,
+                               const dealii::types::global_dof_index end,
+                               const bool symmetric_bulk,
+                               const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
+{
+  update_products(gather_borders(op, border, end, bulk_scaling), symmetric_bulk);
 }
 
 void ExtraSchur::update(const SystemOperator &op,
@@ -195,15 +198,22 @@ void ExtraSchur::update(const SystemOperator &op,
                         const bool symmetric_bulk,
                         const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
 {
-  update_products(gather_borders(op, border, end, bulk_scaling), symmetric_bulk);
+  update_border(op, border, end, symmetric_bulk, bulk_scaling);
   const auto &corner = border.extra_extra;
   const bool same =
     has_factor && place == place_of_factor &&
     std::equal(corner.begin(), corner.end(), corner_of_factor.begin(), corner_of_factor.end(),
                [](const auto &a, const auto &b)
                { return a.row == b.row && a.column == b.column && a.value == b.value; });
-  if (!same)
-    factorise(border);
+  if (same)
+    return;
+  dealii::FullMatrix<double> dense(border.n, border.n);
+  for (const auto &e : corner)
+    dense(e.row, e.column) += e.value;
+  factorise(dense);
+  corner_of_factor = corner;
+  place_of_factor = place;
+  has_factor = true;
 }
 
 void ExtraSchur::solve(std::vector<double> &x) const
@@ -211,5 +221,16 @@ void ExtraSchur::solve(std::vector<double> &x) const
   dealii::Vector<double> right(x.begin(), x.end());
   schur.solve(right);
   std::copy(right.begin(), right.end(), x.begin());
+}
+
+std::vector<double> ExtraSchur::product(const std::vector<double> &x) const
+{
+  std::vector<double> result(x.size(), 0.);
+  for (unsigned int i = 0; i < x.size(); ++i)
+    if (place[i] != no_place)
+      for (unsigned int j = 0; j < x.size(); ++j)
+        if (place[j] != no_place)
+          result[i] += products[place[i]][place[j]] * x[j];
+  return result;
 }
 } // namespace stockwork

@@ -44,8 +44,22 @@ public:
               bool symmetric_bulk,
               const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
 
+  /// The first half of update(): the products.
+  void update_border(const SystemOperator &op,
+                     const SystemOperator::Border &border,
+                     dealii::types::global_dof_index end,
+                     bool symmetric_bulk,
+                     const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
+
+  /// Factorise S with the border of the last update and another D, the same on every rank.
+  /// Throws SolveError when S is singular.
+  void factorise(const dealii::FullMatrix<double> &corner);
+
   /// x <- S^-1 x
   void solve(std::vector<double> &x) const;
+
+  /// C A^-1 B x
+  std::vector<double> product(const std::vector<double> &x) const;
 
   /// SolveError with the usual causes.
   [[noreturn]] static void throw_singular();
@@ -77,8 +91,6 @@ private:
 
   /// Drop known borders that are no longer in use.
   void forget_unused();
-
-  void factorise(const SystemOperator::Border &);
 
   MPI_Comm communicator;
   Multiply multiply;

@@ -101,6 +101,14 @@ public:
     return report;
   }
 
+  std::unique_ptr<CondensedSystem>
+  condense(const LinearSystem &system, const SystemStamps &stamps, const double tolerance) override
+  {
+    return system.elastic && bordered && !wants_hierarchy(system.residual_bulk.size())
+             ? bordered->condense(system, stamps, tolerance)
+             : nullptr;
+  }
+
 private:
   /// A rock that was singular without its fracture (closed, and nothing can be compressed) still is
   /// as long as it does not change; after a few of them others will be, too.

@@ -54,6 +54,35 @@ struct LinearSolverParameters
   void parse_parameters(dealii::ParameterHandler &);
 };
 
+/// A linear system whose bulk has been eliminated, for Newton's method in the extra unknowns alone:
+/// where the bulk is linear and in equilibrium it follows them, and nobody needs to see it before
+/// they have converged.
+///
+///   [ A  B ]
+///   [ C  D ],   S = D - C A^-1 B
+///
+/// Valid until the solver that made it is called again.
+class CondensedSystem
+{
+public:
+  virtual ~CondensedSystem() = default;
+
+  /// S dx = -residual_extra. Of the system only that and `extra_extra` may be other than when it
+  /// was condensed. Refined until the residual is `tolerance` of what it was, if it can be.
+  /// @param reaction what the bulk, in equilibrium again, adds to the residual: -C A^-1 B dx
+  /// @return the residual that is left, over what it was, scaled as in LinearReport
+  /// @throws SolveError when S is singular
+  virtual double solve(const LinearSystem &system,
+                       double tolerance,
+                       std::vector<double> &dx_extra,
+                       std::vector<double> &reaction) = 0;
+
+  /// dx_bulk = -A^-1 (residual_bulk + B dx_extra), with which the bulk is in equilibrium.
+  virtual void recover_bulk(const LinearSystem &system,
+                            const std::vector<double> &dx_extra,
+                            dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk) = 0;
+};
+
 /// Solves the linear systems of one run, one after another, and keeps what stays valid.
 class LinearSolver
 {
@@ -75,6 +104,14 @@ public:
                              double tolerance,
                              dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                              std::vector<double> &dx_extra) = 0;
+
+  /// The system without its bulk. Null where the solver cannot do that, has no factor of the
+  /// present bulk, or finds the residual of the bulk too large for solve() to neglect it.
+  virtual std::unique_ptr<CondensedSystem>
+  condense(const LinearSystem & /*system*/, const SystemStamps & /*stamps*/, double /*tolerance*/)
+  {
+    return nullptr;
+  }
 };
 
 std::unique_ptr<LinearSolver>

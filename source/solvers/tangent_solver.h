@@ -32,6 +32,13 @@ public:
                      dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                      std::vector<double> &dx_extra);
 
+  /// See LinearSolver.
+  std::unique_ptr<CondensedSystem>
+  condense(const LinearSystem &system, const SystemStamps &stamps, const double tolerance)
+  {
+    return system.rock_change == nullptr ? linear->condense(system, stamps, tolerance) : nullptr;
+  }
+
 private:
   /// Make `tangent` the sum of both matrices.
   void form_tangent(const LinearSystem &system, const SystemStamps &stamps);

@@ -445,6 +445,69 @@ TEST_CASE(
   check(true);
 }
 
+TEST_CASE("the bordered solver condenses a rock in equilibrium, and the rock follows in one go")
+{
+  auto solver = make(Type::bordered);
+  auto d = make_dense(31, 0, 6, 0., 0., 0.4);
+  SystemStamps stamps;
+  const auto condense = [&](const LinearSystem &system)
+  { return solver->condense(system, stamps, 1e-6); };
+  CHECK(condense(*distribute(d)) == nullptr); // there is no factor
+  solve(*solver, d, stamps);
+  CHECK(condense(*distribute(d)) == nullptr); // the rock is not in equilibrium
+  for (unsigned int i = 0; i < 31; ++i)
+    d.R(i) = 0.;
+
+  // Newton's method: all of the first system's solution, and half of the second's.
+  const auto system = distribute(d);
+  const auto condensed = condense(*system);
+  REQUIRE(condensed != nullptr);
+  std::vector<double> dx, reaction, sum(6, 0.);
+  Vector<double> x(37), r(d.R);
+  for (const double step : {1., 0.5})
+  {
+    CAPTURE(step);
+    const auto now = distribute(d);
+    now->residual_extra.assign(r.begin() + 31, r.end());
+    CHECK(condensed->solve(*now, 1e-12, dx, reaction) <= 1e-12);
+    DenseSystem same = d;
+    same.R = r;
+    const Vector<double> exact = same.solution();
+    for (unsigned int e = 0; e < 6; ++e)
+    {
+      CHECK(std::abs(dx[e] - exact(31 + e)) < 1e-10 * exact.linfty_norm());
+      double of_rock = 0.;
+      for (unsigned int i = 0; i < 31; ++i)
+        of_rock += d.J(31 + e, i) * exact(i);
+      CHECK(std::abs(reaction[e] - of_rock) < 1e-10 * exact.linfty_norm());
+      sum[e] += step * dx[e];
+    }
+    x.add(step, exact);
+    // A law of the fracture: D is another in the next iteration.
+    d.J(31, 31) += 2.;
+    d.J(33, 32) = d.J(32, 33) = 0.3;
+    d.J.vmult(r, x);
+    r += d.R;
+    for (unsigned int i = 0; i < 31; ++i)
+      r(i) = 0.;
+  }
+  TrilinosWrappers::MPI::BlockVector bulk(system->residual_bulk);
+  condensed->recover_bulk(*system, sum, bulk);
+  for (unsigned int i = 0; i < 31; ++i)
+    if (bulk.block(0).in_local_range(i))
+      CHECK(std::abs(bulk.block(0)(i) - x(i)) < 1e-10 * x.linfty_norm());
+
+  // Another rock, and one that is not definite, are not condensed.
+  ++stamps.bulk_values;
+  CHECK(condense(*system) == nullptr);
+  d = make_dense(31, 0, 6, 0., 0.4, 0.4);
+  ++stamps.mesh;
+  solve(*solver, d, stamps);
+  for (unsigned int i = 0; i < 31; ++i)
+    d.R(i) = 0.;
+  CHECK(condense(*distribute(d)) == nullptr);
+}
+
 TEST_CASE("auto takes what is there")
 {
   auto solver = make(Type::automatic);
