@@ -3,9 +3,10 @@
 
     paths.py DIRECTORY... [--time T] [--split Y] [--output FILE.png]
 
-A wing is what lies above (below) y = Y in x > 0, 0 without --split; of a fracture on either side of it there are two, and the
-one that Y cuts is left out where it does not exist. Printed for each: where its tip is [m], how far across it has moved
-from its first point (away from Y is positive) [m], and the direction of its last quarter against x [degrees].
+Looked at is x > 0, and what lies above and what lies below y = Y (0 without --split) is a wing each. Printed are
+the place of its tip, how far that has moved away from the line y = Y since the wing's first point [m], and the direction
+of the wing's last quarter against x [degrees], positive away from that line. A fracture along it has to be kept to one
+side by --split.
 """
 import argparse
 import os
