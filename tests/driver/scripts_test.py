@@ -17,7 +17,7 @@ sys.path[:0] = [HERE]
 from plot_test import write_run  # noqa: E402
 
 OF_A_DIRECTORY = ("closure.py", "report.py", "sawtooth.py", "back_stress.py", "plot/history.py",
-                  "plot/profile.py", "plot/field.py")
+                  "plot/profile.py", "plot/field.py", "plot/paths.py")
 
 # In place of the program: a run of a deck named good.prm ends well, others say why not.
 PROGRAM = """#!/usr/bin/python3

@@ -14,6 +14,7 @@
                                           DEGREES; the first kink of that path is the one of the TABLE
     --symmetric X,Y,LENGTH                each end of the fracture's pieces has its image in (X, Y) no further
                                           than LENGTH [m] from the fracture
+    --mirror Y,LENGTH                     the same of their images in the line y = Y
     --peak COLUMN=VALUE,SHARE             of the fracture's last file: the greatest of its absolute values
     --least COLUMN=SHARE                  of the fracture's last file: not below minus SHARE of its greatest
     --ends STATUS [--says TEXT]           the run ends with one of these statuses, and says why
@@ -163,10 +164,19 @@ def check_kink(directory, table, notch, xx, yy, bound):
 
 def check_symmetric(directory, x, y, bound):
     import numpy as np
+    return check_images(directory, lambda points: 2 * np.array([x, y]) - points, bound)
+
+
+def check_mirror(directory, y, bound):
+    return check_images(directory, lambda points: points * [1, -1] + [0, 2 * y], bound)
+
+
+def check_images(directory, image_of, bound):
+    import numpy as np
     starts, stops = last_pieces(directory)
     along = stops - starts
     worst = 0.
-    for image in 2 * np.array([x, y]) - np.concatenate([starts, stops]):
+    for image in image_of(np.concatenate([starts, stops])):
         at = np.clip(((image - starts) * along).sum(1) / (along * along).sum(1), 0., 1.)
         worst = max(worst, np.linalg.norm(starts + at[:, None] * along - image, axis=1).min())
     print(f"  images lie {worst:.4g} m from the fracture at most")
@@ -203,6 +213,8 @@ def run(runner, options):
         failed += check_kink(runner.output("run"), table, *(float(x) for x in numbers))
     if options.symmetric:
         failed += check_symmetric(runner.output("run"), *(float(x) for x in options.symmetric.split(",")))
+    if options.mirror:
+        failed += check_mirror(runner.output("run"), *(float(x) for x in options.mirror.split(",")))
     if options.tips:
         angle, bound = (float(x) for x in options.tips.split(","))
         failed += check_tips(runner.output("run"), angle, bound, options.cell)
@@ -232,6 +244,7 @@ def main():
     parser.add_argument("--peak", action="append", default=[])
     parser.add_argument("--kink")
     parser.add_argument("--symmetric")
+    parser.add_argument("--mirror")
     parser.add_argument("--tips")
     parser.add_argument("--cell", type=float, default=1.)
     parser.add_argument("--ends", default="0")
