@@ -311,6 +311,12 @@ private:
                         const Values &,
                         LocalSystem &) const;
 
+  struct SegmentRows;
+  void add_storage(SegmentRows &) const;
+  void add_flow(SegmentRows &) const;
+  void add_carter_leak_off(SegmentRows &) const;
+  void add_leak_off_by_pressure(SegmentRows &) const;
+
   double minimum_aperture = std::numeric_limits<double>::quiet_NaN();
   double pressure_scale = std::numeric_limits<double>::quiet_NaN();
   double least_pressure = -std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 #include "fracture/cohesive_xfem/growth_limits.h"
 #include "fracture/cohesive_xfem/law.h"
 #include "fracture/cohesive_xfem/parameters.h"
+#include "fracture/cohesive_xfem/tip_stress.h"
 #include "stockwork/fracture/model.h"
 
 #include <array>
@@ -114,6 +115,48 @@ private:
   /// Warn, once, of a tip that is held although the rock ahead of it should have parted.
   /// @param drive tension ahead plus pressure [Pa]
   void warn_of_held_tip(unsigned int crack, CrackEnd end, double drive, const std::string &cause);
+
+  using Advance = typename Discontinuity<dim>::Advance;
+
+  /// A tip that may grow, and what the rock ahead of it bears.
+  struct TipAhead
+  {
+    Advance advance;     ///< straight on
+    RockAhead<dim> near; ///< for whether it grows
+    RockAhead<dim> wide; ///< for its direction
+  };
+  std::vector<TipAhead> look_ahead(const State &state, const Collectives &collectives) const;
+
+  /// One look at all tips: those that grow, with the pressure behind each and whether the rock is
+  /// broken there, and what comes of it.
+  struct GrowthPass
+  {
+    std::vector<Advance> growing;
+    std::vector<double> pressures; ///< [Pa]
+    std::vector<bool> broken;
+    bool held_back = false; ///< a tip wants to advance by more cells than it may in a step
+    bool grown = false, needs_mesh = false;
+  };
+
+  enum class TipState
+  {
+    rests, ///< for now, or grows
+    held   ///< by the mesh, and driven hopelessly hard
+  };
+  TipState judge(const TipAhead &tip, const State &state, GrowthPass &pass);
+
+  dealii::Tensor<1, dim> direction_of_growth(const TipAhead &tip) const;
+
+  /// Cut the cells ahead. Returns why the run has to end; empty: it need not.
+  std::string grow(GrowthPass &pass, const Collectives &collectives);
+
+  /// Note what a tip has grown by. Returns as grow().
+  std::string take_new_span(const GrowthPass &pass, unsigned int tip);
+
+  void limit_step(const GrowthPass &pass, double dt, Verdict &verdict) const;
+
+  /// E' G_c / T^2 [m].
+  double cohesive_length() const;
 
   Parameters parameters;
   const Scene<dim> &scene;

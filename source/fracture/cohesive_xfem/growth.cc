@@ -1,7 +1,5 @@
 #include "fracture/cohesive_xfem/cohesive_xfem.h"
 
-#include "fracture/cohesive_xfem/tip_stress.h"
-
 #include <cmath>
 #include <sstream>
 
@@ -13,6 +11,10 @@ namespace
 {
 /// Of what drives a tip that does not move over the strength: it will not move any more.
 constexpr double hopeless = 20.;
+
+constexpr const char *remedy =
+  " Make the cells alike as far as the fracture shall run (Mesh/Box/X spacing and Y spacing, 'size "
+  "from place to place').";
 
 /// Unit vector in the direction of v, its angle rounded to 1e-6, so that the noise of a solver
 /// neither tilts a crack nor tells numbers of ranks apart.
@@ -172,32 +174,19 @@ bool CohesiveXFEM<dim>::press_faces(const State &state)
 
 
 template <int dim>
-Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
-                                   const State &state,
-                                   const Collectives &collectives)
+double CohesiveXFEM<dim>::cohesive_length() const
 {
-  using Advance = typename Discontinuity<dim>::Advance;
-  using Outcome = typename Discontinuity<dim>::Outcome;
-
   const RockProperties &rock = scene.rock.main();
-  const double cohesive_length =
-    rock.plane_modulus() * rock.energy_release_rate / (law.strength * law.strength);
+  return rock.plane_modulus() * rock.energy_release_rate / (law.strength * law.strength);
+}
 
-  Verdict verdict;
-  if (const std::string reason = reason_to_stop(state); !reason.empty())
-  {
-    verdict.kind = Verdict::Kind::stop;
-    verdict.reason = reason;
-    return verdict;
-  }
-  if (press_faces(state))
-  {
-    verdict.kind = Verdict::Kind::topology_changed;
-    return verdict;
-  }
-  std::vector<Advance> tips;
+
+template <int dim>
+std::vector<typename CohesiveXFEM<dim>::TipAhead>
+CohesiveXFEM<dim>::look_ahead(const State &state, const Collectives &collectives) const
+{
+  std::vector<TipAhead> tips;
   std::vector<HalfDisc<dim>> discs; // for the growth of each tip, and for its direction
-  bool held_back = false;
   if (parameters.growth)
     for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
       for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
@@ -207,171 +196,219 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
           continue;
         const double h = path.piece_at(end).cell_size();
         const double radius =
-          std::min(parameters.averaging_radius * h, std::max(0.5 * cohesive_length, 1.2 * h));
-        tips.push_back({c, end, path.direction(end)});
+          std::min(parameters.averaging_radius * h, std::max(0.5 * cohesive_length(), 1.2 * h));
+        tips.push_back({{c, end, path.direction(end)}, {}, {}});
         discs.push_back({path.tip(end), path.direction(end), radius});
         discs.push_back({path.tip(end), path.direction(end), parameters.direction_radius * h});
       }
-
   const auto averages =
     average_ahead(discs, *discretization, discontinuity, scene, state, collectives);
-  std::vector<Advance> growing;
-  std::vector<double> pressures;
-  std::vector<bool> broken; // behind the new tip
-  bool held_everywhere = !tips.empty() && std::isnan(scene.crack_pressure);
   for (unsigned int i = 0; i < tips.size(); ++i)
   {
-    const unsigned int c = tips[i].crack;
-    const CrackEnd end = tips[i].end;
-    const CrackSpan &last = discontinuity.span_at(c, end);
-    const double span = discontinuity.length(c, last);
-    const double pressure =
-      state.segment_pressure ? state.segment_pressure(discontinuity.key(c, last)) : 0.;
-    const auto &stress = averages[2 * i].stress;
-    Tensor<1, dim> across;
-    across[0] = -tips[i].direction[1];
-    across[1] = tips[i].direction[0];
-    // One intact span is enough: where the fluid's pressure alone exceeds the strength, cutting
-    // would never end. Where it does so by far, there is no cohesive zone worth the name: spans
-    // open by less than the fluid's aperture would be cut one after another.
-    const bool broken_here = distance_to_damage(c, end, 1., state) <= 0.5 * span * (1. + 1e-9);
-    const double added = parameters.as_published ? averages[2 * i].pore_pressure : pressure;
-    const double drive =
-      added + (parameters.straight ? across * (stress * across) : dealii::eigenvalues(stress)[0]);
-    // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
-    if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
-    {
-      warn_of_held_tip(c, end, drive, "The cell behind it is cut, but has not begun to break.");
-      // And that was so when the step began.
-      held_everywhere &= drive > hopeless * law.strength && committed_limits.told_of_holding.count(
-                                                              {c, static_cast<unsigned>(end)}) > 0;
-      continue;
-    }
-    held_everywhere = false;
-    if (!broken_here && fluid_overpowers(c, end, state))
-      continue;
-    // Suction at the tip and the tension ahead, both many times the strength, leave a difference
-    // that tells nothing: there the fluid has to have arrived.
-    if (reached_length(c, end, state) < 0.8 * span)
-      continue;
-    if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
-      continue;
-    if (advances[c][static_cast<int>(end)] >= parameters.most_advances)
-    {
-      held_back = true;
-      continue;
-    }
-    // Orthogonal to the largest tension, forward.
-    const Tensor<1, dim> normal = dealii::eigenvectors(averages[2 * i + 1].stress)[0].second;
-    Tensor<1, dim> direction;
-    direction[0] = -normal[1];
-    direction[1] = normal[0];
-    if (direction * tips[i].direction < 0.)
-      direction *= -1.;
-    if (!parameters.straight)
-      tips[i].direction = rounded_direction(direction);
-    growing.push_back(tips[i]);
-    broken.push_back(broken_here);
-    pressures.push_back(pressure);
+    tips[i].near = averages[2 * i];
+    tips[i].wide = averages[2 * i + 1];
   }
+  return tips;
+}
 
-  if (held_everywhere)
-  {
-    verdict.kind = Verdict::Kind::stop;
-    verdict.reason = "every tip is held, although pressure and tension ahead come to more than " +
-                     std::to_string(static_cast<int>(hopeless)) +
-                     " times the strength: the fracture cannot turn as it wants to on this mesh. "
-                     "Smaller cells, a longer notch, or one along the greatest compression may do.";
-    return verdict;
-  }
 
-  bool grown = false, needs_mesh = false;
-  if (!growing.empty())
+template <int dim>
+dealii::Tensor<1, dim> CohesiveXFEM<dim>::direction_of_growth(const TipAhead &tip) const
+{
+  if (parameters.straight)
+    return tip.advance.direction;
+  // Orthogonal to the largest tension, forward.
+  const Tensor<1, dim> normal = dealii::eigenvectors(tip.wide.stress)[0].second;
+  Tensor<1, dim> direction;
+  direction[0] = -normal[1];
+  direction[1] = normal[0];
+  if (direction * tip.advance.direction < 0.)
+    direction *= -1.;
+  return rounded_direction(direction);
+}
+
+
+template <int dim>
+typename CohesiveXFEM<dim>::TipState
+CohesiveXFEM<dim>::judge(const TipAhead &tip, const State &state, GrowthPass &pass)
+{
+  const unsigned int c = tip.advance.crack;
+  const CrackEnd end = tip.advance.end;
+  const CrackSpan &last = discontinuity.span_at(c, end);
+  const double span = discontinuity.length(c, last);
+  const double pressure =
+    state.segment_pressure ? state.segment_pressure(discontinuity.key(c, last)) : 0.;
+  Tensor<1, dim> across;
+  across[0] = -tip.advance.direction[1];
+  across[1] = tip.advance.direction[0];
+  // One intact span is enough: where the fluid's pressure alone exceeds the strength, cutting
+  // would never end. Where it does so by far, there is no cohesive zone worth the name: spans
+  // open by less than the fluid's aperture would be cut one after another.
+  const bool broken_here = distance_to_damage(c, end, 1., state) <= 0.5 * span * (1. + 1e-9);
+  const double added = parameters.as_published ? tip.near.pore_pressure : pressure;
+  const auto &stress = tip.near.stress;
+  const double drive =
+    added + (parameters.straight ? across * (stress * across) : dealii::eigenvalues(stress)[0]);
+  // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
+  if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
   {
-    // A process zone of fewer cells is not resolved, unless it was not from the start.
-    const double largest = std::max(0.25 * cohesive_length, largest_cell) * (1. + 1e-6);
-    const char *remedy = " Make the cells alike as far as the fracture shall run (Mesh/Box/X "
-                         "spacing and Y spacing, 'size from place to place').";
-    const auto stop = [&verdict](const std::string &reason)
+    warn_of_held_tip(c, end, drive, "The cell behind it is cut, but has not begun to break.");
+    // And that was so when the step began.
+    const bool held_before =
+      committed_limits.told_of_holding.count({c, static_cast<unsigned>(end)}) > 0;
+    return drive > hopeless * law.strength && held_before ? TipState::held : TipState::rests;
+  }
+  if (!broken_here && fluid_overpowers(c, end, state))
+    return TipState::rests;
+  // Suction at the tip and the tension ahead, both many times the strength, leave a difference
+  // that tells nothing: there the fluid has to have arrived.
+  if (reached_length(c, end, state) < 0.8 * span)
+    return TipState::rests;
+  if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
+    return TipState::rests;
+  if (advances[c][static_cast<int>(end)] >= parameters.most_advances)
+  {
+    pass.held_back = true;
+    return TipState::rests;
+  }
+  pass.growing.push_back({c, end, direction_of_growth(tip)});
+  pass.broken.push_back(broken_here);
+  pass.pressures.push_back(pressure);
+  return TipState::rests;
+}
+
+
+template <int dim>
+std::string CohesiveXFEM<dim>::take_new_span(const GrowthPass &pass, const unsigned int i)
+{
+  const Advance &growing = pass.growing[i];
+  const unsigned int crack = growing.crack, end = static_cast<unsigned int>(growing.end);
+  const auto &path = discontinuity.paths()[crack];
+  ++advances[crack][end];
+  limits.has_grown[crack] = true;
+  limits.wait_for_mesh.erase({crack, end});
+  limits.told_of_holding.erase({crack, end});
+  const CrackSpan &span = discontinuity.span_at(crack, growing.end);
+  const std::uint64_t key = discontinuity.key(crack, span);
+  initial_pressure[key] = pass.pressures[i];
+  if (pass.broken[i])
+    bare_tips.insert(key);
+  // A process zone of fewer cells is not resolved, unless it was not from the start.
+  const double largest = std::max(0.25 * cohesive_length(), largest_cell) * (1. + 1e-6);
+  std::ostringstream reason;
+  for (unsigned int k = span.first; k <= span.last && reason.str().empty(); ++k)
+    if (const double size = path.pieces[k].cell_size(); size > largest)
+      reason << "has come to cells of " << size << " m. Larger ones than " << largest
+             << " m do not resolve the process zone." << remedy;
+  return reason.str();
+}
+
+
+template <int dim>
+std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collectives)
+{
+  using Outcome = typename Discontinuity<dim>::Outcome;
+  const auto outcomes = discontinuity.grow(pass.growing, collectives);
+  for (unsigned int i = 0; i < pass.growing.size(); ++i)
+  {
+    const Advance &growing = pass.growing[i];
+    const unsigned int crack = growing.crack;
+    const GrowthLimits::Tip tip{crack, static_cast<unsigned int>(growing.end)};
+    std::ostringstream text;
+    text << "Crack " << crack + 1 << " at (" << discontinuity.paths()[crack].tip(growing.end)
+         << ") ";
+    const std::string where = text.str();
+    if (outcomes[i] == Outcome::grown || outcomes[i] == Outcome::reached_boundary)
     {
-      verdict.kind = Verdict::Kind::stop;
-      verdict.reason = reason;
-    };
-    const auto outcomes = discontinuity.grow(growing, collectives);
-    for (unsigned int i = 0; i < growing.size(); ++i)
-    {
-      const unsigned int crack = growing[i].crack, end = static_cast<unsigned int>(growing[i].end);
-      const GrowthLimits::Tip tip{crack, end};
-      const auto &path = discontinuity.paths()[crack];
-      std::ostringstream where;
-      where << "Crack " << crack + 1 << " at (" << path.tip(growing[i].end) << ") ";
-      if (outcomes[i] == Outcome::grown || outcomes[i] == Outcome::reached_boundary)
-      {
-        grown = true;
-        ++advances[crack][end];
-        limits.has_grown[crack] = true;
-        limits.wait_for_mesh.erase(tip);
-        limits.told_of_holding.erase(tip);
-        const CrackSpan &span = discontinuity.span_at(crack, growing[i].end);
-        const std::uint64_t key = discontinuity.key(crack, span);
-        initial_pressure[key] = pressures[i];
-        if (broken[i])
-          bare_tips.insert(key);
-        for (unsigned int k = span.first; k <= span.last; ++k)
-          if (const double size = path.pieces[k].cell_size(); size > largest)
-          {
-            where << "has come to cells of " << size << " m. Larger ones than " << largest
-                  << " m do not resolve the process zone." << remedy;
-            stop(where.str());
-            return verdict;
-          }
-      }
-      if (outcomes[i] == Outcome::reached_boundary)
-        limits.blocked_by = where.str() + "has reached the boundary of the domain.";
-      if (outcomes[i] == Outcome::reached_crack)
-      {
-        discontinuity.stop(crack, growing[i].end);
-        limits.blocked_by = where.str() + "has met another crack and stops: crossing and "
-                                          "branching cracks are not supported.";
-      }
-      if (outcomes[i] == Outcome::reached_boundary || outcomes[i] == Outcome::reached_crack)
-        messages.push_back(limits.blocked_by);
-      if (outcomes[i] == Outcome::needs_mesh)
-      {
-        needs_mesh = true;
-        limits.wait_for_mesh.insert(tip);
-        if (committed_limits.wait_for_mesh.count(tip) != 0)
-        {
-          stop(where.str() +
-               "cannot go on: the cells ahead have another size than those along it, "
-               "and refining the mesh has not changed that." +
-               remedy);
-          return verdict;
-        }
-      }
+      pass.grown = true;
+      if (const std::string reason = take_new_span(pass, i); !reason.empty())
+        return where + reason;
     }
-    refresh_segments();
+    if (outcomes[i] == Outcome::reached_boundary)
+      limits.blocked_by = where + "has reached the boundary of the domain.";
+    if (outcomes[i] == Outcome::reached_crack)
+    {
+      discontinuity.stop(crack, growing.end);
+      limits.blocked_by = where + "has met another crack and stops: crossing and branching cracks "
+                                  "are not supported.";
+    }
+    if (outcomes[i] == Outcome::reached_boundary || outcomes[i] == Outcome::reached_crack)
+      messages.push_back(limits.blocked_by);
+    if (outcomes[i] == Outcome::needs_mesh)
+    {
+      pass.needs_mesh = true;
+      limits.wait_for_mesh.insert(tip);
+      if (committed_limits.wait_for_mesh.count(tip) != 0)
+        return where +
+               "cannot go on: the cells ahead have another size than those along it, and refining "
+               "the mesh has not changed that." +
+               remedy;
+    }
   }
+  refresh_segments();
+  return "";
+}
 
-  if (grown)
-  {
-    verdict.kind = Verdict::Kind::topology_changed;
-    return verdict;
-  }
+
+template <int dim>
+void CohesiveXFEM<dim>::limit_step(const GrowthPass &pass, const double dt, Verdict &verdict) const
+{
   unsigned int most = 0;
   for (const auto &ends : advances)
     most = std::max({most, ends[0], ends[1]});
   // In the end, a tip advances in every other step: with an advance in each, the error in time of a
   // fracture driven through viscous fluid is as large as that in space.
-  verdict.dt_limit = context.dt * (held_back || needs_mesh ? 0.5
-                                   : most > 1              ? 0.6
-                                   : most == 1             ? 0.8
-                                                           : 1.25);
-  if (held_back)
+  verdict.dt_limit = dt * (pass.held_back || pass.needs_mesh ? 0.5
+                           : most > 1                        ? 0.6
+                           : most == 1                       ? 0.8
+                                                             : 1.25);
+  if (pass.held_back)
     verdict.reason = "a tip wants to advance by more than " +
                      std::to_string(parameters.most_advances) + " cells in a step";
-  if (needs_mesh)
+  if (pass.needs_mesh)
     verdict.reason = "a tip waits for the mesh to be refined ahead of it";
+}
+
+
+template <int dim>
+Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
+                                   const State &state,
+                                   const Collectives &collectives)
+{
+  Verdict verdict;
+  const auto stop = [&verdict](const std::string &reason)
+  {
+    verdict.kind = Verdict::Kind::stop;
+    verdict.reason = reason;
+    return verdict;
+  };
+  if (const std::string reason = reason_to_stop(state); !reason.empty())
+    return stop(reason);
+  if (press_faces(state))
+  {
+    verdict.kind = Verdict::Kind::topology_changed;
+    return verdict;
+  }
+
+  const std::vector<TipAhead> tips = look_ahead(state, collectives);
+  GrowthPass pass;
+  bool held_everywhere = !tips.empty() && std::isnan(scene.crack_pressure);
+  for (const TipAhead &tip : tips)
+    held_everywhere &= judge(tip, state, pass) == TipState::held;
+  if (held_everywhere)
+    return stop(
+      "every tip is held, although pressure and tension ahead come to more than " +
+      std::to_string(static_cast<int>(hopeless)) +
+      " times the strength: the fracture cannot turn as it wants to on this mesh. Smaller "
+      "cells, a longer notch, or one along the greatest compression may do.");
+
+  if (!pass.growing.empty())
+    if (const std::string reason = grow(pass, collectives); !reason.empty())
+      return stop(reason);
+  if (pass.grown)
+    verdict.kind = Verdict::Kind::topology_changed;
+  else
+    limit_step(pass, context.dt, verdict);
   return verdict;
 }
 
@@ -383,5 +420,6 @@ CohesiveXFEM<2>::warn_of_held_tip(unsigned int, CrackEnd, double, const std::str
 template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template bool CohesiveXFEM<2>::press_faces(const State &);
+template double CohesiveXFEM<2>::cohesive_length() const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);
 } // namespace stockwork::cohesive_xfem
