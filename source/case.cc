@@ -31,13 +31,13 @@ void declare_for_dimension(ParameterHandler &prm)
 
 /// Displacement and pressure elements, and whether there is a pore pressure at all.
 template <int dim>
-Discretisation parse_discretisation(ParameterHandler &prm,
-                                    const Rock &rock,
-                                    const BoundaryConditions<dim> &boundary_conditions,
-                                    const Network<dim> &network,
-                                    const Requirements &requirements)
+ElementSettings parse_elements(ParameterHandler &prm,
+                               const Rock &rock,
+                               const BoundaryConditions<dim> &boundary_conditions,
+                               const Network<dim> &network,
+                               const Requirements &requirements)
 {
-  Discretisation discretisation;
+  ElementSettings elements;
   const bool asked = boundary_conditions.mentions_pore_pressure() ||
                      network.needs_pore_pressure() || requirements.pore_pressure;
   if (rock.bulk_model() == "elastic" &&
@@ -50,20 +50,20 @@ Discretisation parse_discretisation(ParameterHandler &prm,
     throw EntryError("Rock/Bulk model", "elastic",
                      "poroelastic or auto, because 'Boundary conditions' gives pore pressures or "
                      "fluxes, which an elastic rock does not have: leave one of them out");
-  discretisation.has_pore_pressure =
+  elements.has_pore_pressure =
     rock.bulk_model() == "poroelastic" || (rock.bulk_model() == "auto" && asked);
 
   prm.enter_subsection("Discretisation");
   const std::string elements = prm.get("Elements");
-  discretisation.displacement_degree = elements.substr(0, 2) == "Q2" ? 2 : 1;
-  if (requirements.linear_elements && discretisation.displacement_degree > 1)
+  elements.displacement_degree = elements.substr(0, 2) == "Q2" ? 2 : 1;
+  if (requirements.linear_elements && elements.displacement_degree > 1)
     throw EntryError("Discretisation/Elements", elements,
                      "Q1-Q1 stabilised or Q1-Q1, because the nodes of the fracture model are the "
                      "vertices of cells");
   if (elements == "Q1-Q1 stabilised")
-    discretisation.stabilisation = PressureStabilisation::projection;
+    elements.stabilisation = PressureStabilisation::projection;
   prm.leave_subsection();
-  return discretisation;
+  return elements;
 }
 
 
@@ -230,7 +230,7 @@ void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
 template <int dim>
 void check_history(ParameterHandler &prm, const Case<dim> &the_case)
 {
-  if (the_case.laws.are_linear() || !the_case.discretisation.has_pore_pressure)
+  if (the_case.laws.are_linear() || !the_case.elements.has_pore_pressure)
     return;
   if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
     throw EntryError(
@@ -267,7 +267,7 @@ void check_permeability(ParameterHandler &prm, const Case<dim> &the_case)
                            "Permeability decay stress",
                          value_of(prm, sections, "Permeability decay stress"), allowed);
       };
-      if (!the_case.discretisation.has_pore_pressure)
+      if (!the_case.elements.has_pore_pressure)
         refuse("nothing (an empty entry): no pore pressure is solved for, so permeability does not "
                "count; or 'Rock/Bulk model = poroelastic'");
       if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
@@ -480,22 +480,20 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
                        "' of the mesh is rock as everywhere else: subsection "
                        "'Rock/Region " +
                        std::to_string(geometry.region(region)) + "' is empty.");
-  discretisation =
-    parse_discretisation<dim>(prm, rock, boundary_conditions, network, model->requirements());
-  scene.has_pore_pressure = discretisation.has_pore_pressure;
-  if (discretisation.has_pore_pressure)
+  elements = parse_elements<dim>(prm, rock, boundary_conditions, network, model->requirements());
+  scene.has_pore_pressure = elements.has_pore_pressure;
+  if (elements.has_pore_pressure)
     require(prm, "Rock", "Permeability",
             "a permeability > 0 m^2, such as '1 md', for the pore pressure is solved for; or 'Bulk "
             "model = elastic'");
-  if (discretisation.has_pore_pressure || solves_for_flow)
+  if (elements.has_pore_pressure || solves_for_flow)
     require(prm, "Fluid", "Viscosity",
             "a viscosity > 0 Pa s, such as '1 cP', for there is flow in pores or fractures; or, "
             "where a fracture is dry, 'Cracks/Fluid pressure = 0'");
-  if (discretisation.has_pore_pressure)
+  if (elements.has_pore_pressure)
     refuse_incompressible(prm, rock, geometry, boundary_conditions);
 
-  scheme.parse_parameters(prm,
-                          !has_fracture && discretisation.has_pore_pressure && laws.are_linear());
+  scheme.parse_parameters(prm, !has_fracture && elements.has_pore_pressure && laws.are_linear());
 
   check_history(prm, *this);
   check_permeability(prm, *this);
@@ -511,10 +509,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
 
   CouplingParameters coupling;
   coupling.parse_parameters(prm);
-  coupling.check(rock.main(), discretisation.has_pore_pressure, has_fracture, network.has_wells());
+  coupling.check(rock.main(), elements.has_pore_pressure, has_fracture, network.has_wells());
 
   ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
-  input.has_pore_pressure = discretisation.has_pore_pressure;
+  input.has_pore_pressure = elements.has_pore_pressure;
   input.start_time = control.start_time;
   input.end_time = control.end_time;
   for (const InitialCrack<dim> &crack : scene.cracks)
@@ -568,7 +566,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
     moved |= boundary_conditions.greatest_displacement(
                control.start_time + 0.01 * i * (control.end_time - control.start_time)) > 0.;
   audits_energy =
-    !discretisation.has_pore_pressure && in_situ.is_zero() &&
+    !elements.has_pore_pressure && in_situ.is_zero() &&
     (scene.cracks.empty() || scene.crack_pressure == 0.) &&
     (scheme.kind() == TimeScheme::Kind::newmark ? !moved
                                                 : moved && boundary_conditions.loads().empty());

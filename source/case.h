@@ -41,7 +41,7 @@ struct Case
   Network<dim> network;
   Scene<dim> scene;
   std::unique_ptr<FractureModel<dim>> model;
-  Discretisation discretisation;
+  ElementSettings elements;
   StepControl control;
   TimeScheme scheme;
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null

@@ -93,7 +93,7 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
   if (outcome.leaked > 0.)
     assumptions.push_back(
       {"leak-off: leaked / injected", outcome.leaked / outcome.injected, true, "as modelled"});
-  else if (!the_case.discretisation.has_pore_pressure && the_case.rock.bulk_model() == "auto" &&
+  else if (!the_case.elements.has_pore_pressure && the_case.rock.bulk_model() == "auto" &&
            rock.permeability > 0.)
   {
     // Carter's coefficient where the pore fluid resists (Howard & Fast 1957), as if the whole

@@ -103,7 +103,7 @@ std::map<std::string, double> Report<dim>::observe()
   if (audits_energy)
   {
     const MechanicalEnergy energy = mechanical_energy<dim>(
-      system.discretization(), rock, system.nonlinear_rock(), system.loads(),
+      system.mesh_view(), rock, system.nonlinear_rock(), system.loads(),
       [this](const auto &cell) { return model.role(cell); }, stepper.last_context(), state,
       system.collectives());
     external_work += energy.work;

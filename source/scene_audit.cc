@@ -81,15 +81,17 @@ template <int dim>
 Pumping first_pumping(const Network<dim> &network, const StepControl &control)
 {
   Pumping pumping;
-  double volume = 0.;
+  double volume = 0., start = control.start_time;
   for (double t = control.start_time; t < control.end_time && !pumping.is_shut_in;)
   {
     const double next = std::min(network.next_jump(t), control.end_time);
     const double rate = network.rate_of_first_well(next); // a piece holds until its end
+    if (volume == 0.)
+      start = t; // a rest before it is no part of it
     if (rate > 0.)
     {
       volume += rate * (next - t);
-      pumping.duration = next - control.start_time;
+      pumping.duration = next - start;
     }
     pumping.is_shut_in = volume > 0. && rate <= 0.;
     t = next;
@@ -359,7 +361,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   const RockProperties &rock = the_case.rock.main();
   const double duration = the_case.control.end_time - the_case.control.start_time;
 
-  if (the_case.discretisation.has_pore_pressure)
+  if (the_case.elements.has_pore_pressure)
   {
     const double diffusivity =
       rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));

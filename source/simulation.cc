@@ -178,7 +178,7 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.boundary_conditions,
            *the_case.model,
            the_case.network,
-           the_case.discretisation,
+           the_case.elements,
            prm)
   , adaptation(the_case.geometry, triangulation, *the_case.model)
   , stepper(run, system, *the_case.model, the_case.network, the_case.scheme, the_case.control)
@@ -346,7 +346,7 @@ void Simulation<dim>::say_how_far_rock_went() const
 template <int dim>
 double Simulation<dim>::unknowns_per_cell() const
 {
-  const auto &d = the_case.discretisation;
+  const auto &d = the_case.elements;
   return dim * std::pow(d.displacement_degree, dim) + d.has_pore_pressure;
 }
 
@@ -356,7 +356,7 @@ void Simulation<dim>::refuse_too_large() const
 {
   const double n_cells = triangulation.n_global_active_cells();
   const double needed =
-    estimate_cost(dim, n_cells * unknowns_per_cell(), the_case.discretisation.has_pore_pressure,
+    estimate_cost(dim, n_cells * unknowns_per_cell(), the_case.elements.has_pore_pressure,
                   !the_case.scene.cracks.empty())
       .memory;
   const double available = physical_memory(run.communicator);
@@ -379,9 +379,8 @@ void Simulation<dim>::announce()
     run.warn(message);
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
-  const CostEstimate cost =
-    estimate_cost(dim, system.n_unknowns(), the_case.discretisation.has_pore_pressure,
-                  !the_case.scene.cracks.empty());
+  const CostEstimate cost = estimate_cost(
+    dim, system.n_unknowns(), the_case.elements.has_pore_pressure, !the_case.scene.cracks.empty());
   const double steps = std::ceil((the_case.control.end_time - clock.time) / clock.dt);
   run.out << "  roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
           << " per step; " << steps << " steps of " << clock.dt << " s would take "
@@ -493,6 +492,9 @@ void Simulation<dim>::march()
     // A step shortened to meet a time says nothing about the next.
     clock.dt =
       taken.dt < tried || tried == clock.dt ? taken.next_dt : std::max(clock.dt, taken.next_dt);
+    // Nor does one of rest say anything about the start of a well.
+    if (the_case.network.starts_at(clock.time))
+      clock.dt = std::min(clock.dt, the_case.control.initial_step);
     ++clock.step;
     report.add_step(clock.step, taken);
     pass_on_remarks();
@@ -501,7 +503,7 @@ void Simulation<dim>::march()
     if (fields.due(clock.step, clock.time, finished()))
     {
       const auto scope = run.timers.scope("output");
-      fields.write(clock.time, system.discretization(), the_case.scene, *the_case.model,
+      fields.write(clock.time, system.mesh_view(), the_case.scene, *the_case.model,
                    stepper.last_state(), system.nonlinear_rock());
     }
     if (!finished())

@@ -36,7 +36,7 @@ public:
              the_case->boundary_conditions,
              *the_case->model,
              the_case->network,
-             the_case->discretisation,
+             the_case->elements,
              prm)
     , adaptation(the_case->geometry, triangulation, *the_case->model)
     , stepper(run, system, *the_case->model, the_case->network, the_case->scheme, the_case->control)
@@ -116,7 +116,7 @@ public:
     for (unsigned int i = 0; i < n_bulk(); ++i)
       change(i) = direction(i);
     change.compress(dealii::VectorOperation::insert);
-    system.discretization().constraints.distribute(change);
+    system.mesh_view().constraints.distribute(change);
     bulk = start.bulk;
     bulk += change;
     current.bulk = bulk;

@@ -32,16 +32,16 @@ template <int dim>
 BulkAssembly<dim>::BulkAssembly(const Rock &rock,
                                 const Loads<dim> &loads,
                                 const PressureStabilisation stabilisation,
-                                const Discretization<dim> discretization,
+                                const MeshView<dim> mesh_view,
                                 const Role &role)
   : rock(rock)
   , loads(loads)
-  , discretization(discretization)
-  , matrices(discretization.mapping, discretization.dof_handler.get_fe(), rock, stabilisation, role)
-  , cut_evaluator(discretization.mapping, discretization.dof_handler.get_fe(), QMidpoint<dim>())
-  , face_values(discretization.mapping,
-                discretization.dof_handler.get_fe(),
-                QGauss<dim - 1>(discretization.dof_handler.get_fe().base_element(0).degree + 1),
+  , mesh_view(mesh_view)
+  , matrices(mesh_view.mapping, mesh_view.dof_handler.get_fe(), rock, stabilisation, role)
+  , cut_evaluator(mesh_view.mapping, mesh_view.dof_handler.get_fe(), QMidpoint<dim>())
+  , face_values(mesh_view.mapping,
+                mesh_view.dof_handler.get_fe(),
+                QGauss<dim - 1>(mesh_view.dof_handler.get_fe().base_element(0).degree + 1),
                 update_values | update_quadrature_points | update_normal_vectors |
                   update_JxW_values)
 {
@@ -52,8 +52,8 @@ BulkAssembly<dim>::BulkAssembly(const Rock &rock,
 template <int dim>
 void BulkAssembly<dim>::set_up()
 {
-  const auto &dof_handler = discretization.dof_handler;
-  const auto &constraints = discretization.constraints;
+  const auto &dof_handler = mesh_view.dof_handler;
+  const auto &constraints = mesh_view.constraints;
   const auto &layout = matrices.layout();
 
   std::vector<unsigned int> blocks(dof_handler.get_fe().n_components(), 0);
@@ -90,7 +90,7 @@ void BulkAssembly<dim>::set_up()
         edge_cells.push_back(cell);
       if (std::any_of(layout.p.begin(), layout.p.end(),
                       [&](const unsigned int i)
-                      { return prescribed_share(discretization.constraints, dofs[i]) > 0.; }))
+                      { return prescribed_share(mesh_view.constraints, dofs[i]) > 0.; }))
         drained_cells.push_back(cell);
     }
 }
@@ -102,7 +102,7 @@ bool BulkAssembly<dim>::matrix(const StepContext &context,
                                TrilinosWrappers::BlockSparseMatrix &matrix,
                                TrilinosWrappers::SparseMatrix *fixed_stress_mass)
 {
-  const auto &fe = discretization.dof_handler.get_fe();
+  const auto &fe = mesh_view.dof_handler.get_fe();
   const auto &layout = matrices.layout();
   const unsigned int n_p = layout.n_p;
 
@@ -125,7 +125,7 @@ bool BulkAssembly<dim>::matrix(const StepContext &context,
         *fixed_stress_mass = 0.;
       content.reinit(owned, relevant, matrix.block(0, 0).get_mpi_communicator(), true);
     }
-    for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
         matrices.reinit(cell, context);
@@ -137,8 +137,7 @@ bool BulkAssembly<dim>::matrix(const StepContext &context,
 
         const bool in_place =
           std::none_of(dofs.begin(), dofs.end(),
-                       [&](const auto i)
-                       { return discretization.constraints.is_constrained(i); }) &&
+                       [&](const auto i) { return mesh_view.constraints.is_constrained(i); }) &&
           writer.reinit(matrix.block(0, 0), displacement_dofs, displacement_dofs) &&
           (n_p == 0 || pressure_writer.reinit(storage, pressure_dofs, pressure_dofs));
         if (in_place)
@@ -158,7 +157,7 @@ bool BulkAssembly<dim>::matrix(const StepContext &context,
         }
         else
         {
-          discretization.constraints.distribute_local_to_global(matrices.whole, dofs, matrix);
+          mesh_view.constraints.distribute_local_to_global(matrices.whole, dofs, matrix);
           if (n_p == 0)
             continue;
           pressure_constraints.distribute_local_to_global(matrices.storage, pressure_dofs, storage);
@@ -195,13 +194,13 @@ bool BulkAssembly<dim>::matrix(const StepContext &context,
 template <int dim>
 void BulkAssembly<dim>::undrained_term(TrilinosWrappers::SparseMatrix &matrix) const
 {
-  const auto &fe = discretization.dof_handler.get_fe();
-  CellIntegrals<dim> integrals(discretization.mapping, fe);
+  const auto &fe = mesh_view.dof_handler.get_fe();
+  CellIntegrals<dim> integrals(mesh_view.mapping, fe);
   const auto &layout = integrals.layout;
   const unsigned int n_u = layout.n_u, n = n_u * dim;
   FullMatrix<double> local(n);
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), displacement_dofs(n);
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const RockProperties &properties = rock(cell->material_id());
@@ -217,7 +216,7 @@ void BulkAssembly<dim>::undrained_term(TrilinosWrappers::SparseMatrix &matrix) c
             for (unsigned int j = 0; j < dim; ++j)
               local(a * dim + i, b * dim + j) =
                 stiffening * integrals.gradients[((i * dim + j) * n_u + a) * n_u + b];
-      discretization.constraints.distribute_local_to_global(local, displacement_dofs, matrix);
+      mesh_view.constraints.distribute_local_to_global(local, displacement_dofs, matrix);
     }
   matrix.compress(VectorOperation::add);
 }
@@ -289,9 +288,9 @@ void BulkAssembly<dim>::add_inertia(const StepContext &context,
                                     BlockVector &residual) const
 {
   const auto &layout = matrices.layout();
-  std::vector<types::global_dof_index> dofs(discretization.dof_handler.get_fe().n_dofs_per_cell());
+  std::vector<types::global_dof_index> dofs(mesh_view.dof_handler.get_fe().n_dofs_per_cell());
   Vector<double> local(dofs.size()), reference(dofs.size());
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       matrices.reinit(cell, context);
@@ -306,7 +305,7 @@ void BulkAssembly<dim>::add_inertia(const StepContext &context,
             local(layout.u[a * dim + i]) -= inertia *
                                             matrices.integrals.masses[a * layout.n_u + b] *
                                             reference(layout.u[b * dim + i]);
-      discretization.constraints.distribute_local_to_global(local, dofs, residual);
+      mesh_view.constraints.distribute_local_to_global(local, dofs, residual);
     }
 }
 
@@ -334,22 +333,22 @@ void BulkAssembly<dim>::residual(const StepContext &context,
       storage.vmult(x.block(1), reference.block(1));
       residual.block(1).add(context.pressure_rate / context.rate, x.block(1));
     }
-    discretization.constraints.set_zero(residual);
+    mesh_view.constraints.set_zero(residual);
     residual.compress(VectorOperation::insert);
   }
 
   // What prescribed values and loads do to them.
-  std::vector<types::global_dof_index> dofs(discretization.dof_handler.get_fe().n_dofs_per_cell());
+  std::vector<types::global_dof_index> dofs(mesh_view.dof_handler.get_fe().n_dofs_per_cell());
   Vector<double> local(dofs.size()), x(dofs.size()), reference(dofs.size());
   for (const CellIterator &cell : edge_cells)
   {
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i)
     {
-      x(i) = prescribed_part(discretization.constraints, dofs[i], state.current.bulk);
-      reference(i) = layout.n_p > 0 ? prescribed_part(discretization.constraints, dofs[i],
-                                                      state.rate_reference.bulk)
-                                    : 0.;
+      x(i) = prescribed_part(mesh_view.constraints, dofs[i], state.current.bulk);
+      reference(i) = layout.n_p > 0
+                       ? prescribed_part(mesh_view.constraints, dofs[i], state.rate_reference.bulk)
+                       : 0.;
     }
     local = 0.;
     if (!x.all_zero() || !reference.all_zero())
@@ -359,7 +358,7 @@ void BulkAssembly<dim>::residual(const StepContext &context,
       subtract_history(context, reference, local);
     }
     subtract_loads(context, cell, local);
-    discretization.constraints.distribute_local_to_global(local, dofs, residual);
+    mesh_view.constraints.distribute_local_to_global(local, dofs, residual);
   }
   if (context.acceleration > 0.)
     add_inertia(context, state, residual);
@@ -403,7 +402,7 @@ double BulkAssembly<dim>::fluid_content(const BlockVector &bulk,
     for (int i = 0; i < values.MyLength(); ++i)
       volume += per_unknown[i] * values[0][i];
   }
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       if (const CutCell<dim> *cut = role(cell).cut)
@@ -421,7 +420,7 @@ template <int dim>
 double BulkAssembly<dim>::outflow(const StepContext &context, const State &state) const
 {
   const auto &layout = matrices.layout();
-  std::vector<types::global_dof_index> dofs(discretization.dof_handler.get_fe().n_dofs_per_cell());
+  std::vector<types::global_dof_index> dofs(mesh_view.dof_handler.get_fe().n_dofs_per_cell());
   Vector<double> local(dofs.size()), x(dofs.size()), reference(dofs.size());
   double volume = 0.;
   for (const CellIterator &cell : drained_cells)
@@ -437,15 +436,15 @@ double BulkAssembly<dim>::outflow(const StepContext &context, const State &state
     subtract_history(context, reference, local);
     subtract_loads(context, cell, local);
     for (const unsigned int i : layout.p)
-      volume += prescribed_share(discretization.constraints, dofs[i]) * local(i);
+      volume += prescribed_share(mesh_view.constraints, dofs[i]) * local(i);
   }
   if (!loads.flux.empty())
   {
-    const auto &fe = discretization.dof_handler.get_fe();
-    FEFaceValues<dim> face_values(discretization.mapping, fe,
+    const auto &fe = mesh_view.dof_handler.get_fe();
+    FEFaceValues<dim> face_values(mesh_view.mapping, fe,
                                   QGauss<dim - 1>(fe.base_element(0).degree + 1),
                                   update_quadrature_points | update_JxW_values);
-    for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned() && cell->at_boundary())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())

@@ -3,10 +3,10 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 
-#include "stockwork/fracture/cell_role.h"
-#include "stockwork/fracture/sink.h"
-#include "stockwork/fracture/state.h"
-#include "stockwork/mesh/discretization.h"
+#include "stockwork/exchange/cell_role.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/exchange/state.h"
+#include "stockwork/mesh/mesh_view.h"
 #include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
@@ -39,7 +39,7 @@ public:
   BulkAssembly(const Rock &rock,
                const Loads<dim> &loads,
                PressureStabilisation stabilisation,
-               const Discretization<dim> discretization,
+               const MeshView<dim> mesh_view,
                const Role &role = {});
 
   /// Fill the matrix of the bulk and, unless null, the fixed-stress mass. Cells are visited when
@@ -108,7 +108,7 @@ private:
 
   const Rock &rock;
   const Loads<dim> &loads;
-  const Discretization<dim> discretization;
+  const MeshView<dim> mesh_view;
 
   std::vector<dealii::IndexSet> owned, relevant; ///< by block
   /// Of the pressures, numbered from zero.

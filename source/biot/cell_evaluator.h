@@ -3,8 +3,8 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/fe/fe_values.h>
 
-#include "stockwork/fracture/cell_role.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/cell_role.h"
+#include "stockwork/exchange/state.h"
 
 #include "biot/cell_integrals.h"
 

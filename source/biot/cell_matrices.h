@@ -4,8 +4,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include "stockwork/fracture/cell_role.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/cell_role.h"
+#include "stockwork/exchange/state.h"
 #include "stockwork/rock/linear_stiffness.h"
 
 #include "biot/cell_integrals.h"

@@ -113,7 +113,7 @@ void BulkAssembly<dim>::cut_cells(const StepContext &context,
                                   Sink &sink) const
 {
   LocalSystem local;
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       if (const CutCell<dim> *cut = role(cell).cut)
       {

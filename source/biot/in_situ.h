@@ -4,7 +4,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-#include "stockwork/fracture/scene.h"
+#include "stockwork/exchange/scene.h"
 #include "stockwork/rock/rock.h"
 
 #include <optional>

@@ -73,19 +73,19 @@ NonlinearRock<dim>::NonlinearRock(const RockLaws &laws,
 
 
 template <int dim>
-void NonlinearRock<dim>::setup(const Discretization<dim> &new_discretization)
+void NonlinearRock<dim>::setup(const MeshView<dim> &new_mesh_view)
 {
-  discretization = std::make_unique<const Discretization<dim>>(new_discretization);
-  const auto &fe = discretization->dof_handler.get_fe();
+  mesh_view = std::make_unique<const MeshView<dim>>(new_mesh_view);
+  const auto &fe = mesh_view->dof_handler.get_fe();
   const auto quadrature = quadrature_of(fe);
-  evaluator = std::make_unique<CellEvaluator<dim>>(discretization->mapping, fe, quadrature);
+  evaluator = std::make_unique<CellEvaluator<dim>>(mesh_view->mapping, fe, quadrature);
   if (!points)
   {
     unsigned int n = 0;
     for (const RockLaw *const law : all_laws())
       n = std::max(n, law->n_history());
     points = std::make_unique<PointHistory<dim>>(n_core + n, quadrature.get_points());
-    points->reinit(discretization->dof_handler.get_triangulation().n_active_cells());
+    points->reinit(mesh_view->dof_handler.get_triangulation().n_active_cells());
   }
   find_watched();
 }
@@ -95,7 +95,7 @@ template <int dim>
 void NonlinearRock<dim>::find_watched()
 {
   watched.clear();
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && answers(cell))
       watched.push_back({cell, 0., 0.});
   has_looked = false;
@@ -127,7 +127,7 @@ template <int dim>
 typename NonlinearRock<dim>::InSituShare NonlinearRock<dim>::in_situ_share()
 {
   InSituShare share;
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && answers(cell))
     {
       evaluator->reinit(cell, nullptr);
@@ -439,7 +439,7 @@ void NonlinearRock<dim>::add_energies(const std::vector<SymmetricTensor<2, 3>> &
                                       const State &state)
 {
   const auto &layout = evaluator->layout;
-  const auto &constraints = discretization->constraints;
+  const auto &constraints = mesh_view->constraints;
   for (unsigned int i = 0; i < layout.u.size(); ++i)
   {
     const auto dof = evaluator->dofs()[layout.u[i]];
@@ -519,7 +519,7 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell,
             : Tensor<1, dim>();
     for (unsigned int a = 0; a < evaluator->layout.n_p; ++a)
       last_totals.outflow -=
-        prescribed_share(discretization->constraints, evaluator->dofs()[evaluator->layout.p[a]]) *
+        prescribed_share(mesh_view->constraints, evaluator->dofs()[evaluator->layout.p[a]]) *
         (evaluator->pressure_value(a, q) * gained + evaluator->pressure_gradient(a, q) * flow);
     last_totals.dissipated_energy += w * core[dissipated];
     if (responses[q].remark != nullptr)

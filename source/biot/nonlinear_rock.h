@@ -1,8 +1,8 @@
 #pragma once
 
-#include "stockwork/fracture/scene.h"
-#include "stockwork/fracture/sink.h"
-#include "stockwork/mesh/discretization.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/mesh/mesh_view.h"
 
 #include "biot/cell_evaluator.h"
 #include "biot/point_history.h"
@@ -45,7 +45,7 @@ public:
                 const RockLaw *law_of_model);
 
   /// The mesh is new; the history has moved along with it, or is none yet.
-  void setup(const Discretization<dim> &discretization);
+  void setup(const MeshView<dim> &mesh_view);
 
   /// The roles of cells are new: cracks may cut others, or the same in another way.
   void topology_changed();
@@ -194,7 +194,7 @@ private:
   const Scene<dim> &scene;
   const Role role;
   const RockLaw *const law_of_model;
-  std::unique_ptr<const Discretization<dim>> discretization;
+  std::unique_ptr<const MeshView<dim>> mesh_view;
   std::unique_ptr<PointHistory<dim>> points;
   std::unique_ptr<CellEvaluator<dim>> evaluator;
 

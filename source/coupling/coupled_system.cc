@@ -21,10 +21,10 @@ using namespace dealii;
 namespace
 {
 template <int dim>
-FESystem<dim> make_element(const Discretisation &discretisation)
+FESystem<dim> make_element(const ElementSettings &elements)
 {
-  const FE_Q<dim> displacement(discretisation.displacement_degree), pressure(1);
-  if (discretisation.has_pore_pressure)
+  const FE_Q<dim> displacement(elements.displacement_degree), pressure(1);
+  if (elements.has_pore_pressure)
     return FESystem<dim>(displacement, dim, pressure, 1);
   return FESystem<dim>(displacement, dim);
 }
@@ -71,7 +71,7 @@ CoupledSystem<dim>::CoupledSystem(RunContext &run,
                                   const BoundaryConditions<dim> &boundary_conditions,
                                   FractureModel<dim> &model,
                                   Network<dim> &network,
-                                  const Discretisation &discretisation,
+                                  const ElementSettings &elements,
                                   ParameterHandler &prm)
   : run(run)
   , triangulation(triangulation)
@@ -80,9 +80,9 @@ CoupledSystem<dim>::CoupledSystem(RunContext &run,
   , boundary_conditions(boundary_conditions)
   , model(model)
   , network(network)
-  , discretisation(discretisation)
+  , elements(elements)
   , communication(run.communicator)
-  , fe(make_element<dim>(discretisation))
+  , fe(make_element<dim>(elements))
   , dof_handler(triangulation)
 {
   if (const RockLaw *of_model = model.requirements().law; of_model != nullptr || !laws.are_linear())
@@ -100,10 +100,9 @@ CoupledSystem<dim>::CoupledSystem(RunContext &run,
 
 
 template <int dim>
-Discretization<dim> CoupledSystem<dim>::discretization() const
+MeshView<dim> CoupledSystem<dim>::mesh_view() const
 {
-  return {triangulation, dof_handler, mapping, increment_constraints,
-          discretisation.has_pore_pressure};
+  return {triangulation, dof_handler, mapping, increment_constraints, elements.has_pore_pressure};
 }
 
 
@@ -114,7 +113,7 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   // of a node stay together, which the multigrid smoother wants.
   dof_handler.distribute_dofs(fe);
   std::vector<unsigned int> block_of_component(fe.n_components(), 0);
-  if (discretisation.has_pore_pressure)
+  if (elements.has_pore_pressure)
     block_of_component[dim] = 1;
   DoFRenumbering::component_wise(dof_handler, block_of_component);
 
@@ -125,7 +124,7 @@ void CoupledSystem<dim>::setup_mesh(const double time)
 
   boundary_conditions.constrain(time, mapping, dof_handler, constraints, increment_constraints);
   constraints_time = time;
-  model.setup(discretization(), communication);
+  model.setup(mesh_view(), communication);
 
   // What the model couples across ranks it sees as well.
   std::vector<types::global_dof_index> coupled;
@@ -157,7 +156,7 @@ void CoupledSystem<dim>::setup_mesh(const double time)
                                                run.communicator, visible);
     system.bulk.clear();
     system.bulk.reinit(owned, pattern, run.communicator);
-    if (discretisation.has_pore_pressure)
+    if (elements.has_pore_pressure)
       system.fixed_stress_mass.reinit(system.bulk.block(1, 1));
   }
   system.residual_bulk.reinit(owned, relevant, run.communicator, true);
@@ -166,13 +165,13 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   matrix_is_current = false;
 
   bulk = std::make_unique<BulkAssembly<dim>>(scene.rock, boundary_conditions.loads(),
-                                             discretisation.stabilisation, discretization(),
+                                             elements.stabilisation, mesh_view(),
                                              [this](const auto &cell) { return model.role(cell); });
   if (!solver)
   {
     BulkStructure structure;
     structure.dim = dim;
-    structure.has_pore_pressure = discretisation.has_pore_pressure;
+    structure.has_pore_pressure = elements.has_pore_pressure;
     structure.n_dofs = dof_handler.n_dofs();
     const auto make = [this, structure]() -> std::unique_ptr<LinearSolver>
     {
@@ -185,7 +184,7 @@ void CoupledSystem<dim>::setup_mesh(const double time)
     solver = std::make_unique<TangentSolver>(make, run.communicator);
   }
   if (nonlinear)
-    nonlinear->setup(discretization());
+    nonlinear->setup(mesh_view());
   has_rock_change = false;
   if (solver->wants_hierarchy(dof_handler.n_dofs()))
     system.displacement_hierarchy =
@@ -264,7 +263,7 @@ void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
   const KeptTerms *const kept = model.kept_terms();
   const bool anew = !matrix_is_current || bulk_was_touched || kept_terms_changed();
   if (bulk->matrix(context, anew, system.bulk,
-                   discretisation.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
+                   elements.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
   {
     if (kept != nullptr)
     {
@@ -278,7 +277,7 @@ void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
     ++stamps.displacement_values;
   }
   kept_version = kept != nullptr ? kept->version() : 0;
-  system.elastic = !discretisation.has_pore_pressure;
+  system.elastic = !elements.has_pore_pressure;
   system.definite_displacement = kept == nullptr || kept->is_symmetric();
   system.definite = system.elastic && system.definite_displacement;
   matrix_context = context;
@@ -293,8 +292,8 @@ void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State
 {
   const bool coefficients_changed =
     context.acceleration != matrix_context.acceleration ||
-    (discretisation.has_pore_pressure && (context.rate != matrix_context.rate ||
-                                          context.pressure_rate != matrix_context.pressure_rate));
+    (elements.has_pore_pressure && (context.rate != matrix_context.rate ||
+                                    context.pressure_rate != matrix_context.pressure_rate));
   if (!matrix_is_current || coefficients_changed || bulk_was_touched || kept_terms_changed())
     assemble_bulk_matrix(context);
 
@@ -426,7 +425,7 @@ typename CoupledSystem<dim>::PoreFluid CoupledSystem<dim>::pore_fluid(const Step
                                                                       const State &state) const
 {
   PoreFluid fluid;
-  if (!discretisation.has_pore_pressure)
+  if (!elements.has_pore_pressure)
     return fluid;
   const auto role = [this](const auto &cell) { return model.role(cell); };
   fluid.stored = bulk->stored_fluid(context, state, role);

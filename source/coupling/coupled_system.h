@@ -24,7 +24,7 @@
 namespace stockwork
 {
 /// How the displacement and the pore pressure are discretised.
-struct Discretisation
+struct ElementSettings
 {
   unsigned int displacement_degree = 2;
   bool has_pore_pressure = false;
@@ -61,7 +61,7 @@ public:
                 const BoundaryConditions<dim> &boundary_conditions,
                 FractureModel<dim> &model,
                 Network<dim> &network,
-                const Discretisation &discretisation,
+                const ElementSettings &elements,
                 dealii::ParameterHandler &prm);
 
   /// Whether the run shall stop: a solve then ends before its next iteration, without success. May
@@ -95,7 +95,7 @@ public:
     constraints.distribute(vector);
   }
 
-  Discretization<dim> discretization() const;
+  MeshView<dim> mesh_view() const;
 
   const Loads<dim> &loads() const
   {
@@ -224,7 +224,7 @@ private:
   const BoundaryConditions<dim> &boundary_conditions;
   FractureModel<dim> &model;
   Network<dim> &network;
-  Discretisation discretisation;
+  ElementSettings elements;
   Collectives communication;
 
   double tolerance;

@@ -2,7 +2,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include "stockwork/fracture/scene.h"
+#include "stockwork/exchange/scene.h"
 
 namespace stockwork
 {

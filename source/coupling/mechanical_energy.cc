@@ -21,15 +21,15 @@ namespace
 template <int dim>
 struct MovingCell
 {
-  MovingCell(const Discretization<dim> &discretization, const Loads<dim> &loads)
+  MovingCell(const MeshView<dim> &mesh_view, const Loads<dim> &loads)
     : loads(loads)
-    , values(discretization.mapping,
-             discretization.dof_handler.get_fe(),
-             QGauss<dim>(discretization.dof_handler.get_fe().degree + 1),
+    , values(mesh_view.mapping,
+             mesh_view.dof_handler.get_fe(),
+             QGauss<dim>(mesh_view.dof_handler.get_fe().degree + 1),
              update_values | update_JxW_values)
-    , face_values(discretization.mapping,
-                  discretization.dof_handler.get_fe(),
-                  QGauss<dim - 1>(discretization.dof_handler.get_fe().degree + 1),
+    , face_values(mesh_view.mapping,
+                  mesh_view.dof_handler.get_fe(),
+                  QGauss<dim - 1>(mesh_view.dof_handler.get_fe().degree + 1),
                   update_values | update_quadrature_points | update_normal_vectors |
                     update_JxW_values)
   {
@@ -98,7 +98,7 @@ struct MovingCell
 
 template <int dim>
 MechanicalEnergy mechanical_energy(
-  const Discretization<dim> &discretization,
+  const MeshView<dim> &mesh_view,
   const Rock &rock,
   const NonlinearRock<dim> *nonlinear,
   const Loads<dim> &loads,
@@ -107,13 +107,13 @@ MechanicalEnergy mechanical_energy(
   const State &state,
   const Collectives &collectives)
 {
-  const auto &fe = discretization.dof_handler.get_fe();
-  const auto &constraints = discretization.constraints;
-  CellEvaluator<dim> evaluator(discretization.mapping, fe, QGauss<dim>(fe.degree + 1));
+  const auto &fe = mesh_view.dof_handler.get_fe();
+  const auto &constraints = mesh_view.constraints;
+  CellEvaluator<dim> evaluator(mesh_view.mapping, fe, QGauss<dim>(fe.degree + 1));
   std::vector<SymmetricTensor<2, dim>> now, before;
   std::vector<unsigned int> held; // functions whose displacement is prescribed or hangs
 
-  MovingCell<dim> moving(discretization, loads);
+  MovingCell<dim> moving(mesh_view, loads);
   double stored = 0., kinetic = 0., work = 0., force = 0., greatest = 0.;
   const auto add_work = [&](const unsigned int q, const SymmetricTensor<2, dim> &mean_stress,
                             const SymmetricTensor<2, dim> &stress)
@@ -130,7 +130,7 @@ MechanicalEnergy mechanical_energy(
     }
   };
 
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const CellRole<dim> cell_role = role(cell);
@@ -175,7 +175,7 @@ MechanicalEnergy mechanical_energy(
 
 
 template MechanicalEnergy
-mechanical_energy(const Discretization<2> &,
+mechanical_energy(const MeshView<2> &,
                   const Rock &,
                   const NonlinearRock<2> *,
                   const Loads<2> &,
@@ -184,7 +184,7 @@ mechanical_energy(const Discretization<2> &,
                   const State &,
                   const Collectives &);
 template MechanicalEnergy
-mechanical_energy(const Discretization<3> &,
+mechanical_energy(const MeshView<3> &,
                   const Rock &,
                   const NonlinearRock<3> *,
                   const Loads<3> &,

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "stockwork/fracture/cell_role.h"
-#include "stockwork/fracture/collectives.h"
-#include "stockwork/fracture/state.h"
-#include "stockwork/mesh/discretization.h"
+#include "stockwork/exchange/cell_role.h"
+#include "stockwork/exchange/collectives.h"
+#include "stockwork/exchange/state.h"
+#include "stockwork/mesh/mesh_view.h"
 #include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
@@ -36,7 +36,7 @@ struct MechanicalEnergy
 /// Collective.
 template <int dim>
 MechanicalEnergy mechanical_energy(
-  const Discretization<dim> &discretization,
+  const MeshView<dim> &mesh_view,
   const Rock &rock,
   const NonlinearRock<dim> *nonlinear,
   const Loads<dim> &loads,

@@ -22,7 +22,7 @@ typename CoupledSystem<dim>::Norms CoupledSystem<dim>::residual_norms() const
 {
   Norms norms;
   norms.momentum = system.residual_bulk.block(0).l2_norm();
-  if (discretisation.has_pore_pressure)
+  if (elements.has_pore_pressure)
     norms.mass = system.residual_bulk.block(1).l1_norm();
   for (unsigned int i = 0; i < numbering.size(); ++i)
     if (i < n_model_extra)
@@ -50,7 +50,7 @@ typename CoupledSystem<dim>::Norms CoupledSystem<dim>::rounding_errors(
   Norms norms;
   const auto in_fractures = network.rounding(context, state, communication);
   norms.momentum = epsilon * matrix_norms(0, 0) * values.block(0).l2_norm() + in_fractures.force;
-  if (discretisation.has_pore_pressure)
+  if (elements.has_pore_pressure)
     norms.mass = epsilon * (matrix_norms(1, 0) * values.block(0).l1_norm() +
                             matrix_norms(1, 1) * values.block(1).l1_norm());
   norms.fracture_fluid = in_fractures.fluid;

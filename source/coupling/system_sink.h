@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stockwork/fracture/sink.h"
+#include "stockwork/exchange/sink.h"
 
 #include "solvers/linear_system.h"
 

@@ -2,7 +2,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/state.h"
 
 namespace stockwork
 {

@@ -4,8 +4,8 @@
 
 #include "discontinuity/contact_law.h"
 #include "discontinuity/discontinuity.h"
-#include "stockwork/fracture/sink.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/exchange/state.h"
 
 #include <string>
 #include <unordered_map>

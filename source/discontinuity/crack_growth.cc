@@ -97,7 +97,7 @@ std::vector<typename Discontinuity<dim>::Outcome>
 Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
                                    const Collectives &collectives)
 {
-  const auto &triangulation = discretization->triangulation;
+  const auto &triangulation = mesh_view->triangulation;
 
   std::vector<Finding<dim>> findings;
   for (unsigned int a = 0; a < advances.size(); ++a)
@@ -125,12 +125,12 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
         else
         {
           const CellIterator active(&triangulation, next->level(), next->index(),
-                                    &discretization->dof_handler);
+                                    &mesh_view->dof_handler);
           set(Outcome::grown);
           finding.owner = active->subdomain_id();
           finding.piece = continue_into<dim>(active, entry.cell->neighbor_of_neighbor(face),
                                              crack.tip(advance.end), advance.direction);
-          finding.piece.held = held_components(*discretization, active);
+          finding.piece.held = held_components(*mesh_view, active);
         }
         findings.push_back(finding);
       }
@@ -170,9 +170,8 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
     {
       const auto cell = triangulation.create_cell_iterator(id);
       const auto &place = piece_of_cell.at(id);
-      add_entry(
-        CellIterator(&triangulation, cell->level(), cell->index(), &discretization->dof_handler),
-        &cracks[place.first].pieces[place.second], place.first);
+      add_entry(CellIterator(&triangulation, cell->level(), cell->index(), &mesh_view->dof_handler),
+                &cracks[place.first].pieces[place.second], place.first);
     }
   if (!new_cells.empty())
     renumber();

@@ -267,7 +267,7 @@ CrackPiece<dim> reversed(const CrackPiece<dim> &piece)
 
 template <int dim>
 std::array<unsigned char, CrackPiece<dim>::n_corners>
-held_components(const Discretization<dim> &discretization,
+held_components(const MeshView<dim> &mesh_view,
                 const typename dealii::DoFHandler<dim>::active_cell_iterator &cell)
 {
   std::array<unsigned char, CrackPiece<dim>::n_corners> held{};
@@ -281,9 +281,9 @@ held_components(const Discretization<dim> &discretization,
       // Degrees of freedom at vertices come first in a cell, vertex by vertex.
       const unsigned int local = v * per_vertex + i;
       const unsigned int component = fe.system_to_component_index(local).first;
-      if (component >= dim || !discretization.constraints.is_constrained(dofs[local]))
+      if (component >= dim || !mesh_view.constraints.is_constrained(dofs[local]))
         continue;
-      const auto *entries = discretization.constraints.get_constraint_entries(dofs[local]);
+      const auto *entries = mesh_view.constraints.get_constraint_entries(dofs[local]);
       if (entries != nullptr && !entries->empty())
         throw InputError("A crack passes the hanging node " + text(cell->vertex(v)) +
                          "; the cells along a crack must have one size. Refine the mesh around "
@@ -294,7 +294,7 @@ held_components(const Discretization<dim> &discretization,
 }
 
 template <int dim>
-CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
+CrackPath<dim> cut_polyline(const MeshView<dim> &mesh_view,
                             const std::vector<Point<dim>> &polyline,
                             const double domain_size,
                             const Collectives &collectives,
@@ -306,7 +306,7 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
 
   std::vector<Found> found;
   std::vector<Crossing> crossings;
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       crossings.clear();
@@ -343,7 +343,7 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
             f.piece.inside[e] = true;
             f.piece.at_boundary[e] = false;
             f.piece.ends[e] = tip;
-            f.piece.unit_ends[e] = discretization.mapping.transform_real_to_unit_cell(cell, tip);
+            f.piece.unit_ends[e] = mesh_view.mapping.transform_real_to_unit_cell(cell, tip);
           };
           if (arcs[0] < -sliver)
             end_inside(0, polyline.front());
@@ -355,7 +355,7 @@ CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
                           : (f.piece.ends[1] - f.piece.ends[0]) / f.piece.length();
         try
         {
-          f.piece.held = held_components(discretization, cell);
+          f.piece.held = held_components(mesh_view, cell);
         }
         catch (const InputError &error)
         {
@@ -464,8 +464,8 @@ template std::vector<CrackSpan> spans_of(const CrackPath<2> &);
 template std::uint64_t hash_point<2>(const std::uint64_t, const Point<2> &, const double);
 template CrackPiece<2> reversed(const CrackPiece<2> &);
 template std::array<unsigned char, 4>
-held_components(const Discretization<2> &, const dealii::DoFHandler<2>::active_cell_iterator &);
-template CrackPath<2> cut_polyline(const Discretization<2> &,
+held_components(const MeshView<2> &, const dealii::DoFHandler<2>::active_cell_iterator &);
+template CrackPath<2> cut_polyline(const MeshView<2> &,
                                    const std::vector<Point<2>> &,
                                    const double,
                                    const Collectives &,

@@ -5,8 +5,8 @@
 
 #include <boost/serialization/array.hpp>
 
-#include "stockwork/fracture/collectives.h"
-#include "stockwork/mesh/discretization.h"
+#include "stockwork/exchange/collectives.h"
+#include "stockwork/mesh/mesh_view.h"
 
 #include <array>
 #include <cstdint>
@@ -146,7 +146,7 @@ constexpr double corner_clearance = 1e-3;
 /// edge beside it.
 /// @throws InputError if the crack lies outside the mesh or passes cells of different size
 template <int dim>
-CrackPath<dim> cut_polyline(const Discretization<dim> &discretization,
+CrackPath<dim> cut_polyline(const MeshView<dim> &mesh_view,
                             const std::vector<dealii::Point<dim>> &polyline,
                             const double domain_size,
                             const Collectives &collectives,
@@ -168,7 +168,7 @@ CrackPiece<dim> reversed(const CrackPiece<dim> &piece);
 /// @throws InputError where a hanging node meets the crack
 template <int dim>
 std::array<unsigned char, CrackPiece<dim>::n_corners>
-held_components(const Discretization<dim> &discretization,
+held_components(const MeshView<dim> &mesh_view,
                 const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
 
 /// A hash of integers, for keys.

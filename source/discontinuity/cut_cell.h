@@ -5,7 +5,7 @@
 #include <deal.II/grid/tria.h>
 
 #include "discontinuity/crack_path.h"
-#include "stockwork/fracture/cell_role.h"
+#include "stockwork/exchange/cell_role.h"
 
 #include <optional>
 #include <utility>

@@ -45,9 +45,9 @@ Discontinuity<dim>::Discontinuity(const double domain_size, const double scale)
 
 
 template <int dim>
-void Discontinuity<dim>::setup(const Discretization<dim> &d, const Collectives &collectives)
+void Discontinuity<dim>::setup(const MeshView<dim> &d, const Collectives &collectives)
 {
-  discretization = std::make_unique<Discretization<dim>>(d);
+  mesh_view = std::make_unique<MeshView<dim>>(d);
   entries.clear();
   piece_of_cell.clear();
   entry_of_cell.assign(d.triangulation.n_active_cells(), -1);
@@ -98,7 +98,7 @@ void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
     try
     {
       cracks.push_back(
-        cut_polyline(*discretization, polyline, domain_size, collectives, rock_at_tips != nullptr));
+        cut_polyline(*mesh_view, polyline, domain_size, collectives, rock_at_tips != nullptr));
     }
     catch (const InputError &error)
     {
@@ -116,8 +116,7 @@ void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
           const auto out = tip.point - (first ? polyline[1] : polyline[polyline.size() - 2]);
           tip.along = out / out.norm();
           tip.field = std::make_shared<const NearTipField>(*rock_at_tips, tip.along);
-          tip.radius =
-            greatest_tip_radius(discretization->triangulation, polyline, end, collectives);
+          tip.radius = greatest_tip_radius(mesh_view->triangulation, polyline, end, collectives);
           tips.push_back(tip);
         }
   }
@@ -162,7 +161,7 @@ void Discontinuity<dim>::replace(std::vector<CrackPath<dim>> others)
   entries.clear();
   entry_of_cell.assign(entry_of_cell.size(), -1);
   renumber();
-  if (discretization)
+  if (mesh_view)
   {
     collect_entries();
     renumber();
@@ -173,7 +172,7 @@ void Discontinuity<dim>::replace(std::vector<CrackPath<dim>> others)
 template <int dim>
 void Discontinuity<dim>::collect_entries()
 {
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const auto found = piece_of_cell.find(cell->id());
@@ -192,7 +191,7 @@ void Discontinuity<dim>::add_entry(const CellIterator &cell,
                                    const CrackPiece<dim> *piece,
                                    const unsigned int crack)
 {
-  const auto &mapping = discretization->mapping;
+  const auto &mapping = mesh_view->mapping;
   const unsigned int degree = cell->get_fe().base_element(0).degree;
   Entry entry;
   entry.cell = cell;
@@ -423,7 +422,7 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
     }
 
     segment.pore_pressure.constant = in_situ_pore_pressure(segment.centre);
-    if (discretization->has_pore_pressure)
+    if (mesh_view->has_pore_pressure)
     {
       const auto &fe = owned.cell->get_fe();
       dofs.resize(fe.n_dofs_per_cell());

@@ -6,8 +6,8 @@
 #include "discontinuity/cut_cell.h"
 #include "discontinuity/enrichment.h"
 #include "discontinuity/tip_functions.h"
-#include "stockwork/fracture/scene.h"
-#include "stockwork/fracture/segment.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/exchange/segment.h"
 
 #include <functional>
 #include <map>
@@ -31,7 +31,7 @@ public:
 
   /// The mesh is new. Existing cracks keep their cells.
   /// @throws SolveError if a cut cell is not in the mesh any more
-  void setup(const Discretization<dim> &discretization, const Collectives &collectives);
+  void setup(const MeshView<dim> &mesh_view, const Collectives &collectives);
 
   /// Replace all cracks by those of the case. After setup().
   /// @param rock_at_tips given: the tips lie exactly where the polylines end and have functions of
@@ -180,7 +180,7 @@ private:
 
   double domain_size;
   double scale;
-  std::unique_ptr<Discretization<dim>> discretization;
+  std::unique_ptr<MeshView<dim>> mesh_view;
   std::vector<CrackPath<dim>> cracks;
   std::vector<std::vector<CrackSpan>> spans_of_crack;
   std::vector<CrackTip<dim>> tips;

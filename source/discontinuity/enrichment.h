@@ -2,7 +2,7 @@
 
 #include "discontinuity/crack_path.h"
 #include "discontinuity/cut_cell.h"
-#include "stockwork/fracture/extra_unknown.h"
+#include "stockwork/exchange/extra_unknown.h"
 
 #include <array>
 #include <vector>

@@ -68,7 +68,7 @@ template <int dim>
 StressIntensity stress_intensity(const unsigned int crack,
                                  const CrackEnd end,
                                  const double radius,
-                                 const Discretization<dim> &discretization,
+                                 const MeshView<dim> &mesh_view,
                                  const Discontinuity<dim> &discontinuity,
                                  const Scene<dim> &scene,
                                  const State &state,
@@ -92,12 +92,12 @@ StressIntensity stress_intensity(const unsigned int crack,
   const NearTipField field(rock, along);
   const Weight weight{0.25 * radius, radius};
 
-  const auto &fe = discretization.dof_handler.get_fe();
+  const auto &fe = mesh_view.dof_handler.get_fe();
   const dealii::QGauss<dim> gauss(4);
   const dealii::FEValuesExtractors::Vector displacement(0);
   const auto flags =
     dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
-  dealii::FEValues<dim> plain_values(discretization.mapping, fe, gauss, flags);
+  dealii::FEValues<dim> plain_values(mesh_view.mapping, fe, gauss, flags);
 
   std::vector<double> sums(2, 0.);
   const auto add_points = [&](const dealii::FEValues<dim> &fe_values, const CutCell<dim> *cut,
@@ -139,7 +139,7 @@ StressIntensity stress_intensity(const unsigned int crack,
     }
   };
 
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const auto &low = cell->vertex(0), &high = cell->vertex((1 << dim) - 1);
@@ -147,7 +147,7 @@ StressIntensity stress_intensity(const unsigned int crack,
         continue;
       if (const CutCell<dim> *cut = discontinuity.cut_cell(cell->active_cell_index()))
       {
-        dealii::FEValues<dim> cut_values(discretization.mapping, fe,
+        dealii::FEValues<dim> cut_values(mesh_view.mapping, fe,
                                          dealii::Quadrature<dim>(cut->points), flags);
         cut_values.reinit(cell);
         add_points(cut_values, cut, discontinuity.piece_in(cell->id(), crack));
@@ -195,7 +195,7 @@ StressIntensity stress_intensity(const unsigned int crack,
 template StressIntensity stress_intensity(const unsigned int,
                                           const CrackEnd,
                                           const double,
-                                          const Discretization<2> &,
+                                          const MeshView<2> &,
                                           const Discontinuity<2> &,
                                           const Scene<2> &,
                                           const State &,

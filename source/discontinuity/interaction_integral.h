@@ -1,8 +1,8 @@
 #pragma once
 
 #include "discontinuity/discontinuity.h"
-#include "stockwork/fracture/scene.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/exchange/state.h"
 
 namespace stockwork
 {
@@ -29,7 +29,7 @@ template <int dim>
 StressIntensity stress_intensity(const unsigned int crack,
                                  const CrackEnd end,
                                  const double radius,
-                                 const Discretization<dim> &discretization,
+                                 const MeshView<dim> &mesh_view,
                                  const Discontinuity<dim> &discontinuity,
                                  const Scene<dim> &scene,
                                  const State &state,

@@ -15,11 +15,11 @@
 #include "flow/leak_off.h"
 #include "flow/network_segment.h"
 #include "flow/wells.h"
-#include "stockwork/fracture/collectives.h"
-#include "stockwork/fracture/extra_unknown.h"
-#include "stockwork/fracture/segment.h"
-#include "stockwork/fracture/sink.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/collectives.h"
+#include "stockwork/exchange/extra_unknown.h"
+#include "stockwork/exchange/segment.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/exchange/state.h"
 
 namespace stockwork
 {
@@ -131,6 +131,12 @@ public:
   double next_jump(double t) const
   {
     return all_wells.next_jump(t);
+  }
+
+  /// Whether a well that has rested begins to inject or produce at this time.
+  bool starts_at(const double t) const
+  {
+    return all_wells.starts_at(t);
   }
 
   /// Leak-off into pores that are resolved needs their pressure.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "stockwork/fracture/segment.h"
+#include "stockwork/exchange/segment.h"
 
 namespace stockwork
 {

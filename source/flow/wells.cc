@@ -542,6 +542,20 @@ double Wells<dim>::next_jump(const double t) const
 }
 
 
+template <int dim>
+bool Wells<dim>::starts_at(const double t) const
+{
+  return std::any_of(wells.begin(), wells.end(),
+                     [t](const Well &well)
+                     {
+                       // A piece holds until its end.
+                       const double after = std::min(well.value.next_jump(t), 2. * t + 1.);
+                       return !well.pressure_control && well.value(t, t) == 0. &&
+                              well.value(after, after) != 0.;
+                     });
+}
+
+
 template class Wells<2>;
 template class Wells<3>;
 } // namespace stockwork

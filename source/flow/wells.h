@@ -13,10 +13,10 @@
 #include "flow/network_segment.h"
 #include "flow/time_history.h"
 #include "stockwork/base/error.h"
-#include "stockwork/fracture/extra_unknown.h"
-#include "stockwork/fracture/scene.h"
-#include "stockwork/fracture/sink.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/extra_unknown.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/exchange/state.h"
 
 namespace stockwork
 {
@@ -140,6 +140,9 @@ public:
 
   /// The next time after t at which a rate or pressure jumps.
   double next_jump(double t) const;
+
+  /// Whether a well that has rested until this time begins to inject or produce at a given rate.
+  bool starts_at(double t) const;
 
   /// Names of the wells whose pressure is bounded below, and the bounds [Pa].
   std::vector<std::pair<std::string, double>> least_pressures() const;

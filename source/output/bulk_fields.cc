@@ -14,16 +14,16 @@ namespace stockwork
 using namespace dealii;
 
 template <int dim>
-BulkFields<dim>::BulkFields(const Discretization<dim> &discretization,
+BulkFields<dim>::BulkFields(const MeshView<dim> &mesh_view,
                             const Scene<dim> &scene,
                             const FractureModel<dim> &model,
                             const State &state,
                             const NonlinearRock<dim> *nonlinear)
   : scene(scene)
   , model(model)
-  , has_pore_pressure(discretization.has_pore_pressure)
+  , has_pore_pressure(mesh_view.has_pore_pressure)
   , nonlinear(nonlinear)
-  , mapping(discretization.mapping)
+  , mapping(mesh_view.mapping)
   , state(state)
 {
   if (nonlinear != nullptr)
@@ -35,10 +35,9 @@ BulkFields<dim>::BulkFields(const Discretization<dim> &discretization,
                          [&](const HistoryField &known) { return known.name == field.name; }))
           remembered.push_back(field);
     }
-  CellEvaluator<dim> evaluator(discretization.mapping, discretization.dof_handler.get_fe(),
-                               QMidpoint<dim>());
+  CellEvaluator<dim> evaluator(mesh_view.mapping, mesh_view.dof_handler.get_fe(), QMidpoint<dim>());
   std::vector<SymmetricTensor<2, dim>> strain;
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       if (const CutCell<dim> *cut = model.role(cell).cut)
       {

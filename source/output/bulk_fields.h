@@ -24,7 +24,7 @@ template <int dim>
 class BulkFields : public dealii::DataPostprocessor<dim>
 {
 public:
-  BulkFields(const Discretization<dim> &discretization,
+  BulkFields(const MeshView<dim> &mesh_view,
              const Scene<dim> &scene,
              const FractureModel<dim> &model,
              const State &state,

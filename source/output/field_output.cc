@@ -116,7 +116,7 @@ std::vector<double> FieldOutput<dim>::times_outside(const double start, const do
 
 template <int dim>
 void FieldOutput<dim>::write(const double time,
-                             const Discretization<dim> &discretization,
+                             const MeshView<dim> &mesh_view,
                              const Scene<dim> &scene,
                              const FractureModel<dim> &model,
                              const State &state,
@@ -126,14 +126,14 @@ void FieldOutput<dim>::write(const double time,
   model.write_fields(state, collector);
   const unsigned int rank = Utilities::MPI::this_mpi_process(communicator),
                      n_ranks = Utilities::MPI::n_mpi_processes(communicator),
-                     degree = discretization.dof_handler.get_fe().degree;
+                     degree = mesh_view.dof_handler.get_fe().degree;
 
   CheckedData<DataOut<dim>> output;
-  output.attach_dof_handler(discretization.dof_handler);
-  const BulkFields<dim> fields(discretization, scene, model, state, nonlinear);
+  output.attach_dof_handler(mesh_view.dof_handler);
+  const BulkFields<dim> fields(mesh_view, scene, model, state, nonlinear);
   output.add_data_vector(state.current.bulk, fields);
-  Vector<float> region(discretization.triangulation.n_active_cells());
-  for (const auto &cell : discretization.triangulation.active_cell_iterators())
+  Vector<float> region(mesh_view.triangulation.n_active_cells());
+  for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
       region(cell->active_cell_index()) = cell->material_id();
   output.add_data_vector(region, "region");
@@ -145,7 +145,7 @@ void FieldOutput<dim>::write(const double time,
   flags.compression_level = decltype(flags.compression_level)::best_speed;
   flags.write_higher_order_cells = higher_order_cells && degree > 1;
   output.set_flags(flags);
-  output.build_patches(discretization.mapping, degree, DataOut<dim>::curved_boundary);
+  output.build_patches(mesh_view.mapping, degree, DataOut<dim>::curved_boundary);
 
   for (const std::string &bad : Utilities::MPI::all_gather(communicator, output.first_not_finite()))
     if (!bad.empty())

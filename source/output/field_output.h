@@ -46,7 +46,7 @@ public:
   /// @throws SolveError naming the field if one has a value that is not a number
   /// @throws OutputError if a file cannot be written; those written before are complete
   void write(double time,
-             const Discretization<dim> &discretization,
+             const MeshView<dim> &mesh_view,
              const Scene<dim> &scene,
              const FractureModel<dim> &model,
              const State &state,

@@ -3,8 +3,8 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 
-#include "stockwork/fracture/cell_role.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/cell_role.h"
+#include "stockwork/exchange/state.h"
 #include "verification/reference_solution.h"
 
 #include <functional>

@@ -3,7 +3,7 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/parameter_handler.h>
 
-#include "stockwork/fracture/scene.h"
+#include "stockwork/exchange/scene.h"
 #include "stockwork/rock/rock.h"
 
 #include <functional>

@@ -32,7 +32,7 @@ noise(const ScenarioIn<dim> &scenario, const std::array<double, 4> &size, const 
   for (const auto i : result.bulk.locally_owned_elements())
     result.bulk(i) = size[i < result.bulk.block(0).size() ? 0 : 1] * uniform(local);
   result.bulk.compress(dealii::VectorOperation::insert);
-  system.discretization().constraints.set_zero(result.bulk);
+  system.mesh_view().constraints.set_zero(result.bulk);
   const unsigned int n_model = scenario.the_case->model->extra_unknowns().size();
   for (unsigned int i = 0; i < result.extra.size(); ++i)
     result.extra[i] = size[i < n_model ? 2 : 3] * uniform(shared);

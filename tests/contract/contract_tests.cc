@@ -197,7 +197,7 @@ TEST_CASE("derivative")
   const dealii::FullMatrix<double> matrix = dense(scenario.linearise(), n_bulk);
   if (scenario.system.nonlinear_rock() != nullptr)
     CHECK(scenario.linearise().rock_change != nullptr); // or nothing of it would be tested
-  const auto &constraints = scenario.system.discretization().constraints;
+  const auto &constraints = scenario.system.mesh_view().constraints;
   double error[4][4] = {}, greatest[4][4] = {};
   for (unsigned int j = 0; j < n; ++j)
   {

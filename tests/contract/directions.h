@@ -31,7 +31,7 @@ Direction product(ScenarioIn<dim> &scenario, const LinearSystem &linear, const D
     result.bulk(linear.bulk_extra.rows[k]) +=
       linear.bulk_extra.values[k] * x.extra[linear.bulk_extra.columns[k]];
   result.bulk.compress(dealii::VectorOperation::add);
-  scenario.system.discretization().constraints.set_zero(result.bulk);
+  scenario.system.mesh_view().constraints.set_zero(result.bulk);
 
   auto ghosted = scenario.system.ghosted_vector();
   ghosted = x.bulk;
@@ -57,7 +57,7 @@ Direction residual(ScenarioIn<dim> &scenario,
   auto bulk = scenario.system.owned_vector(), change = scenario.system.owned_vector();
   bulk = from.bulk;
   change = direction.bulk;
-  scenario.system.discretization().constraints.distribute(change);
+  scenario.system.mesh_view().constraints.distribute(change);
   bulk.add(step, change);
   scenario.current.bulk = bulk;
   for (unsigned int i = 0; i < direction.extra.size(); ++i)
@@ -65,7 +65,7 @@ Direction residual(ScenarioIn<dim> &scenario,
   const LinearSystem &linear = scenario.linearise();
   Direction result{scenario.system.owned_vector(), linear.residual_extra};
   result.bulk = linear.residual_bulk;
-  scenario.system.discretization().constraints.set_zero(result.bulk);
+  scenario.system.mesh_view().constraints.set_zero(result.bulk);
   return result;
 }
 

@@ -83,7 +83,7 @@ public:
     return requirements;
   }
 
-  void setup(const Discretization<dim> &mesh, const Collectives &) override
+  void setup(const MeshView<dim> &mesh, const Collectives &) override
   {
     owned.clear();
     keys.clear();

@@ -23,9 +23,9 @@ public:
   {
   }
 
-  void setup(const Discretization<2> &mesh, const Collectives &) override
+  void setup(const MeshView<2> &mesh, const Collectives &) override
   {
-    discretization.emplace(mesh);
+    mesh_view.emplace(mesh);
     taken.assign(mesh.triangulation.n_active_cells(), std::vector<bool>(4, false));
     for (const auto &cell : mesh.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -45,13 +45,12 @@ public:
 
   void assemble(const StepContext &, const State &state, Sink &sink) const override
   {
-    const auto &fe = discretization->dof_handler.get_fe();
-    FEValues<2> values(discretization->mapping, fe, QGauss<2>(2),
-                       update_gradients | update_JxW_values);
+    const auto &fe = mesh_view->dof_handler.get_fe();
+    FEValues<2> values(mesh_view->mapping, fe, QGauss<2>(2), update_gradients | update_JxW_values);
     const FEValuesExtractors::Vector displacement(0);
     LocalSystem local;
     local.bulk.resize(fe.n_dofs_per_cell());
-    for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+    for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
         const RockProperties &rock = scene.rock(cell->material_id());
@@ -113,7 +112,7 @@ private:
   template <class Function>
   void for_each_distant_pair(const Function &use) const
   {
-    for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+    for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned() && !cell->face(1)->at_boundary() &&
           cell->neighbor(1)->is_active() && cell->neighbor(1)->is_locally_owned())
       {
@@ -123,7 +122,7 @@ private:
   }
 
   const Scene<2> &scene;
-  std::optional<Discretization<2>> discretization;
+  std::optional<MeshView<2>> mesh_view;
   std::vector<std::vector<bool>> taken; ///< per active cell, per vertex
 };
 } // namespace

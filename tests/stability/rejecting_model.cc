@@ -41,10 +41,9 @@ public:
   {
     return model->requirements();
   }
-  void setup(const stockwork::Discretization<2> &discretization,
-             const Collectives &collectives) override
+  void setup(const stockwork::MeshView<2> &mesh_view, const Collectives &collectives) override
   {
-    model->setup(discretization, collectives);
+    model->setup(mesh_view, collectives);
   }
   void begin_step(const StepContext &context) override
   {

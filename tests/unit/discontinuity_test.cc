@@ -44,7 +44,7 @@ struct Square
     constraints.close();
   }
 
-  Discretization<2> discretization() const
+  MeshView<2> mesh_view() const
   {
     return {triangulation, dof_handler, mapping, constraints, false};
   }
@@ -60,7 +60,7 @@ struct Square
 Discontinuity<2> cut(const Square &square, const std::vector<std::vector<Point<2>>> &polylines)
 {
   Discontinuity<2> discontinuity(2.8, 1.);
-  discontinuity.setup(square.discretization(), square.collectives);
+  discontinuity.setup(square.mesh_view(), square.collectives);
   std::vector<InitialCrack<2>> cracks;
   for (const auto &polyline : polylines)
   {
@@ -324,7 +324,7 @@ TEST_CASE("a crack that the mesh cannot hold is refused with the entry that asks
 {
   Square square(10);
   Discontinuity<2> discontinuity(2.8, 1.);
-  discontinuity.setup(square.discretization(), square.collectives);
+  discontinuity.setup(square.mesh_view(), square.collectives);
   const auto refused = [&](const std::vector<InitialCrack<2>> &cracks)
   {
     try
@@ -350,7 +350,7 @@ TEST_CASE("tips with functions of their own lie where the crack ends")
 {
   Square square(10); // cells of 0.2
   Discontinuity<2> discontinuity(2.8, 1.);
-  discontinuity.setup(square.discretization(), square.collectives);
+  discontinuity.setup(square.mesh_view(), square.collectives);
   InitialCrack<2> crack;
   crack.points = {{-0.57, 0.1}, {0.44, 0.13}};
   RockProperties properties;

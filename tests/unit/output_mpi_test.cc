@@ -96,7 +96,7 @@ struct Setting
     unknowns.bulk = values;
   }
 
-  Discretization<2> discretization() const
+  MeshView<2> mesh_view() const
   {
     return {triangulation, dof_handler, *mapping, constraints, true};
   }
@@ -120,7 +120,7 @@ struct Setting
   void write(const double time)
   {
     const State state{unknowns, unknowns, unknowns, unknowns, {}};
-    output.write(time, discretization(), scene(), model, state);
+    output.write(time, mesh_view(), scene(), model, state);
   }
 
   Geometry<2> geometry;
@@ -178,7 +178,7 @@ TEST_CASE("values of the fields")
   const Setting setting;
   const Scene<2> scene = setting.scene();
   const State state{setting.unknowns, setting.unknowns, setting.unknowns, setting.unknowns, {}};
-  const BulkFields<2> fields(setting.discretization(), scene, setting.model, state);
+  const BulkFields<2> fields(setting.mesh_view(), scene, setting.model, state);
   Peek output;
   output.attach_dof_handler(setting.dof_handler);
   output.add_data_vector(setting.unknowns.bulk, fields);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "stockwork/fracture/sink.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/exchange/state.h"
 
 #include <functional>
 #include <vector>

@@ -6,16 +6,16 @@
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
-#include "stockwork/fracture/cell_role.h"
-#include "stockwork/fracture/collectives.h"
-#include "stockwork/fracture/extra_unknown.h"
+#include "stockwork/exchange/cell_role.h"
+#include "stockwork/exchange/collectives.h"
+#include "stockwork/exchange/extra_unknown.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/exchange/segment.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/exchange/state.h"
 #include "stockwork/fracture/kept_terms.h"
-#include "stockwork/fracture/scene.h"
-#include "stockwork/fracture/segment.h"
-#include "stockwork/fracture/sink.h"
-#include "stockwork/fracture/state.h"
 #include "stockwork/fracture/summary.h"
-#include "stockwork/mesh/discretization.h"
+#include "stockwork/mesh/mesh_view.h"
 
 #include <cstdint>
 #include <limits>
@@ -77,7 +77,7 @@ public:
   }
 
   /// The mesh or the numbering of the bulk unknowns is new.
-  virtual void setup(const Discretization<dim> &, const Collectives &)
+  virtual void setup(const MeshView<dim> &, const Collectives &)
   {
   }
 

@@ -41,7 +41,7 @@ public:
   }
 
   /// The mesh or its numbering is new: find your cells again, and list your segments.
-  void setup(const Discretization<dim> &, const Collectives &) override
+  void setup(const MeshView<dim> &, const Collectives &) override
   {
     all_segments.clear();
   }

@@ -62,9 +62,9 @@ CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &
 
 
 template <int dim>
-void CohesiveXFEM<dim>::setup(const Discretization<dim> &d, const Collectives &collectives)
+void CohesiveXFEM<dim>::setup(const MeshView<dim> &d, const Collectives &collectives)
 {
-  discretization = std::make_unique<Discretization<dim>>(d);
+  mesh_view = std::make_unique<MeshView<dim>>(d);
   discontinuity.setup(d, collectives);
   if (!started)
     start(collectives);
@@ -384,7 +384,7 @@ void CohesiveXFEM<dim>::wanted_cell_size(
   const dealii::parallel::distributed::Triangulation<dim> &triangulation,
   std::vector<float> &sizes) const
 {
-  if (!discretization)
+  if (!mesh_view)
   {
     if (parameters.cell_size > 0.)
       for (const auto &crack : scene.cracks)
@@ -427,7 +427,7 @@ void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
   initial_pressure.clear();
   bare_tips = committed_bare_tips;
   discontinuity.replace(committed_paths);
-  if (discretization)
+  if (mesh_view)
   {
     begin_step({});
     refresh_segments();

@@ -33,7 +33,7 @@ public:
     return needs;
   }
 
-  void setup(const Discretization<dim> &discretization, const Collectives &collectives) override;
+  void setup(const MeshView<dim> &mesh_view, const Collectives &collectives) override;
 
   void begin_step(const StepContext &context) override;
 
@@ -163,7 +163,7 @@ private:
   CohesiveLaw law;
   Discontinuity<dim> discontinuity;
   FaceContact<dim> contact;
-  std::unique_ptr<Discretization<dim>> discretization;
+  std::unique_ptr<MeshView<dim>> mesh_view;
   std::vector<Segment<dim>> all_segments;
   std::vector<std::string> messages;
 

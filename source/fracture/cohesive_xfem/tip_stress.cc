@@ -11,7 +11,7 @@ using dealii::SymmetricTensor;
 
 template <int dim>
 std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &discs,
-                                          const Discretization<dim> &discretization,
+                                          const MeshView<dim> &mesh_view,
                                           const Discontinuity<dim> &discontinuity,
                                           const Scene<dim> &scene,
                                           const State &state,
@@ -20,9 +20,9 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
   constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
   constexpr unsigned int stride = n_components + 2;
 
-  const auto &fe = discretization.dof_handler.get_fe();
+  const auto &fe = mesh_view.dof_handler.get_fe();
   const dealii::QGauss<dim> quadrature(3);
-  dealii::FEValues<dim> fe_values(discretization.mapping, fe, quadrature,
+  dealii::FEValues<dim> fe_values(mesh_view.mapping, fe, quadrature,
                                   dealii::update_values | dealii::update_gradients |
                                     dealii::update_quadrature_points | dealii::update_JxW_values);
   const dealii::FEValuesExtractors::Vector displacement(0);
@@ -32,7 +32,7 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
 
   // Weighted sums of stress and pore pressure, and sum of the weights, disc by disc.
   std::vector<double> sums(discs.size() * stride, 0.);
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
   {
     if (!cell->is_locally_owned() || discontinuity.cut_cell(cell->active_cell_index()) != nullptr)
       continue;
@@ -49,7 +49,7 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
       {
         fe_values.reinit(cell);
         fe_values[displacement].get_function_symmetric_gradients(state.current.bulk, strains);
-        if (discretization.has_pore_pressure)
+        if (mesh_view.has_pore_pressure)
           fe_values[pore_pressure].get_function_values(state.current.bulk, pressures);
         evaluated = true;
       }
@@ -91,7 +91,7 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
 }
 
 template std::vector<RockAhead<2>> average_ahead(const std::vector<HalfDisc<2>> &,
-                                                 const Discretization<2> &,
+                                                 const MeshView<2> &,
                                                  const Discontinuity<2> &,
                                                  const Scene<2> &,
                                                  const State &,

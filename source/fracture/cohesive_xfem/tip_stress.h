@@ -3,8 +3,8 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include "discontinuity/discontinuity.h"
-#include "stockwork/fracture/scene.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/exchange/state.h"
 
 #include <vector>
 
@@ -31,7 +31,7 @@ struct RockAhead
 /// Sluys 2001). The same on all ranks.
 template <int dim>
 std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &discs,
-                                          const Discretization<dim> &discretization,
+                                          const MeshView<dim> &mesh_view,
                                           const Discontinuity<dim> &discontinuity,
                                           const Scene<dim> &scene,
                                           const State &state,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fracture/peridynamics/bond_set.h"
-#include "stockwork/fracture/segment.h"
+#include "stockwork/exchange/segment.h"
 
 #include <functional>
 

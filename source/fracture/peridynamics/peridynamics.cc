@@ -113,14 +113,11 @@ void Peridynamics<dim>::set_law(const double spacing)
 
 
 template <int dim>
-void Peridynamics<dim>::setup(const Discretization<dim> &discretization,
-                              const Collectives &collectives)
+void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives &collectives)
 {
   rank = collectives.rank();
-  n_nodes =
-    discretization.dof_handler.n_dofs() / discretization.dof_handler.get_fe().dofs_per_vertex;
-  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, discretization,
-             collectives);
+  n_nodes = mesh_view.dof_handler.n_dofs() / mesh_view.dof_handler.get_fe().dofs_per_vertex;
+  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, mesh_view, collectives);
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 

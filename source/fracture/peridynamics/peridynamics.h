@@ -23,7 +23,7 @@ public:
 
   Requirements requirements() const override;
 
-  void setup(const Discretization<dim> &discretization, const Collectives &collectives) override;
+  void setup(const MeshView<dim> &mesh_view, const Collectives &collectives) override;
 
   void begin_step(const StepContext &context) override;
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fracture/peridynamics/fracture_cells.h"
-#include "stockwork/fracture/sink.h"
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/sink.h"
+#include "stockwork/exchange/state.h"
 
 namespace stockwork::peridynamics
 {

@@ -176,7 +176,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
                       const double spacing,
                       const std::vector<StencilBond<dim>> &stencil,
                       const bool with_rim,
-                      const Discretization<dim> &discretization,
+                      const MeshView<dim> &mesh_view,
                       const Collectives &collectives)
 {
   rank = collectives.rank();
@@ -188,9 +188,9 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
   {
     h = spacing;
     if (h == 0.)
-      find_spacing(shape, discretization, collectives);
+      find_spacing(shape, mesh_view, collectives);
   }
-  gather_sites(shape, with_rim ? 2 * reach : reach, discretization, collectives);
+  gather_sites(shape, with_rim ? 2 * reach : reach, mesh_view, collectives);
   for (Site<dim> &site : all_sites)
     site.peridynamic = shape.contains(position(site.place), h);
   find_far_ends(stencil, with_rim);
@@ -199,7 +199,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
   for (unsigned int pattern = 0; pattern < patterns.size(); ++pattern)
     for (unsigned int v = 0; v < 1u << dim; ++v)
       patterns[pattern][v] = pattern >> v & 1;
-  pattern_of_cell.assign(discretization.triangulation.n_active_cells(), 0);
+  pattern_of_cell.assign(mesh_view.triangulation.n_active_cells(), 0);
   const auto corner_site = [&](const Place<dim> &cell, const unsigned int v)
   {
     Place<dim> place = cell;

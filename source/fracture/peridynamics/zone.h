@@ -5,9 +5,9 @@
 
 #include "fracture/peridynamics/stencil.h"
 #include "stockwork/base/error.h"
-#include "stockwork/fracture/collectives.h"
-#include "stockwork/fracture/scene.h"
-#include "stockwork/mesh/discretization.h"
+#include "stockwork/exchange/collectives.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/mesh/mesh_view.h"
 
 #include <array>
 #include <limits>
@@ -87,7 +87,7 @@ public:
              double spacing,
              const std::vector<StencilBond<dim>> &stencil,
              const bool with_rim,
-             const Discretization<dim> &discretization,
+             const MeshView<dim> &mesh_view,
              const Collectives &collectives);
 
   /// Where place 0 is; of an earlier run, before the first setup().
@@ -184,16 +184,16 @@ public:
                                    const Collectives &collectives) const;
 
 private:
-  void find_spacing(const ZoneShape<dim> &, const Discretization<dim> &, const Collectives &);
+  void find_spacing(const ZoneShape<dim> &, const MeshView<dim> &, const Collectives &);
   void gather_sites(const ZoneShape<dim> &,
                     unsigned int reach,
-                    const Discretization<dim> &,
+                    const MeshView<dim> &,
                     const Collectives &);
   /// For a zone between the vertices `first` and `last`.
   void find_room(const dealii::Point<dim> &first,
                  const dealii::Point<dim> &last,
                  unsigned int reach,
-                 const Discretization<dim> &,
+                 const MeshView<dim> &,
                  const Collectives &);
   void find_far_ends(const std::vector<StencilBond<dim>> &stencil, const bool with_rim);
   void find_far_ends_of(const unsigned int site, const std::vector<StencilBond<dim>> &stencil);

@@ -36,11 +36,11 @@ double edge_of_cube(const typename dealii::DoFHandler<dim>::active_cell_iterator
 
 template <int dim>
 void Zone<dim>::find_spacing(const ZoneShape<dim> &shape,
-                             const Discretization<dim> &discretization,
+                             const MeshView<dim> &mesh_view,
                              const Collectives &collectives)
 {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const double edge = cell->minimum_vertex_distance();
@@ -57,11 +57,11 @@ void Zone<dim>::find_spacing(const ZoneShape<dim> &shape,
 template <int dim>
 void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
                              const unsigned int reach,
-                             const Discretization<dim> &discretization,
+                             const MeshView<dim> &mesh_view,
                              const Collectives &collectives)
 {
-  const auto &dof_handler = discretization.dof_handler;
-  const auto &constraints = discretization.constraints;
+  const auto &dof_handler = mesh_view.dof_handler;
+  const auto &constraints = mesh_view.constraints;
 
   // The domain, and a vertex of the lattice to count from: the lowest of all in the zone.
   Point<dim> lower, upper, first, last;
@@ -134,7 +134,7 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
           site.place[d] += v >> d & 1;
           site.dofs[d] = cell->vertex_dof_index(v, d);
         }
-        if (discretization.has_pore_pressure)
+        if (mesh_view.has_pore_pressure)
           site.pressure_dof = cell->vertex_dof_index(v, dim);
         // Rows are assembled where they are stored.
         site.owner = dof_handler.locally_owned_dofs().is_element(site.dofs[0])
@@ -183,7 +183,7 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
     m = {{no_mirror, no_mirror}};
   for (const auto &m : collectives.gather(my_mirrors))
     mirrors[m[0]][m[1]] = m[2];
-  find_room(first, last, reach, discretization, collectives);
+  find_room(first, last, reach, mesh_view, collectives);
 
   std::vector<Site<dim>> contributions;
   for (const auto &[place, site] : mine)
@@ -207,14 +207,14 @@ template <int dim>
 void Zone<dim>::find_room(const Point<dim> &first,
                           const Point<dim> &last,
                           const unsigned int reach,
-                          const Discretization<dim> &discretization,
+                          const MeshView<dim> &mesh_view,
                           const Collectives &collectives)
 {
   std::array<std::array<double, 2>, dim> bound;
   for (unsigned int d = 0; d < dim; ++d)
     bound[d] = {{domain.lower_bound(d) + (mirrors[d][0] == no_mirror ? reach * h : 0.),
                  domain.upper_bound(d) - (mirrors[d][1] == no_mirror ? reach * h : 0.)}};
-  for (const auto &cell : discretization.triangulation.active_cell_iterators())
+  for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const Point<dim> low = cell->vertex(0), high = cell->vertex((1 << dim) - 1);
@@ -254,13 +254,13 @@ void Zone<dim>::find_room(const Point<dim> &first,
 }
 
 
-#define INSTANTIATE(dim)                                                                     \
-  template void Zone<dim>::find_spacing(const ZoneShape<dim> &, const Discretization<dim> &, \
-                                        const Collectives &);                                \
-  template void Zone<dim>::gather_sites(const ZoneShape<dim> &, unsigned int,                \
-                                        const Discretization<dim> &, const Collectives &);   \
-  template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int,   \
-                                     const Discretization<dim> &, const Collectives &);
+#define INSTANTIATE(dim)                                                                   \
+  template void Zone<dim>::find_spacing(const ZoneShape<dim> &, const MeshView<dim> &,     \
+                                        const Collectives &);                              \
+  template void Zone<dim>::gather_sites(const ZoneShape<dim> &, unsigned int,              \
+                                        const MeshView<dim> &, const Collectives &);       \
+  template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int, \
+                                     const MeshView<dim> &, const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

@@ -58,9 +58,9 @@ public:
     return needs;
   }
 
-  void setup(const Discretization<dim> &d, const Collectives &collectives) override
+  void setup(const MeshView<dim> &d, const Collectives &collectives) override
   {
-    discretization = std::make_unique<Discretization<dim>>(d);
+    mesh_view = std::make_unique<MeshView<dim>>(d);
     discontinuity.setup(d, collectives);
     const LinearStiffness<dim> rock(scene.rock.main());
     discontinuity.cut(scene.cracks, collectives, tip_functions ? &rock : nullptr);
@@ -142,7 +142,7 @@ public:
   void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                         std::vector<float> &sizes) const override
   {
-    if (discretization)
+    if (mesh_view)
       request_cell_size(triangulation, discontinuity, 4, sizes);
     else if (cell_size > 0.)
       for (const auto &crack : scene.cracks)
@@ -173,7 +173,7 @@ public:
         released.in_situ_stress = [&](const Point<dim> &x)
         { return scene.in_situ_stress(x) - carried_stress(0, x, state); };
         const StressIntensity k =
-          stress_intensity(0, end, r, *discretization, discontinuity, released, state, collectives);
+          stress_intensity(0, end, r, *mesh_view, discontinuity, released, state, collectives);
         result.stress_intensity_I = k.opening;
         result.stress_intensity_II = k.shear;
         result.energy_release_rate = k.energy_release_rate;
@@ -228,7 +228,7 @@ private:
   double cell_size;
   Discontinuity<dim> discontinuity;
   FaceContact<dim> contact;
-  std::unique_ptr<Discretization<dim>> discretization;
+  std::unique_ptr<MeshView<dim>> mesh_view;
   std::vector<Segment<dim>> all_segments;
 };
 

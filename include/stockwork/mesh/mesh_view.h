@@ -11,7 +11,7 @@ namespace stockwork
 /// displacement (components 0 … dim-1) and, where the case needs it, the pore pressure
 /// (component dim). Valid from one `setup` call to the next.
 template <int dim>
-struct Discretization
+struct MeshView
 {
   const dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const dealii::DoFHandler<dim> &dof_handler;

@@ -6,7 +6,7 @@
 
 #include <boost/serialization/vector.hpp>
 
-#include "stockwork/fracture/state.h"
+#include "stockwork/exchange/state.h"
 
 #include <cstdint>
 #include <limits>
