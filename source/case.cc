@@ -54,13 +54,13 @@ ElementSettings parse_elements(ParameterHandler &prm,
     rock.bulk_model() == "poroelastic" || (rock.bulk_model() == "auto" && asked);
 
   prm.enter_subsection("Discretisation");
-  const std::string elements = prm.get("Elements");
-  elements.displacement_degree = elements.substr(0, 2) == "Q2" ? 2 : 1;
+  const std::string pair = prm.get("Elements");
+  elements.displacement_degree = pair.substr(0, 2) == "Q2" ? 2 : 1;
   if (requirements.linear_elements && elements.displacement_degree > 1)
-    throw EntryError("Discretisation/Elements", elements,
+    throw EntryError("Discretisation/Elements", pair,
                      "Q1-Q1 stabilised or Q1-Q1, because the nodes of the fracture model are the "
                      "vertices of cells");
-  if (elements == "Q1-Q1 stabilised")
+  if (pair == "Q1-Q1 stabilised")
     elements.stabilisation = PressureStabilisation::projection;
   prm.leave_subsection();
   return elements;

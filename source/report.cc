@@ -73,11 +73,8 @@ void Report<dim>::header() const
 
 
 template <int dim>
-std::map<std::string, double> Report<dim>::observe()
+void Report<dim>::observe_fracture(const FractureSummary &summary, Values &values)
 {
-  std::map<std::string, double> values;
-  const State state = stepper.last_state();
-  const FractureSummary summary = model.summary(state, system.collectives());
   values["fracture_length"] = summary.length;
   values["broken_length"] = summary.broken_length;
   values["equivalent_length"] = 0.5 * (summary.length + summary.broken_length);
@@ -88,49 +85,63 @@ std::map<std::string, double> Report<dim>::observe()
     values["stress_intensity_II"] = *summary.stress_intensity_II;
   if (summary.energy_release_rate)
     values["energy_release_rate"] = *summary.energy_release_rate;
-  double dissipated_in_rock = 0.;
-  if (const NonlinearRock<dim> *rock_beyond = system.nonlinear_rock();
-      rock_beyond != nullptr && rock_beyond->remembers())
+  shown.n_tips = summary.n_tips;
+  shown.length = summary.length;
+  shown.process_zone = summary.length - summary.broken_length;
+  shown.grown_to(summary.length, stepper.last_context().time,
+                 0.01 * (control.end_time - control.start_time));
+}
+
+
+template <int dim>
+double Report<dim>::observe_rock(Values &values) const
+{
+  const NonlinearRock<dim> *const rock_beyond = system.nonlinear_rock();
+  if (rock_beyond == nullptr || !rock_beyond->remembers())
+    return 0.;
+  const auto &mine = rock_beyond->totals();
+  std::vector<double> sums{mine.yielded_volume, mine.dissipated_energy};
+  system.collectives().sum(sums);
+  values["yielded_volume"] = sums[0];
+  values["rock_dissipated_energy"] = sums[1];
+  const double used = system.collectives().max(mine.greatest_used);
+  values["greatest_share_of_strength"] = sums[0] > 0. ? 1. : used;
+  return sums[1];
+}
+
+
+template <int dim>
+void Report<dim>::observe_energy(const State &state,
+                                 const FractureSummary &summary,
+                                 const double dissipated_in_rock,
+                                 Values &values)
+{
+  const MechanicalEnergy energy = mechanical_energy<dim>(
+    system.mesh_view(), rock, system.nonlinear_rock(), system.loads(),
+    [this](const auto &cell) { return model.role(cell); }, stepper.last_context(), state,
+    system.collectives());
+  external_work += energy.work;
+  if (stepper.last_context().acceleration > 0.)
+    values["kinetic_energy"] = energy.kinetic;
+  else
   {
-    const auto &mine = rock_beyond->totals();
-    std::vector<double> sums{mine.yielded_volume, mine.dissipated_energy};
-    system.collectives().sum(sums);
-    values["yielded_volume"] = sums[0];
-    values["rock_dissipated_energy"] = dissipated_in_rock = sums[1];
-    const double used = system.collectives().max(mine.greatest_used);
-    values["greatest_share_of_strength"] = sums[0] > 0. ? 1. : used;
+    peak_load = std::max(peak_load, energy.load);
+    values["load"] = energy.load;
+    values["peak_load"] = peak_load;
   }
-  if (audits_energy)
-  {
-    const MechanicalEnergy energy = mechanical_energy<dim>(
-      system.mesh_view(), rock, system.nonlinear_rock(), system.loads(),
-      [this](const auto &cell) { return model.role(cell); }, stepper.last_context(), state,
-      system.collectives());
-    external_work += energy.work;
-    if (stepper.last_context().acceleration > 0.)
-      values["kinetic_energy"] = energy.kinetic;
-    else
-    {
-      peak_load = std::max(peak_load, energy.load);
-      values["load"] = energy.load;
-      values["peak_load"] = peak_load;
-    }
-    values["external_work"] = external_work;
-    values["stored_energy"] = energy.stored + summary.stored_energy;
-    if (external_work > 0.)
-      values["energy_balance_error"] =
-        std::abs(external_work - values["stored_energy"] - energy.kinetic -
-                 summary.dissipated_energy - dissipated_in_rock) /
-        external_work;
-  }
-  if (reference && reference->place_of_displacement())
-  {
-    const auto displacement = displacement_at(*reference->place_of_displacement());
-    for (unsigned int d = 0; d < dim; ++d)
-      values[std::string("displacement_") + "xyz"[d]] = displacement[d];
-  }
-  if (reference)
-    reference->add_derived(values);
+  values["external_work"] = external_work;
+  values["stored_energy"] = energy.stored + summary.stored_energy;
+  if (external_work > 0.)
+    values["energy_balance_error"] =
+      std::abs(external_work - values["stored_energy"] - energy.kinetic -
+               summary.dissipated_energy - dissipated_in_rock) /
+      external_work;
+}
+
+
+template <int dim>
+void Report<dim>::observe_shape(Values &values) const
+{
   if constexpr (dim == 2)
     if (!network.segments().empty())
     {
@@ -154,11 +165,12 @@ std::map<std::string, double> Report<dim>::observe()
     }
     values[std::string("extent_") + "xyz"[d]] = high - low;
   }
-  const double time = stepper.last_context().time;
-  shown.n_tips = summary.n_tips;
-  shown.length = summary.length;
-  shown.process_zone = summary.length - summary.broken_length;
-  shown.grown_to(summary.length, time, 0.01 * (control.end_time - control.start_time));
+}
+
+
+template <int dim>
+void Report<dim>::observe_fluid(const State &state, Values &values)
+{
   const FluidBalance &balance = stepper.fluid_balance();
   shown.injected = balance.total.injected;
   shown.leaked = balance.total.leaked;
@@ -190,26 +202,57 @@ std::map<std::string, double> Report<dim>::observe()
     watch(wells[0], values["net_inlet_pressure"]);
   }
   for (unsigned int w = 0; w < wells.size(); ++w)
+    observe_well(w, wells[w], wells.size() == 1, values);
+}
+
+
+template <int dim>
+void Report<dim>::observe_well(const unsigned int w,
+                               const WellReport &report,
+                               const bool is_alone,
+                               Values &values)
+{
+  const std::string well = "well_" + std::to_string(w + 1);
+  values[well + "_borehole_pressure"] = report.borehole_pressure;
+  values[well + "_rate"] = report.rate;
+  values[well + "_wanted_rate"] = report.wanted_rate;
+  // How the fluid is shared.
+  if (!is_alone || report.perforation_rates.size() > 1)
+    for (unsigned int i = 0; i < report.perforation_rates.size(); ++i)
+      values[well + "_perforation_" + std::to_string(i + 1) + "_rate"] =
+        report.perforation_rates[i];
+  if (report.rate > report.wanted_rate && dry_wells.insert(w).second)
   {
-    const std::string well = "well_" + std::to_string(w + 1);
-    values[well + "_borehole_pressure"] = wells[w].borehole_pressure;
-    values[well + "_rate"] = wells[w].rate;
-    values[well + "_wanted_rate"] = wells[w].wanted_rate;
-    // How the fluid is shared.
-    if (wells.size() > 1 || wells[w].perforation_rates.size() > 1)
-      for (unsigned int i = 0; i < wells[w].perforation_rates.size(); ++i)
-        values[well + "_perforation_" + std::to_string(i + 1) + "_rate"] =
-          wells[w].perforation_rates[i];
-    if (wells[w].rate > wells[w].wanted_rate && dry_wells.insert(w).second)
-    {
-      std::ostringstream text;
-      text << "From t = " << time << " s on, the well '" << wells[w].name
-           << "' gives less than it should, " << -wells[w].rate << " of " << -wells[w].wanted_rate
-           << (dim == 2 ? " m^2/s" : " m^3/s") << ": its pressure is at its least, "
-           << wells[w].borehole_pressure << " Pa.";
-      run.warn(text.str());
-    }
+    std::ostringstream text;
+    text << "From t = " << stepper.last_context().time << " s on, the well '" << report.name
+         << "' gives less than it should, " << -report.rate << " of " << -report.wanted_rate
+         << (dim == 2 ? " m^2/s" : " m^3/s") << ": its pressure is at its least, "
+         << report.borehole_pressure << " Pa.";
+    run.warn(text.str());
   }
+}
+
+
+template <int dim>
+typename Report<dim>::Values Report<dim>::observe()
+{
+  Values values;
+  const State state = stepper.last_state();
+  const FractureSummary summary = model.summary(state, system.collectives());
+  observe_fracture(summary, values);
+  const double dissipated_in_rock = observe_rock(values);
+  if (audits_energy)
+    observe_energy(state, summary, dissipated_in_rock, values);
+  if (reference && reference->place_of_displacement())
+  {
+    const auto displacement = displacement_at(*reference->place_of_displacement());
+    for (unsigned int d = 0; d < dim; ++d)
+      values[std::string("displacement_") + "xyz"[d]] = displacement[d];
+  }
+  if (reference)
+    reference->add_derived(values);
+  observe_shape(values);
+  observe_fluid(state, values);
   return values;
 }
 

@@ -81,7 +81,20 @@ private:
   void summarise(unsigned long n_cells);
 
   /// Scalars of the last step by column name.
-  std::map<std::string, double> observe();
+  using Values = std::map<std::string, double>;
+  Values observe();
+
+  // Its parts.
+  void observe_fracture(const FractureSummary &summary, Values &values);
+  /// Returns the energy that the rock has dissipated [J (/m)].
+  double observe_rock(Values &values) const;
+  void observe_energy(const State &state,
+                      const FractureSummary &summary,
+                      double dissipated_in_rock,
+                      Values &values);
+  void observe_shape(Values &values) const;
+  void observe_fluid(const State &state, Values &values);
+  void observe_well(unsigned int number, const WellReport &report, bool is_alone, Values &values);
 
   /// At a place, of the last accepted step. Collective.
   dealii::Tensor<1, dim> displacement_at(const dealii::Point<dim> &point) const;

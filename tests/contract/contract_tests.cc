@@ -222,14 +222,19 @@ TEST_CASE("derivative")
       }
   }
   for (unsigned int row = 0; row < 4; ++row)
+  {
+    double terms = 0.; // of the residual, which are rounded even where they cancel
+    for (unsigned int column = 0; column < 4; ++column)
+      terms = std::max(terms, greatest[row][column] * size[column]);
     for (unsigned int column = 0; column < 4; ++column)
     {
       if (greatest[row][column] + error[row][column] == 0.)
         continue;
       std::cout << field_names[row] << " by " << field_names[column] << ": entries up to "
                 << greatest[row][column] << ", error " << error[row][column] << '\n';
-      CHECK(error[row][column] < 1e-6 * greatest[row][column]);
+      CHECK(error[row][column] < 1e-6 * greatest[row][column] + 1e-9 * terms / size[column]);
     }
+  }
 }
 
 

@@ -7,6 +7,7 @@
 #include "rock/mohr_coulomb/return_map.h"
 
 #include <random>
+#include <tuple>
 
 namespace stockwork::mohr_coulomb_test
 {
@@ -154,11 +155,11 @@ TEST_CASE("random trial stresses return where that search ends, with a tension c
   std::uniform_real_distribution<double> wide(-6e7, 2.5e7);
   std::map<Place, unsigned int> seen;
   for (const auto &[phi, psi, cut_off] :
-       std::vector<std::array<double, 3>>{{27., 27., 1e6},
-                                          {27., 8., 0.},
-                                          {27., 8., 5.8e6}, // apex: 5.888 MPa
-                                          {27., 0., 3e6},
-                                          {0., 0., 2e6}})
+       std::vector<std::tuple<double, double, double>>{{27., 27., 1e6},
+                                                       {27., 8., 0.},
+                                                       {27., 8., 5.8e6}, // apex: 5.888 MPa
+                                                       {27., 0., 3e6},
+                                                       {0., 0., 2e6}})
   {
     Strength rock = strength(phi, psi);
     rock.tension_cut_off = cut_off;
