@@ -255,6 +255,9 @@ private:
     }
   };
 
+  /// Index of what is no unknown.
+  static constexpr unsigned int no_row = dealii::numbers::invalid_unsigned_int;
+
   /// Neighbour of a segment, ready for use.
   struct Edge
   {
