@@ -340,10 +340,14 @@ void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbe
   RockResponse response;
   the_case.laws(0).evaluate(ArrayView<const RockState>(&state, 1),
                             ArrayView<RockResponse>(&response, 1));
-  numbers.push_back({"share of the permeability left in situ",
-                     trace(response.permeability) / trace(rock.template permeability_tensor<3>()),
-                     "in the middle of the domain, by the mean effective stress; the numbers of "
-                     "diffusion here are with 'Rock/Permeability'"});
+  const double left = trace(response.permeability) / trace(rock.template permeability_tensor<3>());
+  const bool is_tight = left < 1e-6;
+  numbers.push_back({"share of the permeability left in situ", left,
+                     std::string("in the middle of the domain, by the mean effective stress; ") +
+                       (is_tight ? "next to nothing flows: is the unit of 'Rock/Permeability decay "
+                                   "stress' right?"
+                                 : "the numbers of diffusion here are with 'Rock/Permeability'"),
+                     is_tight});
 }
 } // namespace
 

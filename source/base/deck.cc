@@ -90,6 +90,8 @@ std::string hint_for_entry(const std::string &path, const std::vector<DeclaredEn
   std::map<std::string, std::string> path_by_name;
   for (const DeclaredEntry &entry : declared)
   {
+    if (entry.deprecated)
+      continue;
     paths.push_back(entry.path());
     if (entry.section == section_of(path))
       here.push_back(entry.name);

@@ -112,6 +112,12 @@ public:
   /// One value per segment. Collective.
   std::vector<double> apertures(const Unknowns &, const Collectives &) const;
 
+  /// Below which the conductivity does not fall [m], an aperture of this scene.
+  double smallest_hydraulic_aperture() const
+  {
+    return minimum_aperture;
+  }
+
   /// One value per segment.
   std::vector<double> pressures(const Unknowns &) const;
 

@@ -69,7 +69,7 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
     prm.declare_entry("Least pressure", "", Patterns::Anything(),
                       "In the borehole [Pa]. With control 'rate': a well cannot take what is not "
                       "there; at this pressure the rate is what flows. Empty: where the rate may "
-                      "be negative, the 'Least pressure' of 'Fracture flow' if that is finite, "
+                      "be negative, the 'Vapour pressure' of 'Fracture flow' if that is finite, "
                       "else 0: vacuum, or in unstressed rock, where pressures are net ones, that "
                       "at which a fracture is closed.");
     prm.declare_entry(
