@@ -243,12 +243,13 @@ void NonlinearRock<dim>::visit(const State &state, const Use &use)
                  now.n_blocks() > 1 ? greatest_change(now.block(1), looked_at.block(1)) : 0.;
   for (const Watched &item : watched)
   {
-    const CutCell<dim> *const cut = role(item.cell).cut;
+    const CellRole<dim> cell_role = role(item.cell);
     const bool has_history = points->has(item.cell->active_cell_index());
-    if (!has_history && cut == nullptr &&
+    // A law that sees a fracture's pressure may answer anew though the bulk has not moved.
+    if (!has_history && cell_role.cut == nullptr && !cell_role.segment &&
         item.slope * moved + std::sqrt(3.) * pressed < item.margin)
       continue;
-    evaluator->reinit(item.cell, cut);
+    evaluator->reinit(item.cell, cell_role.cut);
     find_history(item.cell);
     states_at(item.cell, state, state.current);
     const RockLaw &law = this->law(item.cell);
