@@ -139,7 +139,7 @@ public:
     return all_wells.next_jump(t);
   }
 
-  /// Whether a well that has rested begins to inject or produce at this time.
+  /// Whether a well that has rested begins to inject at this time.
   bool starts_at(const double t) const
   {
     return all_wells.starts_at(t);

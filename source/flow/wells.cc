@@ -551,7 +551,7 @@ bool Wells<dim>::starts_at(const double t) const
                        // A piece holds until its end.
                        const double after = std::min(well.value.next_jump(t), 2. * t + 1.);
                        return !well.pressure_control && well.value(t, t) == 0. &&
-                              well.value(after, after) != 0.;
+                              well.value(after, after) > 0.;
                      });
 }
 

@@ -141,7 +141,7 @@ public:
   /// The next time after t at which a rate or pressure jumps.
   double next_jump(double t) const;
 
-  /// Whether a well that has rested until this time begins to inject or produce at a given rate.
+  /// Whether a well that has rested until this time begins to inject at a given rate.
   bool starts_at(double t) const;
 
   /// Names of the wells whose pressure is bounded below, and the bounds [Pa].
