@@ -186,6 +186,23 @@ double greatest_rate(const Network<dim> &network, const StepControl &control)
 }
 
 
+/// Refuse what holds in a region, at the region's own entry or where that is inherited from.
+/// @throws EntryError
+[[noreturn]] void refuse_in_region(ParameterHandler &prm,
+                                   const types::material_id region,
+                                   const std::string &name,
+                                   const std::string &allowed)
+{
+  if (region != 0)
+  {
+    const std::string section = "Region " + std::to_string(region);
+    if (const std::string own = value_of(prm, {"Rock", section}, name); !own.empty())
+      throw EntryError("Rock/" + section + "/" + name, own, allowed);
+  }
+  throw EntryError("Rock/" + name, value_of(prm, {"Rock"}, name), allowed);
+}
+
+
 /// What layers of the rock cannot be.
 template <int dim>
 void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
@@ -193,17 +210,8 @@ void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
   for (const auto &[region, law] : laws.all())
   {
     const RockProperties &properties = rock(region);
-    std::vector<std::string> sections = {"Rock"};
-    if (region != 0)
-      sections.push_back("Region " + std::to_string(region));
-    // At the region's own entry, or where it is inherited from.
-    const auto refuse = [&](const std::string &name, const std::string &allowed)
-    {
-      const std::string own = value_of(prm, sections, name);
-      const bool inherits = region != 0 && own.empty();
-      throw EntryError("Rock/" + (region == 0 || inherits ? "" : sections.back() + "/") + name,
-                       inherits ? value_of(prm, {"Rock"}, name) : own, allowed);
-    };
+    const auto refuse = [&, region = region](const std::string &name, const std::string &allowed)
+    { refuse_in_region(prm, region, name, allowed); };
     const auto &normal = properties.layer_normal;
     const bool layered = properties.stiffness || properties.permeability_across > 0.;
     const double tilt = std::abs(normal[2]);
@@ -256,17 +264,8 @@ void check_permeability(ParameterHandler &prm, const Case<dim> &the_case)
   for (const auto &[region, law] : the_case.laws.all())
     if (law->changes_permeability())
     {
-      std::vector<std::string> sections = {"Rock"};
-      if (region != 0 &&
-          !value_of(prm, {"Rock", "Region " + std::to_string(region)}, "Permeability decay stress")
-             .empty())
-        sections.push_back("Region " + std::to_string(region));
-      const auto refuse = [&](const std::string &allowed)
-      {
-        throw EntryError(sections[0] + "/" + (sections.size() > 1 ? sections[1] + "/" : "") +
-                           "Permeability decay stress",
-                         value_of(prm, sections, "Permeability decay stress"), allowed);
-      };
+      const auto refuse = [&, region = region](const std::string &allowed)
+      { refuse_in_region(prm, region, "Permeability decay stress", allowed); };
       if (!the_case.elements.has_pore_pressure)
         refuse("nothing (an empty entry): no pore pressure is solved for, so permeability does not "
                "count; or 'Rock/Bulk model = poroelastic'");
@@ -418,6 +417,109 @@ void set_crack_load(const Scene<dim> &scene, ReferenceInput<dim> &input)
     input.crack_shear = traction * along;
   }
 }
+
+
+/// What the reference solution is told of the case.
+template <int dim>
+ReferenceInput<dim> reference_input(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  ReferenceInput<dim> input{the_case.rock, the_case.geometry.lower(), the_case.geometry.upper()};
+  input.has_pore_pressure = the_case.elements.has_pore_pressure;
+  input.start_time = the_case.control.start_time;
+  input.end_time = the_case.control.end_time;
+  for (const InitialCrack<dim> &crack : the_case.scene.cracks)
+  {
+    input.cracks.push_back(crack.points);
+    if (crack.disc)
+      input.discs.push_back(*crack.disc);
+  }
+  input.injection_rate = the_case.network.rate_of_first_well(the_case.control.end_time);
+  input.rate_is_constant = std::isinf(the_case.network.next_jump(the_case.control.start_time));
+  input.n_wells = the_case.network.n_wells();
+  if (the_case.network.has_wells())
+  {
+    input.fraction_in_model = the_case.network.fraction_of_first_well();
+    input.perforations = the_case.network.perforations_of_first_well();
+  }
+  input.layered = !the_case.geometry.region_names().empty();
+  input.has_stress_gradient = the_case.in_situ.has_gradient();
+  prm.enter_subsection("Fracture flow");
+  input.leaks = prm.get("Leak-off") != "none";
+  if (prm.get("Leak-off") == "carter")
+    input.carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
+  prm.leave_subsection();
+  if (!the_case.scene.cracks.empty())
+    set_crack_load(the_case.scene, input);
+  input.normal_traction = [&the_case](const std::string &side, const double time)
+  {
+    return the_case.boundary_conditions.loads().uniform_normal_traction(
+      the_case.geometry.side(side), time);
+  };
+  input.is_roller = [&the_case](const std::string &side)
+  { return the_case.boundary_conditions.is_roller(the_case.geometry.side(side)); };
+  input.greatest_displacement = [&the_case](const double time)
+  { return the_case.boundary_conditions.greatest_displacement(time); };
+  const Point<dim> centre =
+    the_case.geometry.lower() + 0.5 * (the_case.geometry.upper() - the_case.geometry.lower());
+  input.law = &the_case.laws(0);
+  input.in_situ_stress = the_case.in_situ.tensor(centre, the_case.rock.main());
+  input.in_situ_pressure = the_case.in_situ.pore_pressure(centre);
+  input.hole_radius = the_case.geometry.hole_radius();
+  return input;
+}
+
+
+/// What a reference solution cannot be of.
+template <int dim>
+void check_reference(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  if (the_case.reference &&
+      std::any_of(the_case.laws.all().begin(), the_case.laws.all().end(),
+                  [](const auto &law) { return law.second->changes_permeability(); }))
+    throw EntryError(
+      "Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+      "'none' with a 'Rock/Permeability decay stress': the solution is of rock whose "
+      "permeability does not hang on the stress");
+  if (the_case.reference && the_case.laws.may_yield() && !the_case.reference->is_of_yielding_rock())
+    throw EntryError("Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+                     "'none' (or 'borehole' or 'footing') with a 'Rock/Law' that may yield: the "
+                     "solution is of linear rock");
+}
+
+
+/// What a scheme in time needs, and what it cannot be with.
+template <int dim>
+void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case)
+{
+  if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
+    require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
+  if (std::isfinite(the_case.control.error_tolerance) &&
+      the_case.scheme.kind() != TimeScheme::Kind::bdf2)
+    throw EntryError(
+      "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
+      "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
+  if (the_case.network.may_boil() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
+    throw EntryError("Time/Scheme", "BDF2",
+                     "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
+}
+
+
+/// Whether the energies of the rock can be compared with the work done on it: without fluid, and
+/// where the work is that of what is prescribed (with inertia: of nothing).
+template <int dim>
+bool can_audit_energy(const Case<dim> &the_case)
+{
+  bool moved = false; // at some time, for a cycle of load may end where it began
+  for (unsigned int i = 0; i <= 100; ++i)
+    moved |= the_case.boundary_conditions.greatest_displacement(
+               the_case.control.start_time +
+               0.01 * i * (the_case.control.end_time - the_case.control.start_time)) > 0.;
+  return !the_case.elements.has_pore_pressure && the_case.in_situ.is_zero() &&
+         (the_case.scene.cracks.empty() || the_case.scene.crack_pressure == 0.) &&
+         (the_case.scheme.kind() == TimeScheme::Kind::newmark
+            ? !moved
+            : moved && the_case.boundary_conditions.loads().empty());
+}
 } // namespace
 
 
@@ -497,79 +599,15 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
 
   check_history(prm, *this);
   check_permeability(prm, *this);
-  if (scheme.kind() == TimeScheme::Kind::newmark)
-    require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
-  if (std::isfinite(control.error_tolerance) && scheme.kind() != TimeScheme::Kind::bdf2)
-    throw EntryError(
-      "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
-      "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
-  if (network.may_boil() && scheme.kind() == TimeScheme::Kind::bdf2)
-    throw EntryError("Time/Scheme", "BDF2",
-                     "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
-
+  check_scheme(deck, prm, *this);
   CouplingParameters coupling;
   coupling.parse_parameters(prm);
   coupling.check(rock.main(), elements.has_pore_pressure, has_fracture, network.has_wells());
 
-  ReferenceInput<dim> input{rock, geometry.lower(), geometry.upper()};
-  input.has_pore_pressure = elements.has_pore_pressure;
-  input.start_time = control.start_time;
-  input.end_time = control.end_time;
-  for (const InitialCrack<dim> &crack : scene.cracks)
-  {
-    input.cracks.push_back(crack.points);
-    if (crack.disc)
-      input.discs.push_back(*crack.disc);
-  }
-  input.injection_rate = network.rate_of_first_well(control.end_time);
-  input.rate_is_constant = std::isinf(network.next_jump(control.start_time));
-  input.n_wells = network.n_wells();
-  if (network.has_wells())
-  {
-    input.fraction_in_model = network.fraction_of_first_well();
-    input.perforations = network.perforations_of_first_well();
-  }
-  input.layered = !geometry.region_names().empty();
-  input.has_stress_gradient = in_situ.has_gradient();
-  prm.enter_subsection("Fracture flow");
-  input.leaks = prm.get("Leak-off") != "none";
-  if (prm.get("Leak-off") == "carter")
-    input.carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
-  prm.leave_subsection();
-  if (!scene.cracks.empty())
-    set_crack_load(scene, input);
-  input.normal_traction = [this](const std::string &side, const double time)
-  { return boundary_conditions.loads().uniform_normal_traction(geometry.side(side), time); };
-  input.is_roller = [this](const std::string &side)
-  { return boundary_conditions.is_roller(geometry.side(side)); };
-  input.greatest_displacement = [this](const double time)
-  { return boundary_conditions.greatest_displacement(time); };
-  const Point<dim> centre = geometry.lower() + 0.5 * (geometry.upper() - geometry.lower());
-  input.law = &laws(0);
-  input.in_situ_stress = in_situ.tensor(centre, rock.main());
-  input.in_situ_pressure = in_situ.pore_pressure(centre);
-  input.hole_radius = geometry.hole_radius();
-  reference = make_reference<dim>(prm, input);
+  reference = make_reference<dim>(prm, reference_input(prm, *this));
   starts_from_reference = stockwork::starts_from_reference(prm);
-  if (reference && std::any_of(laws.all().begin(), laws.all().end(),
-                               [](const auto &law) { return law.second->changes_permeability(); }))
-    throw EntryError(
-      "Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
-      "'none' with a 'Rock/Permeability decay stress': the solution is of rock whose "
-      "permeability does not hang on the stress");
-  if (reference && laws.may_yield() && !reference->is_of_yielding_rock())
-    throw EntryError("Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
-                     "'none' (or 'borehole' or 'footing') with a 'Rock/Law' that may yield: the "
-                     "solution is of linear rock");
-  bool moved = false; // at some time, for a cycle of load may end where it began
-  for (unsigned int i = 0; i <= 100; ++i)
-    moved |= boundary_conditions.greatest_displacement(
-               control.start_time + 0.01 * i * (control.end_time - control.start_time)) > 0.;
-  audits_energy =
-    !elements.has_pore_pressure && in_situ.is_zero() &&
-    (scene.cracks.empty() || scene.crack_pressure == 0.) &&
-    (scheme.kind() == TimeScheme::Kind::newmark ? !moved
-                                                : moved && boundary_conditions.loads().empty());
+  check_reference(prm, *this);
+  audits_energy = can_audit_energy(*this);
   if (const std::string &entry = boundary_conditions.entry_with_reference(); !entry.empty())
   {
     if (!reference || !reference->field())

@@ -349,6 +349,76 @@ void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbe
                                  : "the numbers of diffusion here are with 'Rock/Permeability'"),
                      is_tight});
 }
+
+
+/// c_v = k / (mu S) of the rock at large [m^2/s].
+template <int dim>
+double pressure_diffusivity(const Case<dim> &the_case)
+{
+  const RockProperties &rock = the_case.rock.main();
+  return rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
+}
+
+
+/// How far pore pressure comes in the run, and what that asks of steps and splits.
+template <int dim>
+void add_diffusion(const Case<dim> &the_case,
+                   const MeshSizes<dim> &mesh,
+                   std::vector<SceneNumber> &numbers)
+{
+  const RockProperties &rock = the_case.rock.main();
+  const double diffusivity = pressure_diffusivity(the_case);
+  const double duration = the_case.control.end_time - the_case.control.start_time;
+  const double size = the_case.geometry.diameter();
+  const double time = diffusivity * duration / (size * size);
+  numbers.push_back({"diffusion c_v T / L^2", time,
+                     time < 1e-6  ? "nearly undrained throughout; elastic rock may do"
+                     : time > 1e2 ? "drained long before the end"
+                                  : "diffusion and deformation are solved together"});
+  const double safe = mesh.smallest * mesh.smallest / (6. * diffusivity);
+  std::ostringstream text;
+  text << "the first step is " << std::setprecision(3) << the_case.control.initial_step << " s; "
+       << (the_case.control.initial_step < safe
+             ? "below this length the pressure may overshoot at a drained side (Vermeer & Verruijt "
+               "1981)"
+             : "long enough for a monotone pressure");
+  numbers.push_back({"shortest safe step h^2 / (6 c_v) [s]", safe, text.str()});
+  const double bulk_modulus = rock.bulk_modulus();
+  const double strength =
+    rock.inverse_biot_modulus > 0.
+      ? rock.biot_coefficient * rock.biot_coefficient / (rock.inverse_biot_modulus * bulk_modulus)
+      : std::numeric_limits<double>::infinity();
+  numbers.push_back({"coupling strength alpha^2 M / K_dr", strength,
+                     strength < 1. ? "every split converges where there is no fracture"
+                                   : "drained and fixed-strain splits diverge"});
+}
+
+
+/// Whether the cells resolve what leaks off into the rock. Into a column
+/// (tests/data/porous_column.prm) 1, 11, 32 and 59 % too little leaks with cells of 0.25, 1, 2 and
+/// 4 times this length.
+template <int dim>
+void add_leak_off(const Case<dim> &the_case,
+                  const Pumping &pumping,
+                  const MeshSizes<dim> &mesh,
+                  std::vector<SceneNumber> &numbers)
+{
+  const double duration = the_case.control.end_time - the_case.control.start_time;
+  const double time = pumping.duration > 0. ? pumping.duration : duration;
+  const double reach = std::sqrt(pressure_diffusivity(the_case) * time);
+  const double cells = mesh.smallest / reach;
+  std::ostringstream text;
+  text << std::setprecision(3) << "in " << time
+       << " s of pumping the fluid comes about sqrt(c t) = " << reach << " m into the rock; ";
+  if (cells <= 1.)
+    text << "the leak-off is resolved, but for the first " << std::setprecision(2)
+         << cells * cells * time << " s";
+  else
+    text << "cells of " << mesh.smallest
+         << " m do not resolve this, and too little leaks off: take smaller cells, or 'Fracture "
+            "flow/Leak-off = carter'";
+  numbers.push_back({"cell size / sqrt(c t)", cells, text.str(), cells > 1.});
+}
 } // namespace
 
 
@@ -363,62 +433,16 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   if (the_case.laws(0).changes_permeability())
     add_permeability(the_case, numbers);
   const RockProperties &rock = the_case.rock.main();
-  const double duration = the_case.control.end_time - the_case.control.start_time;
 
   if (the_case.elements.has_pore_pressure)
-  {
-    const double diffusivity =
-      rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
-    const double size = the_case.geometry.diameter();
-    const double time = diffusivity * duration / (size * size);
-    numbers.push_back({"diffusion c_v T / L^2", time,
-                       time < 1e-6  ? "nearly undrained throughout; elastic rock may do"
-                       : time > 1e2 ? "drained long before the end"
-                                    : "diffusion and deformation are solved together"});
-    const double safe = mesh.smallest * mesh.smallest / (6. * diffusivity);
-    std::ostringstream text;
-    text
-      << "the first step is " << std::setprecision(3) << the_case.control.initial_step << " s; "
-      << (the_case.control.initial_step < safe
-            ? "below this length the pressure may overshoot at a drained side (Vermeer & Verruijt "
-              "1981)"
-            : "long enough for a monotone pressure");
-    numbers.push_back({"shortest safe step h^2 / (6 c_v) [s]", safe, text.str()});
-    const double bulk_modulus = rock.bulk_modulus();
-    const double strength =
-      rock.inverse_biot_modulus > 0.
-        ? rock.biot_coefficient * rock.biot_coefficient / (rock.inverse_biot_modulus * bulk_modulus)
-        : std::numeric_limits<double>::infinity();
-    numbers.push_back({"coupling strength alpha^2 M / K_dr", strength,
-                       strength < 1. ? "every split converges where there is no fracture"
-                                     : "drained and fixed-strain splits diverge"});
-  }
+    add_diffusion(the_case, mesh, numbers);
   else
     numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});
 
   const Pumping pumping = first_pumping(the_case.network, the_case.control);
-  // Into a column (tests/data/porous_column.prm) 1, 11, 32 and 59 % too little leaks with cells of
-  // 0.25, 1, 2 and 4 times this length.
   if (the_case.network.needs_pore_pressure())
-  {
-    const double diffusivity =
-      rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
-    const double time = pumping.duration > 0. ? pumping.duration : duration;
-    const double reach = std::sqrt(diffusivity * time);
-    const double cells = mesh.smallest / reach;
-    std::ostringstream text;
-    text << std::setprecision(3) << "in " << time
-         << " s of pumping the fluid comes about sqrt(c t) = " << reach << " m into the rock; ";
-    if (cells <= 1.)
-      text << "the leak-off is resolved, but for the first " << std::setprecision(2)
-           << cells * cells * time << " s";
-    else
-      text << "cells of " << mesh.smallest
-           << " m do not resolve this, and too little leaks off: take smaller cells, or 'Fracture "
-              "flow/Leak-off = carter'";
-    numbers.push_back({"cell size / sqrt(c t)", cells, text.str(), cells > 1.});
-  }
+    add_leak_off(the_case, pumping, mesh, numbers);
 
   for (const auto &[well, pressure] : the_case.network.least_well_pressures())
     numbers.push_back({"least pressure in '" + well + "' [Pa]", pressure,

@@ -2,6 +2,7 @@
 
 #include "stockwork/rock/linear_law.h"
 
+#include "biot/plane_tensors.h"
 #include "biot/prescribed_part.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -20,41 +21,6 @@ template <int dim>
 QGauss<dim> quadrature_of(const FiniteElement<dim> &fe)
 {
   return QGauss<dim>(fe.base_element(0).degree + 1);
-}
-
-
-template <int dim>
-SymmetricTensor<2, 3> in_space(const SymmetricTensor<2, dim> &t)
-{
-  SymmetricTensor<2, 3> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      result[i][j] = t[i][j];
-  return result;
-}
-
-
-template <int dim>
-SymmetricTensor<2, dim> in_plane(const SymmetricTensor<2, 3> &t)
-{
-  SymmetricTensor<2, dim> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      result[i][j] = t[i][j];
-  return result;
-}
-
-
-template <int dim>
-SymmetricTensor<4, dim> in_plane(const SymmetricTensor<4, 3> &t)
-{
-  SymmetricTensor<4, dim> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      for (unsigned int k = 0; k < dim; ++k)
-        for (unsigned int l = k; l < dim; ++l)
-          result[i][j][k][l] = t[i][j][k][l];
-  return result;
 }
 } // namespace
 

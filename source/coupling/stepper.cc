@@ -16,8 +16,10 @@ void StepControl::declare_parameters(ParameterHandler &prm)
   prm.declare_entry("Start time", "0 s", Quantity(dimension::time), "");
   prm.declare_entry("End time", "", Quantity(dimension::time, Range::finite(), ""),
                     "After the start time. Required.");
-  prm.declare_entry("Initial step", "", Patterns::Anything(),
-                    "Length of the first step [s]; empty: a hundredth of the run.");
+  prm.declare_entry(
+    "Initial step", "", Patterns::Anything(),
+    "Length of the first step, and at most of that with which a well that has rested "
+    "begins to inject [s]; empty: a hundredth of the run.");
   prm.declare_entry("Minimum step", "", Patterns::Anything(),
                     "A solve that fails with this step ends the run [s]; empty: 1e-6 of the "
                     "initial step.");

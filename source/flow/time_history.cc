@@ -163,4 +163,12 @@ double TimeHistory::next_jump(const double t) const
   const auto next = std::upper_bound(times.begin(), times.end(), t + 1e-10 * std::abs(t));
   return next == times.end() ? std::numeric_limits<double>::infinity() : *next;
 }
+
+bool TimeHistory::rises_from_zero(const double t) const
+{
+  for (unsigned int k = 0; k < times.size(); ++k)
+    if (std::abs(times[k] - t) <= 1e-10 * std::abs(t))
+      return (k == 0 || values[k - 1] == 0.) && values[k] > 0.; // before the first piece: nothing
+  return false;
+}
 } // namespace stockwork

@@ -52,6 +52,9 @@ public:
   /// end there.
   double next_jump(double t) const;
 
+  /// Whether the value jumps from zero to above it at this time.
+  bool rises_from_zero(double t) const;
+
 private:
   double expressed(double t) const;
 

@@ -96,6 +96,80 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
 
 
 template <int dim>
+typename Wells<dim>::Well Wells<dim>::read_well(dealii::ParameterHandler &prm,
+                                                const unsigned int number,
+                                                const double boiling_pressure)
+{
+  const std::string path = "Wells/" + section(number) + "/";
+  Well well;
+  well.number = number;
+  well.points = prm.get("Perforations");
+  well.name = prm.get("Name").empty() ? section(number) : prm.get("Name");
+  well.pressure_control = (prm.get("Control") == "pressure");
+  well.value = well.pressure_control
+                 ? TimeHistory(prm.get("Pressure"), dimension::pressure, path + "Pressure")
+                 : TimeHistory(prm.get("Rate"), rate_dimension<dim>, path + "Rate");
+
+  if (const std::string text = prm.get("Least pressure"); !text.empty())
+  {
+    const std::string allowed = "a pressure such as '5 MPa', of a well with control 'rate'";
+    if (well.pressure_control)
+      throw EntryError(path + "Least pressure", text, allowed);
+    try
+    {
+      well.least_pressure = parse_finite_quantity(text, dimension::pressure);
+    }
+    catch (const InputError &)
+    {
+      throw EntryError(path + "Least pressure", text, allowed);
+    }
+  }
+  else if (!well.pressure_control && well.value.least() < 0.)
+    well.least_pressure = std::isfinite(boiling_pressure) ? boiling_pressure : 0.;
+
+  well.fraction = prm.get_double("Fraction in model");
+  if (!(well.fraction > 0.))
+    throw EntryError(path + "Fraction in model", prm.get("Fraction in model"),
+                     "a number > 0, up to 1");
+  const auto non_negative = [&](const std::string &entry, const Dimension &dimension)
+  {
+    const std::string text = prm.get(entry);
+    try
+    {
+      return Quantity(dimension, Range::non_negative()).parse(text);
+    }
+    catch (const InputError &)
+    {
+      throw EntryError(path + entry, text,
+                       "a value >= 0, such as '" + std::string(dimension.example) + "'");
+    }
+  };
+  well.friction =
+    non_negative("Perforation friction", friction_dimension<dim>) / (well.fraction * well.fraction);
+  well.volume = non_negative("Borehole volume", volume_dimension<dim>) * well.fraction;
+
+  try
+  {
+    for (std::size_t begin = 0; begin < well.points.size();)
+    {
+      const std::size_t end = std::min(well.points.find(';', begin), well.points.size());
+      well.perforations.push_back({parse_point<dim>(well.points.substr(begin, end - begin)), {}});
+      begin = end + 1;
+    }
+    if (well.perforations.empty())
+      throw InputError("none");
+  }
+  catch (const InputError &)
+  {
+    throw EntryError(path + "Perforations", well.points,
+                     std::string("one or more points, ") +
+                       (dim == 2 ? "'0, 0; 1 m, 20 cm'" : "'0, 0, 0; 1 m, 20 cm, 0'"));
+  }
+  return well;
+}
+
+
+template <int dim>
 void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double boiling_pressure)
 {
   wells.clear();
@@ -115,73 +189,7 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double bo
                          std::string("'") + its_control + "' for a well whose '" + entry +
                            "' is given");
     if (control != "none")
-    {
-      Well well;
-      well.number = number;
-      well.points = points;
-      well.name = prm.get("Name").empty() ? section(number) : prm.get("Name");
-      well.pressure_control = (control == "pressure");
-      well.value = well.pressure_control
-                     ? TimeHistory(prm.get("Pressure"), dimension::pressure, path + "Pressure")
-                     : TimeHistory(prm.get("Rate"), rate_dimension<dim>, path + "Rate");
-
-      if (const std::string text = prm.get("Least pressure"); !text.empty())
-      {
-        const std::string allowed = "a pressure such as '5 MPa', of a well with control 'rate'";
-        if (well.pressure_control)
-          throw EntryError(path + "Least pressure", text, allowed);
-        try
-        {
-          well.least_pressure = parse_finite_quantity(text, dimension::pressure);
-        }
-        catch (const InputError &)
-        {
-          throw EntryError(path + "Least pressure", text, allowed);
-        }
-      }
-      else if (!well.pressure_control && well.value.least() < 0.)
-        well.least_pressure = std::isfinite(boiling_pressure) ? boiling_pressure : 0.;
-
-      well.fraction = prm.get_double("Fraction in model");
-      if (!(well.fraction > 0.))
-        throw EntryError(path + "Fraction in model", prm.get("Fraction in model"),
-                         "a number > 0, up to 1");
-      const auto non_negative = [&](const std::string &entry, const Dimension &dimension)
-      {
-        const std::string text = prm.get(entry);
-        try
-        {
-          return Quantity(dimension, Range::non_negative()).parse(text);
-        }
-        catch (const InputError &)
-        {
-          throw EntryError(path + entry, text,
-                           "a value >= 0, such as '" + std::string(dimension.example) + "'");
-        }
-      };
-      well.friction = non_negative("Perforation friction", friction_dimension<dim>) /
-                      (well.fraction * well.fraction);
-      well.volume = non_negative("Borehole volume", volume_dimension<dim>) * well.fraction;
-
-      try
-      {
-        for (std::size_t begin = 0; begin < points.size();)
-        {
-          const std::size_t end = std::min(points.find(';', begin), points.size());
-          well.perforations.push_back({parse_point<dim>(points.substr(begin, end - begin)), {}});
-          begin = end + 1;
-        }
-        if (well.perforations.empty())
-          throw InputError("none");
-      }
-      catch (const InputError &)
-      {
-        throw EntryError(path + "Perforations", points,
-                         std::string("one or more points, ") +
-                           (dim == 2 ? "'0, 0; 1 m, 20 cm'" : "'0, 0, 0; 1 m, 20 cm, 0'"));
-      }
-      wells.push_back(std::move(well));
-    }
+      wells.push_back(read_well(prm, number, boiling_pressure));
     prm.leave_subsection();
   }
   prm.leave_subsection();
@@ -547,12 +555,7 @@ bool Wells<dim>::starts_at(const double t) const
 {
   return std::any_of(wells.begin(), wells.end(),
                      [t](const Well &well)
-                     {
-                       // A piece holds until its end.
-                       const double after = std::min(well.value.next_jump(t), 2. * t + 1.);
-                       return !well.pressure_control && well.value(t, t) == 0. &&
-                              well.value(after, after) > 0.;
-                     });
+                     { return !well.pressure_control && well.value.rises_from_zero(t); });
 }
 
 

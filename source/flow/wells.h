@@ -230,6 +230,10 @@ private:
     }
   };
 
+  /// The well of a subsection that has been entered.
+  static Well
+  read_well(dealii::ParameterHandler &prm, unsigned int number, double boiling_pressure);
+
   /// What is wrong with the place of a perforation.
   static EntryError
   perforation_error(const Well &well, const Perforation &perforation, const std::string &what);

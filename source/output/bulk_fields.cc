@@ -4,6 +4,7 @@
 
 #include "biot/cell_evaluator.h"
 #include "biot/cell_matrices.h"
+#include "biot/plane_tensors.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -93,10 +94,7 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
     {
       answer =
         nonlinear->at(cell, mapping.transform_real_to_unit_cell(cell, x), x, strain, excess, state);
-      total = scene.in_situ_stress(x);
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i; j < dim; ++j)
-          total[i][j] += answer.stress[i][j];
+      total = scene.in_situ_stress(x) + in_plane<dim>(answer.stress);
     }
     put(total);
     if (has_pore_pressure)
@@ -106,9 +104,7 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
       put(total + pressure * linear.biot);
       SymmetricTensor<2, dim> mobility = linear.mobility;
       if (answer.permeability)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = i; j < dim; ++j)
-            mobility[i][j] = (*answer.permeability)[i][j] / scene.rock.fluid().viscosity;
+        mobility = in_plane<dim>(*answer.permeability) / scene.rock.fluid().viscosity;
       const Tensor<1, dim> flux = -(mobility * inputs.solution_gradients[q][dim]);
       for (unsigned int d = 0; d < dim; ++d)
         quantities[q](n++) = flux[d];
@@ -133,9 +129,7 @@ double BulkFields<dim>::linear_stress_zz(const Point<dim> &x,
 {
   RockState linear;
   linear.pressure = excess;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      linear.strain[i][j] = strain[i][j];
+  linear.strain = in_space(strain);
   return scene.in_situ_tensor(x, rock)[2][2] + linear_response(rock, linear).stress[2][2];
 }
 

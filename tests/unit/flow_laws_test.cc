@@ -117,6 +117,13 @@ TEST_CASE("histories in time")
   CHECK(pieces.next_jump(0.) == 10.);
   CHECK(pieces.next_jump(10.) == 60.);
   CHECK(pieces.next_jump(120.) == std::numeric_limits<double>::infinity());
+  CHECK(pieces.rises_from_zero(10.));
+  CHECK_FALSE(pieces.rises_from_zero(5.));
+  CHECK_FALSE(pieces.rises_from_zero(60.));
+  CHECK_FALSE(pieces.rises_from_zero(120.)); // to production
+  CHECK(history("0 s: 0; 1 h: 1e-4").rises_from_zero(3600. * (1. + 1e-15)));
+  CHECK_FALSE(history("0 s: 1; 1 h: 2").rises_from_zero(3600.));
+  CHECK_FALSE(history("f(t) = if(t < 5, 0, 1e-4)").rises_from_zero(5.)); // its jumps are unknown
 
   const auto ramp = history("f(t) = 1e-4*min(t/10, 1)");
   CHECK(ramp(4., 5.) == Approx(5e-5));

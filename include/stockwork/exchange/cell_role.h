@@ -48,7 +48,7 @@ struct CellRole
   const dealii::Tensor<1, dim> *fracture_normal = nullptr;
 
   /// A law in place of the rock's, which it may have inside (Scene::rock_law); see
-  /// Requirements::wraps_law. Null: the rock's own.
+  /// Requirements::law. Null: the rock's own.
   const RockLaw *law = nullptr;
 
   /// Key of the segment whose fluid pressure that law sees.

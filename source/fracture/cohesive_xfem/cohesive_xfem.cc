@@ -74,17 +74,8 @@ void CohesiveXFEM<dim>::setup(const MeshView<dim> &d, const Collectives &collect
 
 
 template <int dim>
-void CohesiveXFEM<dim>::start(const Collectives &collectives)
+void CohesiveXFEM<dim>::check_lengths()
 {
-  discontinuity.cut(scene.cracks, collectives);
-
-  messages.clear();
-  largest_cell = 0.;
-  for (const auto &path : discontinuity.paths())
-    for (const auto &piece : path.pieces)
-      largest_cell = std::max(largest_cell, piece.cell_size());
-  const double size = largest_cell;
-
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
   {
     const auto &corners = scene.cracks[c].points;
@@ -109,7 +100,12 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
       messages.push_back(text.str());
     }
   }
+}
 
+
+template <int dim>
+double CohesiveXFEM<dim>::strength_of_cells(const double size)
+{
   const RockProperties &rock = scene.rock.main();
   double strength = rock.tensile_strength;
   std::ostringstream message;
@@ -132,7 +128,23 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
             << 0.25 * length << " m, or a lower tensile strength.";
     messages.push_back(message.str());
   }
-  law = make_law(parameters, rock, strength);
+  return strength;
+}
+
+
+template <int dim>
+void CohesiveXFEM<dim>::start(const Collectives &collectives)
+{
+  discontinuity.cut(scene.cracks, collectives);
+
+  messages.clear();
+  largest_cell = 0.;
+  for (const auto &path : discontinuity.paths())
+    for (const auto &piece : path.pieces)
+      largest_cell = std::max(largest_cell, piece.cell_size());
+
+  check_lengths();
+  law = make_law(parameters, scene.rock.main(), strength_of_cells(largest_cell));
 
   committed_damage.clear();
   committed_reach.clear();

@@ -69,8 +69,14 @@ private:
   static constexpr unsigned int n_points = JumpShapes<dim>::n_points;
   using PointDamage = std::array<double, n_points>;
 
-  /// Cut the initial cracks, choose the strength if it is not given, and say what is coarse.
   void start(const Collectives &collectives);
+
+  /// Refuse a crack too short for the cells, and say where one is not as long as it is given.
+  void check_lengths();
+
+  /// The tensile strength, chosen for cells of this size if it is not given [Pa]; says what is
+  /// coarse.
+  double strength_of_cells(double size);
 
   void refresh_segments();
 

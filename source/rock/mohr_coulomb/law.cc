@@ -30,16 +30,13 @@ const char *remark_on(const Return &back, const Strength &strength)
 {
   if (back.by_decree)
     return "The rock has come to a tension beyond c cot phi, from which plastic flow with a "
-           "dilation "
-           "angle of 0 does not lead back: the stress was put to c cot phi in all directions, "
-           "though "
-           "that changes the volume. A dilation angle above 0, or a 'Tension cut-off', has no such "
-           "states.";
+           "dilation angle of 0 does not lead back: the stress was put to c cot phi in all "
+           "directions, though that changes the volume. A dilation angle above 0, or a 'Tension "
+           "cut-off', has no such states.";
   if (back.place != Place::elastic && strength.hardening_modulus < 0.)
-    return "The rock has yielded and softens ('Hardening modulus' below 0): it goes on to yield in "
-           "a "
-           "band as wide as the cells, so what happens from there on depends on the mesh, and so "
-           "does the energy that is dissipated. Compare meshes.";
+    return "The rock has yielded and softens ('Hardening modulus' below 0): it goes on to yield "
+           "in a band as wide as the cells, so what happens from there on depends on the mesh, "
+           "and so does the energy that is dissipated. Compare meshes.";
   return nullptr;
 }
 } // namespace
