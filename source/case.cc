@@ -558,6 +558,11 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
     if (const std::string text = body_in_two(scene.cracks, geometry); !text.empty())
       warnings.push_back(text);
   network.check_perforations(scene.cracks);
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    if (crack.kind == InitialCrack<dim>::Kind::propped && network.leak_off_law() == LeakOff::carter)
+      throw EntryError(crack.entry, crack.text,
+                       "nothing (an empty entry) with 'Fracture flow/Leak-off = carter', which "
+                       "knows how long faces have been bare and not what a well takes from them");
   scene.crack_pressure = given_crack_pressure(prm);
   control.parse_parameters(prm);
   network.check_wells(control.start_time, control.end_time);

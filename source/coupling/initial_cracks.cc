@@ -28,6 +28,18 @@ void declare_initial_cracks(ParameterHandler &prm)
                         "'disc (0, 0, 0) normal (0, 0, 1) radius 2 m', with centre and radius [m] "
                         "and any vector across the crack.");
   prm.declare_entry(
+    "Propped", "", Patterns::Anything(),
+    "Cracks without any strength left that proppant holds open, as those above. Where "
+    "the rock has pore pressure, there is no filter cake on their faces.");
+  prm.declare_entry("Propped conductivity", "", Patterns::Anything(),
+                    "Of the proppant in propped cracks, permeability times thickness: '500 md m' "
+                    "[m^3]. Uniform along the crack.");
+  prm.declare_entry(
+    "Propped aperture", "0", Quantity(dimension::length, Range::non_negative()),
+    "To which proppant holds the faces apart in the middle of a crack, or at its mouth [m], from "
+    "the first step on; less towards the tips, so that they close smoothly. They open farther "
+    "against pressure. 0: none is left, and the crack presses on no other.");
+  prm.declare_entry(
     "Fluid pressure", "", Patterns::Anything(),
     "In all cracks, where it is given [Pa]; '0' in a dry case. Empty: computed from "
     "the flow in the fractures.");
@@ -55,6 +67,42 @@ double given_crack_pressure(ParameterHandler &prm)
 
 namespace
 {
+Proppant parse_proppant(ParameterHandler &prm)
+{
+  Proppant proppant;
+  prm.enter_subsection("Cracks");
+  const std::string conductivity = prm.get("Propped conductivity");
+  const bool propped = !prm.get("Propped").empty(), computed = prm.get("Fluid pressure").empty();
+  proppant.aperture = get_quantity(prm, "Propped aperture", dimension::length);
+  const std::string aperture = prm.get("Propped aperture");
+  prm.leave_subsection();
+  if (!propped && proppant.aperture > 0.)
+    throw EntryError("Cracks/Propped aperture", aperture, "0 without cracks in 'Cracks/Propped'");
+  if (conductivity.empty() && !propped)
+    return proppant;
+  const char *const allowed = !propped   ? "nothing (an empty entry) without 'Cracks/Propped'"
+                              : computed ? "a conductivity > 0, such as '500 md m'"
+                                         : "nothing (an empty entry) where 'Cracks/Fluid pressure' "
+                                           "is given and no flow is computed";
+  if (!propped || (!computed && !conductivity.empty()))
+    throw EntryError("Cracks/Propped conductivity", conductivity, allowed);
+  if (!computed)
+    return proppant;
+  try
+  {
+    proppant.conductivity = parse_finite_quantity(conductivity, dimension::conductivity);
+  }
+  catch (const InputError &error)
+  {
+    throw EntryError("Cracks/Propped conductivity", conductivity,
+                     std::string(allowed) + ": " + error.what());
+  }
+  if (!(proppant.conductivity > 0.))
+    throw EntryError("Cracks/Propped conductivity", conductivity, allowed);
+  return proppant;
+}
+
+
 void parse_geometry(const std::string &text, InitialCrack<2> &crack)
 {
   for (const std::string &corner : Utilities::split_string_list(text, "->"))
@@ -121,9 +169,11 @@ std::vector<InitialCrack<dim>>
 parse_initial_cracks(ParameterHandler &prm, const Point<dim> &lower, const Point<dim> &upper)
 {
   std::vector<InitialCrack<dim>> cracks;
+  const Proppant proppant = parse_proppant(prm);
   prm.enter_subsection("Cracks");
   for (const auto &[entry, kind] : {std::make_pair("Open", InitialCrack<dim>::Kind::open),
-                                    std::make_pair("Cohesive", InitialCrack<dim>::Kind::cohesive)})
+                                    std::make_pair("Cohesive", InitialCrack<dim>::Kind::cohesive),
+                                    std::make_pair("Propped", InitialCrack<dim>::Kind::propped)})
     for (const std::string &text : Utilities::split_string_list(prm.get(entry), ';'))
     {
       if (text.empty())
@@ -132,6 +182,8 @@ parse_initial_cracks(ParameterHandler &prm, const Point<dim> &lower, const Point
       crack.kind = kind;
       crack.entry = std::string("Cracks/") + entry;
       crack.text = text;
+      if (crack.kind == InitialCrack<dim>::Kind::propped)
+        crack.proppant = proppant;
       try
       {
         parse_geometry(text, crack);

@@ -43,7 +43,12 @@ typename FaceContact<dim>::Patch FaceContact<dim>::patch(const Discontinuity<dim
     patch.last = pieces.size() - 1;
   }
   for (unsigned int i = patch.first; i <= patch.last; ++i)
+  {
     patch.length += pieces[i].length();
+    if (least_gap)
+      patch.least_gap += pieces[i].length() * least_gap(crack, i);
+  }
+  patch.least_gap /= patch.length;
   for (unsigned int i = patch.first; i <= patch.last; ++i)
     for (const auto &[unknown, unit] : discontinuity.mean_jumps(crack, i))
     {
@@ -93,8 +98,8 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   // too.
   const double seam = broken < 1. && closing ? 10. : 1.;
   const ContactLaw law{seam * stiffness * plane_modulus / piece.cell_size(), friction};
-  return law.evaluate(jump * piece.normal(), jump * piece.along, has_friction() ? slip(piece) : 0.,
-                      broken, carried_by(piece));
+  return law.evaluate(jump * piece.normal() - patch.least_gap, jump * piece.along,
+                      has_friction() ? slip(piece) : 0., broken, carried_by(piece));
 }
 
 

@@ -7,6 +7,7 @@
 #include "stockwork/exchange/sink.h"
 #include "stockwork/exchange/state.h"
 
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -41,6 +42,12 @@ public:
 
   /// "Friction coefficient" of a model's subsection.
   static void declare_parameters(dealii::ParameterHandler &prm);
+
+  /// Proppant keeps faces this far apart [m], by crack and piece; null: nothing does.
+  void keep_apart(std::function<double(unsigned int, unsigned int)> least_gap)
+  {
+    this->least_gap = std::move(least_gap);
+  }
 
   bool has_friction() const
   {
@@ -110,6 +117,7 @@ private:
   {
     unsigned int first = 0, last = 0; ///< pieces
     double length = 0.;               ///< [m]
+    double least_gap = 0.;            ///< mean [m]
     std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> jumps;
   };
   Patch
@@ -119,6 +127,7 @@ private:
   double carried_by(const CrackPiece<dim> &first_of_patch) const;
 
   double friction, stiffness, plane_modulus, domain_size;
+  std::function<double(unsigned int, unsigned int)> least_gap;
 
   // Committed, the same on all ranks.
   std::unordered_map<std::uint64_t, double> slips;   ///< by key of the first piece [m]

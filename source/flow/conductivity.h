@@ -60,13 +60,13 @@ struct Transmissibility
 /// is next to it, and a fracture in viscous fluid would only creep on.
 /// @param w_i, w_j apertures [m]
 /// @param d_i, d_j distances from the centres to the edge [m]
-inline Transmissibility transmissibility(const double w_i,
-                                         const double w_j,
-                                         const double d_i,
-                                         const double d_j,
-                                         const double width,
-                                         const double viscosity,
-                                         const double w_min)
+inline Transmissibility cubic_law(const double w_i,
+                                  const double w_j,
+                                  const double d_i,
+                                  const double d_j,
+                                  const double width,
+                                  const double viscosity,
+                                  const double w_min)
 {
   const double distance = d_i + d_j, share_i = d_j / distance, share_j = d_i / distance;
   const ValueAndSlope cube = hydraulic_aperture_cubed(share_i * w_i + share_j * w_j, w_min);

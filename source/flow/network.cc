@@ -115,7 +115,8 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
                     segment.given_pressure, segment.initial_pressure,
                     segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
                     segment.pore_distance, segment.share_of_pores, segment.bare_aperture,
-                    collectives.rank(), segment.at_tip, segment.neighbours});
+                    segment.propped_conductivity, collectives.rank(), segment.at_tip,
+                    segment.neighbours});
   network = collectives.gather(mine);
   std::sort(network.begin(), network.end(),
             [](const auto &a, const auto &b) { return a.key < b.key; });
@@ -265,7 +266,9 @@ template <int dim>
 double Network<dim>::leak_off_coefficient(const unsigned int segment) const
 {
   const NetworkSegment<dim> &s = network[segment];
-  if (leak_off == LeakOff::resolved)
+  // A cake is what fluid leaves that enters the rock; proppant lies where a well has cleaned up.
+  const bool clean = s.propped_conductivity > 0. && leaks_into_pores(s);
+  if (leak_off == LeakOff::resolved || clean)
     return resolved_coefficient(rock_mobility, s.size(), s.pore_distance);
   if (leak_off != LeakOff::filter_cake)
     return 0.;
@@ -381,6 +384,8 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
     else if (old != history.end())
       reference +=
         (1. - network[i].share_of_pores) * (old->second.volume / network[i].area - committed[i]);
+    else // faces that proppant is going to push apart hold no fluid yet
+      reference = std::max(reference, 0.);
     if (old != history.end())
       reference -= old->second.vapour / network[i].area;
   }
@@ -393,6 +398,21 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
                                                      : state.current.extra[leak_off_rows[i]];
   find_vapour(context, values);
   return values;
+}
+
+
+template <int dim>
+Transmissibility Network<dim>::transmissibility(const unsigned int segment,
+                                                const Edge &edge,
+                                                const Values &values) const
+{
+  Transmissibility all =
+    cubic_law(values.aperture[segment], values.aperture[edge.other], edge.distance,
+              edge.other_distance, edge.width, viscosity, minimum_aperture);
+  all.value +=
+    edge.width / (viscosity * (edge.distance + edge.other_distance)) *
+    std::min(network[segment].propped_conductivity, network[edge.other].propped_conductivity);
+  return all;
 }
 
 
@@ -416,11 +436,7 @@ void Network<dim>::find_vapour(const StepContext &context, Values &values) const
                           std::max(w, 0.) * c_f * (p - values.pressure_reference[i])) +
                   2. * area * dt * leak_off_coefficient(i) * values.cake_drop[i];
     for (const Edge &edge : edges[i])
-      lack += dt *
-              transmissibility(w, values.aperture[edge.other], edge.distance, edge.other_distance,
-                               edge.width, viscosity, minimum_aperture)
-                .value *
-              (p - values.pressure[edge.other]);
+      lack += dt * transmissibility(i, edge, values).value * (p - values.pressure[edge.other]);
     values.boils[i] = lack > vapour_scale(i) * (p - least_pressure);
     if (values.boils[i])
       values.vapour[i] = lack;

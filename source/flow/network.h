@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "flow/conductivity.h"
 #include "flow/fluid_balance.h"
 #include "flow/leak_off.h"
 #include "flow/network_segment.h"
@@ -28,10 +29,10 @@ namespace stockwork
 ///
 ///   A dw/dt + A max(w,0) c_f dp/dt + sum_j T_ij (p_i - p_j) + leak-off = flow from wells,
 ///
-/// with T from the cubic law (conductivity.h; Batchelor 1967) and leak-off through both faces
-/// (leak_off.h). The fluid loads the rock by A p B^T, the transpose of what the aperture adds to
-/// the balance, so that work and volume are conserved. Segments whose pressure is given have the
-/// load only; what they take from or give to others counts as injected or flowing out.
+/// with T from the cubic law (conductivity.h; Batchelor 1967) and proppant, and leak-off through
+/// both faces (leak_off.h). The fluid loads the rock by A p B^T, the transpose of what the aperture
+/// adds to the balance, so that work and volume are conserved. Segments whose pressure is given
+/// have the load only; what they take from or give to others counts as injected or flowing out.
 ///
 /// Where it would take less than the least pressure to fill a segment, that pressure rules there
 /// and part of the segment is vapour, which weighs nothing (after Jakobsson, Floberg and Olsson;
@@ -280,6 +281,10 @@ private:
   std::optional<unsigned int> number(std::uint64_t key) const;
 
   Values evaluate(const StepContext &, const State &, const Collectives &) const;
+
+  /// Of the edge to a neighbour: what the apertures conduct, and proppant if both have it.
+  Transmissibility
+  transmissibility(unsigned int segment, const Edge &edge, const Values &values) const;
 
   /// Which segments boil, and how much vapour there is in them.
   void find_vapour(const StepContext &, Values &) const;

@@ -146,14 +146,11 @@ void Network<dim>::add_flow(SegmentRows &rows_of) const
   const unsigned int own = rows_of.own, index = rows_of.index;
   LocalSystem &local = rows_of.local;
   const Values &values = rows_of.values;
-  const double w = values.aperture[index], p = values.pressure[index],
-               dt = rows_of.context.fracture_dt();
+  const double p = values.pressure[index], dt = rows_of.context.fracture_dt();
   for (unsigned int e = 0; e < edges[index].size(); ++e)
   {
     const Edge &edge = edges[index][e];
-    const Transmissibility T =
-      transmissibility(w, values.aperture[edge.other], edge.distance, edge.other_distance,
-                       edge.width, viscosity, minimum_aperture);
+    const Transmissibility T = transmissibility(index, edge, values);
     const double difference = p - values.pressure[edge.other];
     const unsigned int other = rows_of.others[e];
     if (own != no_row && !rows_of.boils())

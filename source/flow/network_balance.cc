@@ -61,10 +61,7 @@ FluidBalance Network<dim>::balance(const StepContext &context,
       for (const Edge &edge : edges[i])
       {
         const unsigned int j = edge.other;
-        supply += context.dt *
-                  transmissibility(w, values.aperture[j], edge.distance, edge.other_distance,
-                                   edge.width, viscosity, minimum_aperture)
-                    .value *
+        supply += context.dt * transmissibility(i, edge, values).value *
                   (values.pressure[i] - values.pressure[j]);
       }
       (supply > 0. ? balance.step.injected : balance.step.outflow) += std::abs(supply);
@@ -97,10 +94,7 @@ typename Network<dim>::Rounding Network<dim>::rounding(const StepContext &contex
     volume +=
       network[i].area * (std::abs(values.aperture[i]) + std::abs(values.aperture_reference[i]));
     for (const Edge &edge : edges[i])
-      volume += context.fracture_dt() *
-                transmissibility(values.aperture[i], values.aperture[edge.other], edge.distance,
-                                 edge.other_distance, edge.width, viscosity, minimum_aperture)
-                  .value *
+      volume += context.fracture_dt() * transmissibility(i, edge, values).value *
                 (std::abs(values.pressure[i]) + std::abs(values.pressure[edge.other]));
   }
   // A few last digits of each term; and of a closed fracture, whose terms are all zero, what is far

@@ -22,6 +22,7 @@ struct NetworkSegment
   double pore_distance = 0.;           ///< see Segment [m]
   double share_of_pores = 0.;          ///< see Segment
   double bare_aperture = 0.;           ///< see Segment [m]
+  double propped_conductivity = 0.;    ///< see Segment [m^3]
   unsigned int owner = 0;              ///< rank
   bool at_tip = false;
   std::vector<typename Segment<dim>::Neighbour> neighbours;
@@ -41,8 +42,8 @@ struct NetworkSegment
   void serialize(Archive &ar, const unsigned int)
   {
     ar &key &centre &normal &area &given_pressure &initial_pressure &in_situ_pore_pressure
-      &rock_has_pore_pressure &pore_distance &share_of_pores &bare_aperture &owner &at_tip
-        &neighbours;
+      &rock_has_pore_pressure &pore_distance &share_of_pores &bare_aperture &propped_conductivity
+        &owner &at_tip &neighbours;
   }
 };
 

@@ -36,7 +36,7 @@ TEST_CASE("transmissibility between two segments")
 {
   const double w = 1e-3, mu = 1e-3, length = 2., width = 3.;
   const auto T = [&](const double w_i, const double w_j, const double d_i)
-  { return transmissibility(w_i, w_j, d_i, length - d_i, width, mu, 1e-9); };
+  { return cubic_law(w_i, w_j, d_i, length - d_i, width, mu, 1e-9); };
   CHECK(T(w, w, 0.7).value == Approx(width * w * w * w / (12. * mu * length)));
 
   // 1.25 mm at an edge that is nearer to the segment of 1 mm

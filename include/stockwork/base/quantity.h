@@ -62,6 +62,7 @@ constexpr Dimension pressure_gradient   {-2, 1, -2, 0, "pressure gradient", "Pa/
 constexpr Dimension compressibility     {1, -1, 2, 0, "compressibility", "1/Pa", "0.5 1/GPa"};
 constexpr Dimension viscosity           {-1, 1, -1, 0, "viscosity", "Pa s", "1 cP"};
 constexpr Dimension permeability        {2, 0, 0, 0, "permeability", "m^2", "1 md"};
+constexpr Dimension conductivity        {3, 0, 0, 0, "conductivity", "m^3", "500 md m"};
 constexpr Dimension mobility            {3, -1, 1, 0, "mobility", "m^2/(Pa s)", "1 md/cP"};
 constexpr Dimension diffusivity         {2, 0, -1, 0, "diffusivity", "m^2/s", "1e-6 m^2/s"};
 constexpr Dimension rate_per_thickness  {2, 0, -1, 0, "rate per thickness", "m^2/s", "1e-4 m^2/s"};

@@ -25,6 +25,14 @@ struct Disc
   double radius;                 ///< [m]
 };
 
+/// What keeps the faces of a crack apart and lets fluid pass between them though they are pressed
+/// together.
+struct Proppant
+{
+  double aperture = 0.;     ///< the least that it leaves, where it is greatest [m]
+  double conductivity = 0.; ///< permeability times thickness [m^3]
+};
+
 /// A crack, notch or natural fracture that is there at the start. Geometry belongs to the case and
 /// is the same for every fracture model.
 template <int dim>
@@ -32,8 +40,9 @@ struct InitialCrack
 {
   enum class Kind
   {
-    open,    ///< no strength left
-    cohesive ///< the rock's own strength, not yet damaged
+    open,     ///< no strength left
+    cohesive, ///< the rock's own strength, not yet damaged
+    propped   ///< no strength left, and proppant between the faces
   };
 
   std::vector<dealii::Point<dim>> points; ///< corners of a polyline in 2-D
@@ -41,6 +50,7 @@ struct InitialCrack
   std::string entry;             ///< of the deck, for messages: "Cracks/Open"
   std::string text;              ///< what the deck says there
   std::optional<Disc<dim>> disc; ///< in 3-D
+  Proppant proppant = {};        ///< of a propped crack
 
   /// Of a point from the crack [m].
   double distance(const dealii::Point<dim> &point) const

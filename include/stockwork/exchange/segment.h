@@ -89,6 +89,10 @@ struct Segment
   /// of rock still hold them together [m]. The minimum aperture of the flow if that is larger.
   double bare_aperture = 0.;
 
+  /// Of proppant between the faces, beside what the opening conducts: permeability times thickness
+  /// [m^3]. The opening is then what is left beside the proppant.
+  double propped_conductivity = 0.;
+
   /// Fluid pressure where it is given and not solved for [Pa]; NaN: an unknown of its own.
   double given_pressure = std::numeric_limits<double>::quiet_NaN();
 

@@ -1,6 +1,7 @@
 #include "fracture/cohesive_xfem/cohesive_xfem.h"
 
 #include "discontinuity/cell_size_request.h"
+#include "discontinuity/proppant.h"
 
 #include <deal.II/dofs/dof_accessor.h>
 
@@ -54,6 +55,7 @@ CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &
   if (!(rock.energy_release_rate > 0.))
     throw InputError("The cohesive crack model needs the rock's energy release rate G_c "
                      "(Rock / Energy release rate).");
+  contact.keep_apart(propped_gaps(scene.cracks, discontinuity));
   if (scene.cracks.empty())
     throw InputError("The cohesive crack model needs an initial crack or notch to grow from.");
   // Until the cell size is known, any positive strength will do.
@@ -152,7 +154,7 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
   initial_pressure.clear();
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
   {
-    const bool open = scene.cracks[c].kind == InitialCrack<dim>::Kind::open;
+    const bool open = scene.cracks[c].kind != InitialCrack<dim>::Kind::cohesive;
     const auto &pieces = discontinuity.paths()[c].pieces;
     for (const auto &piece : pieces)
       committed_damage[piece.key(scene.domain_size)].fill(open ? 1. : 0.);
@@ -189,6 +191,7 @@ void CohesiveXFEM<dim>::refresh_segments()
     if (const auto found = initial_pressure.find(segment.key); found != initial_pressure.end())
       segment.initial_pressure = found->second;
   }
+  add_proppant(scene.cracks, discontinuity, all_segments);
 }
 
 

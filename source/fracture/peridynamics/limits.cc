@@ -66,11 +66,11 @@ template <int dim>
 void Peridynamics<dim>::refuse_what_bonds_do_not_know() const
 {
   for (const InitialCrack<dim> &crack : scene.cracks)
-    if (crack.kind == InitialCrack<dim>::Kind::cohesive)
+    if (crack.kind != InitialCrack<dim>::Kind::open)
       throw EntryError(crack.entry, crack.text,
                        "nothing (an empty entry) with the fracture model 'peridynamics', whose "
                        "cracks are open from the start ('Cracks/Open'); 'cohesive_xfem' knows "
-                       "cohesive ones");
+                       "cohesive and propped ones");
   if (!parameters.growth)
     return;
   const RockProperties &rock = scene.rock.main();

@@ -4,6 +4,7 @@
 #include "discontinuity/contact.h"
 #include "discontinuity/discontinuity.h"
 #include "discontinuity/interaction_integral.h"
+#include "discontinuity/proppant.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 #include "stockwork/fracture/registry.h"
@@ -32,6 +33,7 @@ public:
               scene.rock.main().plane_modulus(),
               scene.domain_size)
   {
+    contact.keep_apart(propped_gaps(scene.cracks, discontinuity));
     if (scene.cracks.empty())
       throw InputError("The model 'prescribed' needs at least one crack (subsection Cracks).");
   }
@@ -72,6 +74,7 @@ public:
       segment.given_pressure = scene.crack_pressure;
       segment.initial_pressure = std::max(0., -(n * (scene.in_situ_stress(segment.centre) * n)));
     }
+    add_proppant(scene.cracks, discontinuity, all_segments);
   }
 
   std::vector<ExtraUnknown> extra_unknowns() const override
