@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """Draw the paths of the fractures of several runs, and print how far each has turned.
 
-    paths.py DIRECTORY... [--time T] [--split Y] [--output FILE.png]
+    paths.py DIRECTORY... [--time T] [--crack N] [--split Y] [--output FILE.png]
 
 Looked at is x > 0, and what lies above and what lies below y = Y (0 without --split) is a wing each. Printed are
 the place of its tip, how far that has moved away from the line y = Y since the wing's first point [m], and the direction
 of the wing's last quarter against x [degrees], positive away from that line. A fracture along it has to be kept to one
-side by --split.
+side by --split. With --crack only this one is looked at, counted from 1 in the order of the deck.
 """
 import argparse
 import os
@@ -23,9 +23,13 @@ import vtu  # noqa: E402
 from results import ResultError, script  # noqa: E402
 
 
-def wings(fracture, split):
+def wings(fracture, split, crack):
     """[(points of a wing in order of x, 1 above or -1 below the split)]."""
-    ends, _ = fracture.cells(vtu.LINE)
+    ends, cells = fracture.cells(vtu.LINE)
+    if crack and len(ends):
+        of_crack = (fracture.cell_data["crack"][cells] if "crack" in fracture.cell_data else
+                    fracture.point_data["crack"][ends].mean(axis=1))
+        ends = ends[of_crack.round() == crack]
     if not len(ends):
         return []
     points = np.unique(fracture.points[ends.ravel()][:, :2].round(9), axis=0)
@@ -46,6 +50,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", nargs="+")
     parser.add_argument("--time", type=float)
+    parser.add_argument("--crack", type=int)
     parser.add_argument("--split", type=float, default=0.)
     parser.add_argument("--output")
     options = parser.parse_args()
@@ -54,7 +59,7 @@ def main():
     print("run,time,x,y,away,direction")
     for i, directory in enumerate(options.directory):
         time, path = vtu.at_time(vtu.series(directory, "fracture"), options.time)
-        found = wings(vtu.read(path), options.split)
+        found = wings(vtu.read(path), options.split, options.crack)
         if not found:
             raise ResultError(f"'{directory}' has no fracture in x > 0 at {time:g} s")
         name = os.path.basename(os.path.normpath(directory))
