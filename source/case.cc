@@ -487,6 +487,38 @@ void check_reference(ParameterHandler &prm, const Case<dim> &the_case)
 }
 
 
+/// What flow in pores and in fractures cannot do without.
+void require_for_flow(ParameterHandler &prm, const bool in_pores, const bool in_fractures)
+{
+  if (in_pores)
+    require(prm, "Rock", "Permeability",
+            "a permeability > 0 m^2, such as '1 md', for the pore pressure is solved for; or 'Bulk "
+            "model = elastic'");
+  if (in_pores || in_fractures)
+    require(prm, "Fluid", "Viscosity",
+            "a viscosity > 0 Pa s, such as '1 cP', for there is flow in pores or fractures; or, "
+            "where a fracture is dry, 'Cracks/Fluid pressure = 0'");
+}
+
+
+/// What cracks cannot be in this body, with these wells and this leak-off.
+template <int dim>
+void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings)
+{
+  const auto &cracks = the_case.scene.cracks;
+  if constexpr (dim == 2)
+    if (const std::string text = body_in_two(cracks, the_case.geometry); !text.empty())
+      warnings.push_back(text);
+  the_case.network.check_perforations(cracks);
+  for (const InitialCrack<dim> &crack : cracks)
+    if (crack.kind == InitialCrack<dim>::Kind::propped &&
+        the_case.network.leak_off_law() == LeakOff::carter)
+      throw EntryError(crack.entry, crack.text,
+                       "nothing (an empty entry) with 'Fracture flow/Leak-off = carter', which "
+                       "knows how long faces have been bare and not what a well takes from them");
+}
+
+
 /// What a scheme in time needs, and what it cannot be with.
 template <int dim>
 void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case)
@@ -554,15 +586,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
 
   scene.cracks = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
   scene.domain_size = geometry.diameter();
-  if constexpr (dim == 2)
-    if (const std::string text = body_in_two(scene.cracks, geometry); !text.empty())
-      warnings.push_back(text);
-  network.check_perforations(scene.cracks);
-  for (const InitialCrack<dim> &crack : scene.cracks)
-    if (crack.kind == InitialCrack<dim>::Kind::propped && network.leak_off_law() == LeakOff::carter)
-      throw EntryError(crack.entry, crack.text,
-                       "nothing (an empty entry) with 'Fracture flow/Leak-off = carter', which "
-                       "knows how long faces have been bare and not what a well takes from them");
+  check_cracks(*this, warnings);
   scene.crack_pressure = given_crack_pressure(prm);
   control.parse_parameters(prm);
   network.check_wells(control.start_time, control.end_time);
@@ -589,14 +613,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
                        std::to_string(geometry.region(region)) + "' is empty.");
   elements = parse_elements<dim>(prm, rock, boundary_conditions, network, model->requirements());
   scene.has_pore_pressure = elements.has_pore_pressure;
-  if (elements.has_pore_pressure)
-    require(prm, "Rock", "Permeability",
-            "a permeability > 0 m^2, such as '1 md', for the pore pressure is solved for; or 'Bulk "
-            "model = elastic'");
-  if (elements.has_pore_pressure || solves_for_flow)
-    require(prm, "Fluid", "Viscosity",
-            "a viscosity > 0 Pa s, such as '1 cP', for there is flow in pores or fractures; or, "
-            "where a fracture is dry, 'Cracks/Fluid pressure = 0'");
+  require_for_flow(prm, elements.has_pore_pressure, solves_for_flow);
   if (elements.has_pore_pressure)
     refuse_incompressible(prm, rock, geometry, boundary_conditions);
 

@@ -97,90 +97,98 @@ void BulkAssembly<dim>::set_up()
 
 
 template <int dim>
+void BulkAssembly<dim>::visit_cells(const StepContext &context,
+                                    TrilinosWrappers::BlockSparseMatrix &matrix,
+                                    TrilinosWrappers::SparseMatrix *fixed_stress_mass)
+{
+  const auto &fe = mesh_view.dof_handler.get_fe();
+  const auto &layout = matrices.layout();
+  const unsigned int n_p = layout.n_p;
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()),
+    displacement_dofs(layout.u.size()), pressure_dofs(n_p);
+  std::vector<unsigned int> pressure_nodes(n_p);
+  std::iota(pressure_nodes.begin(), pressure_nodes.end(), 0u);
+  RowWriter writer, pressure_writer;
+  matrix = 0.;
+  if (n_p > 0)
+  {
+    storage.reinit(matrix.block(1, 1));
+    diffusion.reinit(matrix.block(1, 1));
+    storage = 0.;
+    diffusion = 0.;
+    if (fixed_stress_mass != nullptr)
+      *fixed_stress_mass = 0.;
+    content.reinit(owned, relevant, matrix.block(0, 0).get_mpi_communicator(), true);
+  }
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      matrices.reinit(cell, context);
+      cell->get_dof_indices(dofs);
+      for (unsigned int k = 0; k < layout.u.size(); ++k)
+        displacement_dofs[k] = dofs[layout.u[k]];
+      for (unsigned int a = 0; a < n_p; ++a)
+        pressure_dofs[a] = dofs[layout.p[a]] - owned[0].size();
+
+      const bool in_place =
+        std::none_of(dofs.begin(), dofs.end(),
+                     [&](const auto i) { return mesh_view.constraints.is_constrained(i); }) &&
+        writer.reinit(matrix.block(0, 0), displacement_dofs, displacement_dofs) &&
+        (n_p == 0 || pressure_writer.reinit(storage, pressure_dofs, pressure_dofs));
+      if (in_place)
+      {
+        writer.add(matrices.whole, layout.u, layout.u, matrix.block(0, 0));
+        if (n_p == 0)
+          continue;
+        writer.reinit(matrix.block(0, 1), displacement_dofs, pressure_dofs);
+        writer.add(matrices.whole, layout.u, layout.p, matrix.block(0, 1));
+        writer.reinit(matrix.block(1, 0), pressure_dofs, displacement_dofs);
+        writer.add(matrices.whole, layout.p, layout.u, matrix.block(1, 0));
+        pressure_writer.add(matrices.storage, pressure_nodes, pressure_nodes, storage);
+        pressure_writer.add(matrices.diffusion, pressure_nodes, pressure_nodes, diffusion);
+        if (fixed_stress_mass != nullptr)
+          pressure_writer.add(matrices.fixed_stress, pressure_nodes, pressure_nodes,
+                              *fixed_stress_mass);
+      }
+      else
+      {
+        mesh_view.constraints.distribute_local_to_global(matrices.whole, dofs, matrix);
+        if (n_p == 0)
+          continue;
+        pressure_constraints.distribute_local_to_global(matrices.storage, pressure_dofs, storage);
+        pressure_constraints.distribute_local_to_global(matrices.diffusion, pressure_dofs,
+                                                        diffusion);
+        if (fixed_stress_mass != nullptr)
+          pressure_constraints.distribute_local_to_global(matrices.fixed_stress, pressure_dofs,
+                                                          *fixed_stress_mass);
+      }
+      content.add(dofs, matrices.content);
+    }
+  matrix.compress(VectorOperation::add);
+  if (n_p > 0)
+  {
+    storage.compress(VectorOperation::add);
+    diffusion.compress(VectorOperation::add);
+    content.compress(VectorOperation::add);
+    if (fixed_stress_mass != nullptr)
+      fixed_stress_mass->compress(VectorOperation::add);
+  }
+}
+
+
+template <int dim>
 bool BulkAssembly<dim>::matrix(const StepContext &context,
                                const bool anew,
                                TrilinosWrappers::BlockSparseMatrix &matrix,
                                TrilinosWrappers::SparseMatrix *fixed_stress_mass)
 {
-  const auto &fe = mesh_view.dof_handler.get_fe();
-  const auto &layout = matrices.layout();
-  const unsigned int n_p = layout.n_p;
-
   const bool visits_cells = anew || context.acceleration != acceleration;
   if (visits_cells)
   {
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()),
-      displacement_dofs(layout.u.size()), pressure_dofs(n_p);
-    std::vector<unsigned int> pressure_nodes(n_p);
-    std::iota(pressure_nodes.begin(), pressure_nodes.end(), 0u);
-    RowWriter writer, pressure_writer;
-    matrix = 0.;
-    if (n_p > 0)
-    {
-      storage.reinit(matrix.block(1, 1));
-      diffusion.reinit(matrix.block(1, 1));
-      storage = 0.;
-      diffusion = 0.;
-      if (fixed_stress_mass != nullptr)
-        *fixed_stress_mass = 0.;
-      content.reinit(owned, relevant, matrix.block(0, 0).get_mpi_communicator(), true);
-    }
-    for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-      {
-        matrices.reinit(cell, context);
-        cell->get_dof_indices(dofs);
-        for (unsigned int k = 0; k < layout.u.size(); ++k)
-          displacement_dofs[k] = dofs[layout.u[k]];
-        for (unsigned int a = 0; a < n_p; ++a)
-          pressure_dofs[a] = dofs[layout.p[a]] - owned[0].size();
-
-        const bool in_place =
-          std::none_of(dofs.begin(), dofs.end(),
-                       [&](const auto i) { return mesh_view.constraints.is_constrained(i); }) &&
-          writer.reinit(matrix.block(0, 0), displacement_dofs, displacement_dofs) &&
-          (n_p == 0 || pressure_writer.reinit(storage, pressure_dofs, pressure_dofs));
-        if (in_place)
-        {
-          writer.add(matrices.whole, layout.u, layout.u, matrix.block(0, 0));
-          if (n_p == 0)
-            continue;
-          writer.reinit(matrix.block(0, 1), displacement_dofs, pressure_dofs);
-          writer.add(matrices.whole, layout.u, layout.p, matrix.block(0, 1));
-          writer.reinit(matrix.block(1, 0), pressure_dofs, displacement_dofs);
-          writer.add(matrices.whole, layout.p, layout.u, matrix.block(1, 0));
-          pressure_writer.add(matrices.storage, pressure_nodes, pressure_nodes, storage);
-          pressure_writer.add(matrices.diffusion, pressure_nodes, pressure_nodes, diffusion);
-          if (fixed_stress_mass != nullptr)
-            pressure_writer.add(matrices.fixed_stress, pressure_nodes, pressure_nodes,
-                                *fixed_stress_mass);
-        }
-        else
-        {
-          mesh_view.constraints.distribute_local_to_global(matrices.whole, dofs, matrix);
-          if (n_p == 0)
-            continue;
-          pressure_constraints.distribute_local_to_global(matrices.storage, pressure_dofs, storage);
-          pressure_constraints.distribute_local_to_global(matrices.diffusion, pressure_dofs,
-                                                          diffusion);
-          if (fixed_stress_mass != nullptr)
-            pressure_constraints.distribute_local_to_global(matrices.fixed_stress, pressure_dofs,
-                                                            *fixed_stress_mass);
-        }
-        content.add(dofs, matrices.content);
-      }
-    matrix.compress(VectorOperation::add);
-    if (n_p > 0)
-    {
-      storage.compress(VectorOperation::add);
-      diffusion.compress(VectorOperation::add);
-      content.compress(VectorOperation::add);
-      if (fixed_stress_mass != nullptr)
-        fixed_stress_mass->compress(VectorOperation::add);
-    }
+    visit_cells(context, matrix, fixed_stress_mass);
     acceleration = context.acceleration;
   }
-  if (n_p > 0)
+  if (matrices.layout().n_p > 0)
   {
     auto &pressure = matrix.block(1, 1);
     pressure = 0.;

@@ -82,6 +82,11 @@ public:
   double outflow(const StepContext &context, const State &state) const;
 
 private:
+  /// What matrix() does where cells are visited, but for the pressure block.
+  void visit_cells(const StepContext &context,
+                   dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
+                   dealii::TrilinosWrappers::SparseMatrix *fixed_stress_mass);
+
   using LocalVector = dealii::Vector<double>;
 
   /// Numbers of the pressure dofs and of the cells that need more than a product.

@@ -293,6 +293,75 @@ held_components(const MeshView<dim> &mesh_view,
   return held;
 }
 
+namespace
+{
+/// Add the pieces of a line within a cell of this rank to those found.
+template <int dim, typename CellIterator>
+void cut_cell_by(const ProlongedPolyline &line,
+                 const std::vector<Point<dim>> &polyline,
+                 const MeshView<dim> &mesh_view,
+                 const CellIterator &cell,
+                 const bool exact_ends,
+                 std::vector<Found> &found)
+{
+  std::vector<Crossing> crossings;
+  for (unsigned int f = 0; f < 4; ++f)
+    line.cross_edge(cell->vertex(face_vertices[f][0]), cell->vertex(face_vertices[f][1]), f,
+                    crossings);
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing &a, const Crossing &b) { return a.arc < b.arc; });
+  for (unsigned int i = 0; i + 1 < crossings.size(); i += 2)
+  {
+    const std::array<double, 2> arcs = {{crossings[i].arc, crossings[i + 1].arc}};
+    // A tip this close to an edge is taken to be on it: of the stress intensity, pressure on a
+    // part e of the half length a makes sqrt(2 e/a). Whole spans are chosen below, from what
+    // lies a few cells beyond the ends as well.
+    const double sliver =
+      exact_ends ? 1e-7 * (arcs[1] - arcs[0]) : -3. * cell->vertex(0).distance(cell->vertex(3));
+    if (arcs[1] < sliver || arcs[0] > line.length - sliver ||
+        crossings[i].face == crossings[i + 1].face)
+      continue;
+    Found f;
+    f.arcs = arcs;
+    f.piece.cell = cell->id();
+    for (unsigned int v = 0; v < 4; ++v)
+      f.piece.corners[v] = cell->vertex(v);
+    for (unsigned int e = 0; e < 2; ++e)
+    {
+      place_end(f.piece, e, crossings[i + e].face, crossings[i + e].share);
+      f.piece.at_boundary[e] = cell->face(crossings[i + e].face)->at_boundary();
+    }
+    if (exact_ends)
+    {
+      const auto end_inside = [&](const unsigned int e, const Point<dim> &tip)
+      {
+        f.piece.inside[e] = true;
+        f.piece.at_boundary[e] = false;
+        f.piece.ends[e] = tip;
+        f.piece.unit_ends[e] = mesh_view.mapping.transform_real_to_unit_cell(cell, tip);
+      };
+      if (arcs[0] < -sliver)
+        end_inside(0, polyline.front());
+      if (arcs[1] > line.length + sliver)
+        end_inside(1, polyline.back());
+    }
+    f.piece.along = crossings[i].line == crossings[i + 1].line
+                      ? line.direction(crossings[i].line)
+                      : (f.piece.ends[1] - f.piece.ends[0]) / f.piece.length();
+    try
+    {
+      f.piece.held = held_components(mesh_view, cell);
+    }
+    catch (const InputError &error)
+    {
+      f.fault = error.what();
+    }
+    found.push_back(f);
+  }
+}
+} // namespace
+
+
 template <int dim>
 CrackPath<dim> cut_polyline(const MeshView<dim> &mesh_view,
                             const std::vector<Point<dim>> &polyline,
@@ -305,65 +374,9 @@ CrackPath<dim> cut_polyline(const MeshView<dim> &mesh_view,
   const ProlongedPolyline line(polyline, domain_size);
 
   std::vector<Found> found;
-  std::vector<Crossing> crossings;
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-    {
-      crossings.clear();
-      for (unsigned int f = 0; f < 4; ++f)
-        line.cross_edge(cell->vertex(face_vertices[f][0]), cell->vertex(face_vertices[f][1]), f,
-                        crossings);
-      std::sort(crossings.begin(), crossings.end(),
-                [](const Crossing &a, const Crossing &b) { return a.arc < b.arc; });
-      for (unsigned int i = 0; i + 1 < crossings.size(); i += 2)
-      {
-        const std::array<double, 2> arcs = {{crossings[i].arc, crossings[i + 1].arc}};
-        // A tip this close to an edge is taken to be on it: of the stress intensity, pressure on a
-        // part e of the half length a makes sqrt(2 e/a). Whole spans are chosen below, from what
-        // lies a few cells beyond the ends as well.
-        const double sliver =
-          exact_ends ? 1e-7 * (arcs[1] - arcs[0]) : -3. * cell->vertex(0).distance(cell->vertex(3));
-        if (arcs[1] < sliver || arcs[0] > line.length - sliver ||
-            crossings[i].face == crossings[i + 1].face)
-          continue;
-        Found f;
-        f.arcs = arcs;
-        f.piece.cell = cell->id();
-        for (unsigned int v = 0; v < 4; ++v)
-          f.piece.corners[v] = cell->vertex(v);
-        for (unsigned int e = 0; e < 2; ++e)
-        {
-          place_end(f.piece, e, crossings[i + e].face, crossings[i + e].share);
-          f.piece.at_boundary[e] = cell->face(crossings[i + e].face)->at_boundary();
-        }
-        if (exact_ends)
-        {
-          const auto end_inside = [&](const unsigned int e, const Point<dim> &tip)
-          {
-            f.piece.inside[e] = true;
-            f.piece.at_boundary[e] = false;
-            f.piece.ends[e] = tip;
-            f.piece.unit_ends[e] = mesh_view.mapping.transform_real_to_unit_cell(cell, tip);
-          };
-          if (arcs[0] < -sliver)
-            end_inside(0, polyline.front());
-          if (arcs[1] > line.length + sliver)
-            end_inside(1, polyline.back());
-        }
-        f.piece.along = crossings[i].line == crossings[i + 1].line
-                          ? line.direction(crossings[i].line)
-                          : (f.piece.ends[1] - f.piece.ends[0]) / f.piece.length();
-        try
-        {
-          f.piece.held = held_components(mesh_view, cell);
-        }
-        catch (const InputError &error)
-        {
-          f.fault = error.what();
-        }
-        found.push_back(f);
-      }
-    }
+      cut_cell_by(line, polyline, mesh_view, cell, exact_ends, found);
   found = collectives.gather(found);
   std::stable_sort(found.begin(), found.end(),
                    [](const Found &a, const Found &b)

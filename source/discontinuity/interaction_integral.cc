@@ -62,6 +62,121 @@ struct Weight
     return s <= 0. || s >= 1. ? 0. : -6. * s * (1. - s) / (outer - inner);
   }
 };
+
+/// The tip, the axes there, and the fields around it that the integral pairs with those computed.
+template <int dim>
+struct Tip
+{
+  Point<dim> point;
+  Tensor<1, dim> along, across;
+  Tensor<2, dim> frame; ///< rows: the axes
+  CrackEnd end;
+  NearTipField field;
+
+  Tip(const Point<dim> &point,
+      const Tensor<1, dim> &along,
+      const CrackEnd end,
+      const LinearStiffness<dim> &rock)
+    : point(point)
+    , along(along)
+    , end(end)
+    , field(rock, along)
+  {
+    across[0] = -along[1];
+    across[1] = along[0];
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      frame[0][d] = along[d];
+      frame[1][d] = across[d];
+    }
+  }
+
+  /// In the frame of the tip. Where the crack runs beside its line, its side counts and not the
+  /// place.
+  /// @param piece that cuts the cell, or null
+  /// @param unit_point in that cell
+  Tensor<1, dim> place(const Point<dim> &x,
+                       const CrackPiece<dim> *const piece,
+                       const Point<dim> *const unit_point) const
+  {
+    Tensor<1, dim> place = frame * (x - point);
+    if (piece != nullptr && place[0] < 0.)
+    {
+      const bool left = piece->plus_side(*unit_point) == (end == CrackEnd::last);
+      place[1] = std::copysign(left == (place[1] > 0.) ? place[1] : 0., left ? 1. : -1.);
+    }
+    return place;
+  }
+};
+
+/// What the points of a cell add to the integral, mode by mode.
+/// @param cut the cell as a crack cuts it, or null; its points are those of @p fe_values
+template <int dim>
+void add_cell(const Tip<dim> &tip,
+              const TipStress &stress_of,
+              const Weight &weight,
+              const dealii::FEValues<dim> &fe_values,
+              const CutCell<dim> *const cut,
+              const CrackPiece<dim> *const piece,
+              const State &state,
+              std::vector<double> &sums)
+{
+  std::vector<Tensor<2, dim>> gradients(fe_values.n_quadrature_points);
+  fe_values[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(state.current.bulk,
+                                                                          gradients);
+  for (unsigned int q = 0; q < gradients.size(); ++q)
+  {
+    const Tensor<1, dim> x =
+      tip.place(fe_values.quadrature_point(q), piece, piece != nullptr ? &cut->points[q] : nullptr);
+    const double r = (tip.frame * (fe_values.quadrature_point(q) - tip.point)).norm();
+    if (weight.slope(r) == 0.)
+      continue;
+    Tensor<2, dim> gradient = gradients[q];
+    if (cut != nullptr)
+      for (unsigned int c = 0; c < cut->n_columns(); ++c)
+        gradient[cut->component[c]] +=
+          state.current.extra[cut->extra[c]] * cut->gradients[q * cut->n_columns() + c];
+    gradient = tip.frame * gradient * transpose(tip.frame);
+    const SymmetricTensor<2, dim> stress = stress_of(gradient);
+    const double dA = cut != nullptr ? cut->weights[q] : fe_values.JxW(q);
+    const Tensor<1, dim> dq = weight.slope(r) / r * x;
+    for (unsigned int mode = 0; mode < 2; ++mode)
+    {
+      const Tensor<2, dim> unit = unit_gradient(tip.field, mode, x);
+      const SymmetricTensor<2, dim> unit_stress = stress_of(unit);
+      double integrand = -(stress * symmetrize(unit)) * dq[0];
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          integrand += (stress[i][j] * unit[i][0] + unit_stress[i][j] * gradient[i][0]) * dq[j];
+      sums[mode] += integrand * dA;
+    }
+  }
+}
+
+/// What the fluid's pressure on a piece of the crack adds, and the stress that it releases.
+/// [[u^a]],1 = -1/(2 sqrt(r)); with r = s^2 it is smooth.
+/// @param load on the face, along and across the crack at the tip [Pa]
+template <int dim>
+void add_face(const Tip<dim> &tip,
+              const Weight &weight,
+              const CrackPiece<dim> &piece,
+              const Tensor<1, dim> &load,
+              std::vector<double> &sums)
+{
+  const dealii::QGauss<1> line(4);
+  const double from = piece.ends[0].distance(tip.point), to = piece.ends[1].distance(tip.point);
+  if (std::min(from, to) >= weight.outer)
+    return;
+  const double a = std::sqrt(std::min(from, to)), b = std::sqrt(std::max(from, to));
+  double integral = 0.;
+  for (unsigned int q = 0; q < line.size(); ++q)
+  {
+    const double s = a + (b - a) * line.point(q)[0];
+    integral -= weight.value(s * s) * (b - a) * line.weight(q);
+  }
+  sums[0] += load[1] * integral;
+  sums[1] += load[0] * integral;
+}
 } // namespace
 
 template <int dim>
@@ -76,111 +191,46 @@ StressIntensity stress_intensity(const unsigned int crack,
 {
   const CrackPath<dim> &path = discontinuity.paths()[crack];
   const CrackTip<dim> *exact = discontinuity.tip(crack, end);
-  const Point<dim> tip = exact != nullptr ? exact->point : path.tip(end);
-  const Tensor<1, dim> along = exact != nullptr ? exact->along : path.direction(end);
-  Tensor<1, dim> across;
-  across[0] = -along[1];
-  across[1] = along[0];
-  Tensor<2, dim> frame; // rows: the axes at the tip
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    frame[0][d] = along[d];
-    frame[1][d] = across[d];
-  }
   const LinearStiffness<dim> rock(scene.rock.main());
-  const TipStress stress_of{rock, frame};
-  const NearTipField field(rock, along);
+  const Tip<dim> tip(exact != nullptr ? exact->point : path.tip(end),
+                     exact != nullptr ? exact->along : path.direction(end), end, rock);
+  const TipStress stress_of{rock, tip.frame};
   const Weight weight{0.25 * radius, radius};
 
   const auto &fe = mesh_view.dof_handler.get_fe();
-  const dealii::QGauss<dim> gauss(4);
-  const dealii::FEValuesExtractors::Vector displacement(0);
   const auto flags =
     dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
-  dealii::FEValues<dim> plain_values(mesh_view.mapping, fe, gauss, flags);
-
+  dealii::FEValues<dim> plain_values(mesh_view.mapping, fe, dealii::QGauss<dim>(4), flags);
   std::vector<double> sums(2, 0.);
-  const auto add_points = [&](const dealii::FEValues<dim> &fe_values, const CutCell<dim> *cut,
-                              const CrackPiece<dim> *piece)
-  {
-    std::vector<Tensor<2, dim>> gradients(fe_values.n_quadrature_points);
-    fe_values[displacement].get_function_gradients(state.current.bulk, gradients);
-    for (unsigned int q = 0; q < gradients.size(); ++q)
-    {
-      Tensor<1, dim> x = frame * (fe_values.quadrature_point(q) - tip);
-      const double r = x.norm();
-      // Where the crack runs beside its line, its side counts and not the place.
-      if (piece != nullptr && x[0] < 0.)
-      {
-        const bool left = piece->plus_side(cut->points[q]) == (end == CrackEnd::last);
-        x[1] = std::copysign(left == (x[1] > 0.) ? x[1] : 0., left ? 1. : -1.);
-      }
-      if (weight.slope(r) == 0.)
-        continue;
-      Tensor<2, dim> gradient = gradients[q];
-      if (cut != nullptr)
-        for (unsigned int c = 0; c < cut->n_columns(); ++c)
-          gradient[cut->component[c]] +=
-            state.current.extra[cut->extra[c]] * cut->gradients[q * cut->n_columns() + c];
-      gradient = frame * gradient * transpose(frame);
-      const SymmetricTensor<2, dim> stress = stress_of(gradient);
-      const double dA = cut != nullptr ? cut->weights[q] : fe_values.JxW(q);
-      const Tensor<1, dim> dq = weight.slope(r) / r * x;
-      for (unsigned int mode = 0; mode < 2; ++mode)
-      {
-        const Tensor<2, dim> unit = unit_gradient(field, mode, x);
-        const SymmetricTensor<2, dim> unit_stress = stress_of(unit);
-        double integrand = -(stress * symmetrize(unit)) * dq[0];
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            integrand += (stress[i][j] * unit[i][0] + unit_stress[i][j] * gradient[i][0]) * dq[j];
-        sums[mode] += integrand * dA;
-      }
-    }
-  };
-
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const auto &low = cell->vertex(0), &high = cell->vertex((1 << dim) - 1);
-      if ((low + 0.5 * (high - low)).distance(tip) > radius + 0.75 * low.distance(high))
+      if ((low + 0.5 * (high - low)).distance(tip.point) > radius + 0.75 * low.distance(high))
         continue;
       if (const CutCell<dim> *cut = discontinuity.cut_cell(cell->active_cell_index()))
       {
         dealii::FEValues<dim> cut_values(mesh_view.mapping, fe,
                                          dealii::Quadrature<dim>(cut->points), flags);
         cut_values.reinit(cell);
-        add_points(cut_values, cut, discontinuity.piece_in(cell->id(), crack));
+        add_cell(tip, stress_of, weight, cut_values, cut, discontinuity.piece_in(cell->id(), crack),
+                 state, sums);
       }
       else
       {
         plain_values.reinit(cell);
-        add_points(plain_values, nullptr, nullptr);
+        add_cell<dim>(tip, stress_of, weight, plain_values, nullptr, nullptr, state, sums);
       }
     }
   collectives.sum(sums);
 
-  // The loaded faces. [[u^a]],1 = -1/(2 sqrt(r)); with r = s^2 it is smooth.
-  const dealii::QGauss<1> line(4);
   for (unsigned int i = 0; i < path.pieces.size(); ++i)
   {
-    const CrackPiece<dim> &piece = path.pieces[i];
-    const double from = piece.ends[0].distance(tip), to = piece.ends[1].distance(tip);
-    if (std::min(from, to) >= radius)
-      continue;
     const double pressure =
       state.segment_pressure ? state.segment_pressure(discontinuity.segment_key(crack, i)) : 0.;
-    const Tensor<1, dim> load =
-      -1. * (frame * (pressure * across + scene.in_situ_stress(piece.centre()) * across));
-    const double a = std::sqrt(std::min(from, to)), b = std::sqrt(std::max(from, to));
-    double integral = 0.;
-    for (unsigned int q = 0; q < line.size(); ++q)
-    {
-      const double s = a + (b - a) * line.point(q)[0];
-      integral -= weight.value(s * s) * (b - a) * line.weight(q);
-    }
-    sums[0] += load[1] * integral;
-    sums[1] += load[0] * integral;
+    const Tensor<1, dim> released = scene.in_situ_stress(path.pieces[i].centre()) * tip.across;
+    add_face(tip, weight, path.pieces[i], -1. * (tip.frame * (pressure * tip.across + released)),
+             sums);
   }
   const double factor = std::sqrt(8. / dealii::numbers::PI);
   StressIntensity result{factor * sums[0], factor * sums[1]};
@@ -188,7 +238,7 @@ StressIntensity stress_intensity(const unsigned int crack,
   k[0] = result.shear;
   k[1] = result.opening;
   result.energy_release_rate =
-    0.5 * (k * (PlaneElasticity(rock.tensor(), along).crack_compliance * k));
+    0.5 * (k * (PlaneElasticity(rock.tensor(), tip.along).crack_compliance * k));
   return result;
 }
 

@@ -114,6 +114,46 @@ std::vector<double> FieldOutput<dim>::times_outside(const double start, const do
   return outside;
 }
 
+namespace
+{
+/// Each rank its own cells and, of several, the first one the list of the files.
+/// @return the name of the whole, from @p directory
+template <int dim>
+std::string write_bulk(const DataOut<dim> &output,
+                       const std::string &name,
+                       const std::string &directory,
+                       const MPI_Comm communicator)
+{
+  const unsigned int rank = Utilities::MPI::this_mpi_process(communicator),
+                     n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+  std::vector<std::string> pieces{name + ".vtu"};
+  if (n_ranks > 1)
+  {
+    pieces.clear();
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      pieces.push_back(name + "." + std::to_string(r) + ".vtu");
+  }
+  on_all(communicator,
+         [&]()
+         {
+           std::ostringstream stream;
+           output.write_vtu(stream);
+           write_file(directory + "/vtu/" + pieces[rank], stream.str());
+         });
+  const std::string whole = "vtu/" + name + (n_ranks > 1 ? ".pvtu" : ".vtu");
+  if (n_ranks > 1)
+    on_root(communicator,
+            [&]()
+            {
+              std::ostringstream stream;
+              output.write_pvtu_record(stream, pieces);
+              write_file(directory + "/" + whole, stream.str());
+            });
+  return whole;
+}
+} // namespace
+
+
 template <int dim>
 void FieldOutput<dim>::write(const double time,
                              const MeshView<dim> &mesh_view,
@@ -124,9 +164,7 @@ void FieldOutput<dim>::write(const double time,
 {
   Collector<dim> collector;
   model.write_fields(state, collector);
-  const unsigned int rank = Utilities::MPI::this_mpi_process(communicator),
-                     n_ranks = Utilities::MPI::n_mpi_processes(communicator),
-                     degree = mesh_view.dof_handler.get_fe().degree;
+  const unsigned int degree = mesh_view.dof_handler.get_fe().degree;
 
   CheckedData<DataOut<dim>> output;
   output.attach_dof_handler(mesh_view.dof_handler);
@@ -158,34 +196,12 @@ void FieldOutput<dim>::write(const double time,
   const bool has_fracture = exists(fracture), has_bonds = exists(bonds);
 
   const std::string number = Utilities::int_to_string(bulk_records.size(), 4);
-  const auto piece_name = [&](const unsigned int r)
-  {
-    return n_ranks == 1 ? "fields_" + number + ".vtu"
-                        : "fields_" + number + "." + std::to_string(r) + ".vtu";
-  };
-  on_all(communicator,
-         [&]()
-         {
-           std::ostringstream stream;
-           output.write_vtu(stream);
-           write_file(directory + "/vtu/" + piece_name(rank), stream.str());
-         });
-  const std::string bulk_file =
-    "vtu/" + (n_ranks == 1 ? piece_name(0) : "fields_" + number + ".pvtu");
+  const std::string bulk_file = write_bulk(output, "fields_" + number, directory, communicator);
   const std::string fracture_name = "vtu/fracture_" + number + ".vtu",
                     bonds_name = "vtu/bonds_" + number + ".vtu";
   on_root(communicator,
           [&]()
           {
-            if (n_ranks > 1)
-            {
-              std::vector<std::string> names;
-              for (unsigned int r = 0; r < n_ranks; ++r)
-                names.push_back(piece_name(r));
-              std::ostringstream stream;
-              output.write_pvtu_record(stream, names);
-              write_file(directory + "/" + bulk_file, stream.str());
-            }
             if (has_fracture)
               write_file(directory + "/" + fracture_name, fracture);
             if (has_bonds)

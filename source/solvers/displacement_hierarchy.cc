@@ -65,6 +65,77 @@ std::vector<std::vector<double>> rigid_body_modes(const std::vector<Place<dim>> 
     }
   return modes;
 }
+
+
+/// The displacement's own unknowns of this rank, in their order.
+template <int dim>
+std::vector<Place<dim>>
+places_of(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler, const IndexSet &owned)
+{
+  const FiniteElement<dim> &fe = dof_handler.get_fe();
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  std::vector<Place<dim>> places(owned.n_elements());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (fe.system_to_component_index(i).first < dim && owned.is_element(dofs[i]))
+        {
+          auto &place = places[owned.index_within_set(dofs[i])];
+          if (place.direction < dim)
+            continue;
+          place.point = mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i));
+          place.direction = fe.system_to_component_index(i).first;
+          place.at_vertex = i < fe.n_dofs_per_vertex() * cell->n_vertices();
+        }
+    }
+  return places;
+}
+
+
+/// Whether on every rank the unknowns of a node follow one another.
+template <int dim>
+bool are_ordered(const std::vector<Place<dim>> &places,
+                 const IndexSet &owned,
+                 const MPI_Comm communicator)
+{
+  const bool torn = places.size() % dim != 0;
+  bool ordered = !torn && (owned.n_elements() == 0 || owned.nth_index_in_set(0) % dim == 0);
+  for (unsigned int i = 0; ordered && i < places.size(); ++i)
+    ordered =
+      places[i].direction == i % dim && places[i].point.distance(places[i - i % dim].point) == 0.;
+  return Utilities::MPI::min(ordered ? 1 : 0, communicator) == 1;
+}
+
+
+/// Those of the unknowns that belong to vertices, numbered over all ranks.
+struct VertexNumbers
+{
+  IndexSet owned;                       ///< of the numbers
+  TrilinosWrappers::MPI::Vector number; ///< of an unknown, also of the neighbours'; -1: none
+
+  template <int dim>
+  VertexNumbers(const std::vector<Place<dim>> &places,
+                const IndexSet &owned_dofs,
+                const IndexSet &relevant,
+                const MPI_Comm communicator)
+    : number(owned_dofs, relevant, communicator)
+  {
+    const unsigned int mine =
+      std::count_if(places.begin(), places.end(), [](const auto &p) { return p.at_vertex; });
+    const auto counts = Utilities::MPI::all_gather(communicator, mine);
+    const auto rank = Utilities::MPI::this_mpi_process(communicator);
+    const auto begin = std::accumulate(counts.begin(), counts.begin() + rank, 0u);
+    owned.set_size(std::accumulate(counts.begin(), counts.end(), 0u));
+    owned.add_range(begin, begin + mine);
+    TrilinosWrappers::MPI::Vector own(owned_dofs, communicator);
+    for (unsigned int i = 0, next = begin; i < places.size(); ++i)
+      own(owned_dofs.nth_index_in_set(i)) = places[i].at_vertex ? next++ : -1.;
+    own.compress(VectorOperation::insert);
+    number = own;
+  }
+};
 } // namespace
 
 
@@ -85,55 +156,21 @@ DisplacementHierarchy make_displacement_hierarchy(const Mapping<dim> &mapping,
   const IndexSet owned = dof_handler.locally_owned_dofs().get_view(0, n);
   relevant = relevant.get_view(0, n);
 
-  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-  std::vector<Place<dim>> places(owned.n_elements());
-  for (const auto &cell : dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (fe.system_to_component_index(i).first < dim && owned.is_element(dofs[i]))
-        {
-          auto &place = places[owned.index_within_set(dofs[i])];
-          if (place.direction < dim)
-            continue;
-          place.point = mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i));
-          place.direction = fe.system_to_component_index(i).first;
-          place.at_vertex = i < fe.n_dofs_per_vertex() * cell->n_vertices();
-        }
-    }
-
+  const std::vector<Place<dim>> places = places_of(mapping, dof_handler, owned);
   DisplacementHierarchy hierarchy;
   hierarchy.dim = dim;
-  const bool torn = places.size() % dim != 0;
-  bool ordered = !torn && (owned.n_elements() == 0 || owned.nth_index_in_set(0) % dim == 0);
-  for (unsigned int i = 0; ordered && i < places.size(); ++i)
-    ordered =
-      places[i].direction == i % dim && places[i].point.distance(places[i - i % dim].point) == 0.;
-  hierarchy.nodes_together = Utilities::MPI::min(ordered ? 1 : 0, communicator) == 1;
+  hierarchy.nodes_together = are_ordered(places, owned, communicator);
   const bool quadratic = fe.base_element(0).degree > 1;
   hierarchy.rigid_body_modes = rigid_body_modes(places, quadratic, communicator);
   if (!quadratic)
     return hierarchy;
 
-  // Number the vertex dofs, and let the neighbours know.
-  const unsigned int mine =
-    std::count_if(places.begin(), places.end(), [](const auto &p) { return p.at_vertex; });
-  const auto counts = Utilities::MPI::all_gather(communicator, mine);
-  const auto rank = Utilities::MPI::this_mpi_process(communicator);
-  const auto begin = std::accumulate(counts.begin(), counts.begin() + rank, 0u);
-  const auto total = std::accumulate(counts.begin(), counts.end(), 0u);
-  IndexSet vertices(total);
-  vertices.add_range(begin, begin + mine);
-  TrilinosWrappers::MPI::Vector number(owned, communicator), ghosted(owned, relevant, communicator);
-  for (unsigned int i = 0, next = begin; i < places.size(); ++i)
-    number(owned.nth_index_in_set(i)) = places[i].at_vertex ? next++ : -1.;
-  number.compress(VectorOperation::insert);
-  ghosted = number;
+  const VertexNumbers vertices(places, owned, relevant, communicator);
 
   // Interpolate from the vertices of one cell to all its dofs: the same for each component.
   const unsigned int n_vertices = GeometryInfo<dim>::vertices_per_cell;
-  DynamicSparsityPattern pattern(n, total, owned);
+  DynamicSparsityPattern pattern(n, vertices.owned.size(), owned);
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
   const auto for_each_entry = [&](const auto &action)
   {
     std::vector<bool> done(places.size(), false);
@@ -155,7 +192,7 @@ DisplacementHierarchy make_displacement_hierarchy(const Mapping<dim> &mapping,
             // Decoupled in the fine matrix. A fixed vertex keeps a row of its own in the coarse
             // one, a hanging vertex gets it from the free dofs around it.
             if (places[k].at_vertex && constraints.get_constraint_entries(dofs[i])->empty())
-              action(dofs[i], static_cast<unsigned int>(ghosted(dofs[i])), 1.);
+              action(dofs[i], static_cast<unsigned int>(vertices.number(dofs[i])), 1.);
             continue;
           }
           for (unsigned int v = 0; v < n_vertices; ++v)
@@ -166,14 +203,14 @@ DisplacementHierarchy make_displacement_hierarchy(const Mapping<dim> &mapping,
             const auto *lines = constraints.get_constraint_entries(vertex_dof);
             const bool fixed = lines != nullptr && lines->empty();
             if (std::abs(weight) > 1e-12 && !fixed)
-              action(dofs[i], static_cast<unsigned int>(ghosted(vertex_dof)), weight);
+              action(dofs[i], static_cast<unsigned int>(vertices.number(vertex_dof)), weight);
           }
         }
       }
   };
   for_each_entry([&](const auto row, const auto column, double) { pattern.add(row, column); });
   hierarchy.from_linear = std::make_shared<TrilinosWrappers::SparseMatrix>();
-  hierarchy.from_linear->reinit(owned, vertices, pattern, communicator);
+  hierarchy.from_linear->reinit(owned, vertices.owned, pattern, communicator);
   for_each_entry([&](const auto row, const auto column, const double weight)
                  { hierarchy.from_linear->set(row, column, weight); });
   hierarchy.from_linear->compress(VectorOperation::insert);

@@ -90,6 +90,60 @@ LinearReport TangentSolver::iterate(
 }
 
 
+namespace
+{
+/// For as long as it lives, the system is that of the linear rock.
+class LinearRock
+{
+public:
+  explicit LinearRock(LinearSystem &system)
+    : system(system)
+    , change(system.rock_change)
+  {
+    system.rock_change = nullptr;
+  }
+  ~LinearRock()
+  {
+    system.rock_change = change;
+  }
+  LinearRock(const LinearRock &) = delete;
+  LinearRock &operator=(const LinearRock &) = delete;
+
+private:
+  LinearSystem &system;
+  const BlockMatrix *const change;
+};
+
+/// For as long as it lives, the system has another residual.
+class OtherResidual
+{
+public:
+  OtherResidual(LinearSystem &system, SystemVector &residual)
+    : system(system)
+    , residual(residual)
+  {
+    exchange();
+  }
+  ~OtherResidual()
+  {
+    exchange();
+  }
+  OtherResidual(const OtherResidual &) = delete;
+  OtherResidual &operator=(const OtherResidual &) = delete;
+
+private:
+  void exchange()
+  {
+    std::swap(system.residual_bulk, residual.bulk);
+    std::swap(system.residual_extra, residual.extra);
+  }
+
+  LinearSystem &system;
+  SystemVector &residual;
+};
+} // namespace
+
+
 LinearReport TangentSolver::solve(LinearSystem &system,
                                   const SystemStamps &stamps,
                                   const double tolerance,
@@ -99,29 +153,11 @@ LinearReport TangentSolver::solve(LinearSystem &system,
   if (system.rock_change == nullptr)
     return linear->solve(system, stamps, tolerance, dx_bulk, dx_extra);
 
-  const BlockMatrix *const change = system.rock_change;
   const auto by_linear = [&](SystemVector &z, SystemVector &r)
   {
-    std::swap(system.residual_bulk, r.bulk);
-    std::swap(system.residual_extra, r.extra);
-    system.rock_change = nullptr;
-    const auto restore = [&]()
-    {
-      system.rock_change = change;
-      std::swap(system.residual_bulk, r.bulk);
-      std::swap(system.residual_extra, r.extra);
-    };
-    try
-    {
-      const LinearReport report = linear->solve(system, stamps, inner_tolerance, z.bulk, z.extra);
-      restore();
-      return report;
-    }
-    catch (const SolveError &)
-    {
-      restore();
-      throw;
-    }
+    const OtherResidual of_r(system, r);
+    const LinearRock only(system);
+    return linear->solve(system, stamps, inner_tolerance, z.bulk, z.extra);
   };
   const auto by_tangent = [&](SystemVector &z, SystemVector &r)
   {
@@ -176,19 +212,8 @@ LinearReport TangentSolver::solve(LinearSystem &system,
   if (!report.is_good_enough())
   {
     has_tangent = false;
-    system.rock_change = nullptr;
-    LinearReport by_linear_rock;
-    try
-    {
-      by_linear_rock = linear->solve(system, stamps, tolerance, dx_bulk, dx_extra);
-    }
-    catch (const SolveError &)
-    {
-      system.rock_change = change;
-      throw;
-    }
-    system.rock_change = change;
-    add_iterations(by_linear_rock);
+    const LinearRock only(system);
+    add_iterations(linear->solve(system, stamps, tolerance, dx_bulk, dx_extra));
     return report;
   }
   dx_bulk = dx.bulk;

@@ -54,6 +54,57 @@ bool ErrorRecord<dim>::compares(const double time) const
 }
 
 
+namespace
+{
+/// Between the computed fields and the reference, integrated over cells.
+template <int dim>
+struct Difference
+{
+  const Function<dim> &field;
+  const Unknowns &solution;
+
+  /// Of the displacement, then of the pressure: squares of the difference d and of the reference r,
+  /// and their product. For |computed - f r|^2 = |d + (1-f) r|^2.
+  std::vector<double> squares = std::vector<double>(6, 0.);
+
+  Difference(const Function<dim> &field, const Unknowns &solution)
+    : field(field)
+    , solution(solution)
+    , expected(field.n_components)
+  {
+  }
+
+  /// @param cut the cell as a crack cuts it, or null; its points are those of @p values
+  void add(const FEValues<dim> &values, const CutCell<dim> *cut)
+  {
+    computed.assign(values.n_quadrature_points, Vector<double>(expected.size()));
+    values.get_function_values(solution.bulk, computed);
+    for (unsigned int q = 0; q < computed.size(); ++q)
+    {
+      if (cut != nullptr)
+        for (unsigned int c = 0; c < cut->n_columns(); ++c)
+          computed[q](cut->component[c]) +=
+            cut->values[q * cut->n_columns() + c] * solution.extra[cut->extra[c]];
+      field.vector_value(values.quadrature_point(q), expected);
+      for (unsigned int c = 0; c < expected.size(); ++c)
+      {
+        const double difference = computed[q](c) - expected(c);
+        const double weight = cut != nullptr ? cut->weights[q] : values.JxW(q);
+        const unsigned int first = c < dim ? 0 : 3;
+        squares[first] += difference * difference * weight;
+        squares[first + 1] += expected(c) * expected(c) * weight;
+        squares[first + 2] += difference * expected(c) * weight;
+      }
+    }
+  }
+
+private:
+  std::vector<Vector<double>> computed;
+  Vector<double> expected;
+};
+} // namespace
+
+
 template <int dim>
 void ErrorRecord<dim>::add_fields(const double time,
                                   const double dt,
@@ -72,36 +123,9 @@ void ErrorRecord<dim>::add_fields(const double time,
   const QGauss<dim> quadrature(fe.degree + 2);
   FEValues<dim> fe_values(mapping, fe, quadrature,
                           update_values | update_quadrature_points | update_JxW_values);
-  std::vector<Vector<double>> computed;
-  Vector<double> expected(n_components);
   const auto point = reference.observation_point();
   double observed = -std::numeric_limits<double>::infinity();
-
-  // Of the displacement, then of the pressure: squares of the difference d and of the reference r,
-  // and their product. For |computed - f r|^2 = |d + (1-f) r|^2.
-  std::vector<double> squares(6, 0.);
-  const auto add_cell = [&](const FEValues<dim> &values, const CutCell<dim> *cut)
-  {
-    computed.assign(values.n_quadrature_points, Vector<double>(n_components));
-    values.get_function_values(solution.bulk, computed);
-    for (unsigned int q = 0; q < computed.size(); ++q)
-    {
-      if (cut != nullptr)
-        for (unsigned int c = 0; c < cut->n_columns(); ++c)
-          computed[q](cut->component[c]) +=
-            cut->values[q * cut->n_columns() + c] * solution.extra[cut->extra[c]];
-      field->vector_value(values.quadrature_point(q), expected);
-      for (unsigned int c = 0; c < n_components; ++c)
-      {
-        const double difference = computed[q](c) - expected(c);
-        const double weight = cut != nullptr ? cut->weights[q] : values.JxW(q);
-        const unsigned int first = c < dim ? 0 : 3;
-        squares[first] += difference * difference * weight;
-        squares[first + 1] += expected(c) * expected(c) * weight;
-        squares[first + 2] += difference * expected(c) * weight;
-      }
-    }
-  };
+  Difference<dim> difference(*field, solution);
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
@@ -109,7 +133,7 @@ void ErrorRecord<dim>::add_fields(const double time,
       if (cut == nullptr)
       {
         fe_values.reinit(cell);
-        add_cell(fe_values, nullptr);
+        difference.add(fe_values, nullptr);
       }
       else
       {
@@ -117,7 +141,7 @@ void ErrorRecord<dim>::add_fields(const double time,
         FEValues<dim> cut_values(mapping, fe, Quadrature<dim>(cut->points),
                                  update_values | update_quadrature_points);
         cut_values.reinit(cell);
-        add_cell(cut_values, cut);
+        difference.add(cut_values, cut);
       }
       if (point && n_components > dim)
         for (const unsigned int v : cell->vertex_indices())
@@ -125,6 +149,7 @@ void ErrorRecord<dim>::add_fields(const double time,
             observed = solution.bulk(cell->vertex_dof_index(v, dim));
     }
   const MPI_Comm communicator = dof_handler.get_communicator();
+  std::vector<double> &squares = difference.squares;
   Utilities::MPI::sum(squares, communicator, squares);
   for (unsigned int k = 0; k < 2; ++k)
     if (const double *s = squares.data() + 3 * k; s[1] > 0.)

@@ -31,6 +31,113 @@ double edge_of_cube(const typename dealii::DoFHandler<dim>::active_cell_iterator
         return 0.;
   return edge;
 }
+
+/// A box that grows with the points it has to hold.
+template <int dim>
+struct Extent
+{
+  Point<dim> lower, upper;
+
+  Extent()
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = std::numeric_limits<double>::infinity();
+      upper[d] = -lower[d];
+    }
+  }
+
+  void add(const Point<dim> &point)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = std::min(lower[d], point[d]);
+      upper[d] = std::max(upper[d], point[d]);
+    }
+  }
+
+  /// Over all ranks.
+  void unite(const Collectives &collectives)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = collectives.min(lower[d]);
+      upper[d] = collectives.max(upper[d]);
+    }
+  }
+};
+
+/// Add the planes on which a face of a cell slides and that nothing else holds: direction, side and
+/// place on the lattice.
+template <int dim>
+void add_mirrors(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+                 const std::array<int, dim> &place,
+                 const dealii::AffineConstraints<double> &constraints,
+                 std::vector<std::array<int, 3>> &mirrors)
+{
+  const auto constrained = [&](const unsigned int v, const unsigned int d)
+  { return constraints.is_constrained(cell->vertex_dof_index(v, d)); };
+  const auto rolls = [&](const unsigned int f)
+  {
+    bool all = cell->face(f)->at_boundary();
+    for (const unsigned int v : cell->vertex_indices())
+      if ((v >> f / 2 & 1) == f % 2)
+        all &= constrained(v, f / 2);
+    return all;
+  };
+  for (const unsigned int f : cell->face_indices())
+    if (rolls(f))
+    {
+      // A node on two such planes does not slide, but would if it were on one.
+      const unsigned int normal = f / 2;
+      bool slides = true;
+      for (const unsigned int v : cell->vertex_indices())
+        if ((v >> normal & 1) == f % 2)
+          for (unsigned int d = 0; d < dim; ++d)
+            slides &= d == normal || !constrained(v, d) || rolls(2 * d + (v >> d & 1));
+      if (slides)
+        mirrors.push_back({{static_cast<int>(normal), static_cast<int>(f % 2),
+                            place[normal] + static_cast<int>(f % 2)}});
+    }
+}
+
+/// @param odd edge and centre of cells in the zone that do not fit its lattice
+/// @throws InputError if there are any
+template <int dim>
+void refuse_odd_cells(const std::vector<double> &odd, const double h)
+{
+  if (odd.empty())
+    return;
+  std::ostringstream message;
+  message << "Cells in the peridynamic zone must be squares (cubes) of one size, " << h
+          << " m; the one at (";
+  for (unsigned int d = 0; d < dim; ++d)
+    message << odd[1 + d] << (d + 1 < dim ? ", " : "");
+  message << ") m is not. Change the spacing in subsection Mesh, or set 'Cell size'.";
+  throw unsuitable_mesh(message.str());
+}
+
+/// The sites of all ranks in their order; of one that several know, the owner's word counts.
+template <int dim>
+std::vector<Site<dim>> unite(const std::map<Place<dim>, Site<dim>> &mine,
+                             const Collectives &collectives)
+{
+  std::vector<Site<dim>> known;
+  for (const auto &[place, site] : mine)
+    known.push_back(site);
+  known = collectives.gather(known);
+  std::stable_sort(known.begin(), known.end(),
+                   [](const auto &a, const auto &b)
+                   { return std::tie(a.place, a.owner) < std::tie(b.place, b.owner); });
+  std::vector<Site<dim>> all;
+  for (Site<dim> &site : known)
+    if (all.empty() || all.back().place != site.place)
+    {
+      site.owner &= ~not_owner;
+      all.push_back(site);
+    }
+  return all;
+}
 } // namespace
 
 
@@ -61,40 +168,22 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
                              const Collectives &collectives)
 {
   const auto &dof_handler = mesh_view.dof_handler;
-  const auto &constraints = mesh_view.constraints;
 
   // The domain, and a vertex of the lattice to count from: the lowest of all in the zone.
-  Point<dim> lower, upper, first, last;
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    lower[d] = std::numeric_limits<double>::infinity();
-    upper[d] = -lower[d];
-    first[d] = lower[d];
-    last[d] = upper[d];
-  }
+  Extent<dim> all_cells, in_zone;
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       for (const unsigned int v : cell->vertex_indices())
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = std::min(lower[d], cell->vertex(v)[d]);
-          upper[d] = std::max(upper[d], cell->vertex(v)[d]);
-          if (shape.contains(cell->vertex(v), h))
-          {
-            first[d] = std::min(first[d], cell->vertex(v)[d]);
-            last[d] = std::max(last[d], cell->vertex(v)[d]);
-          }
-        }
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    lower[d] = collectives.min(lower[d]);
-    upper[d] = collectives.max(upper[d]);
-    first[d] = collectives.min(first[d]);
-    last[d] = collectives.max(last[d]);
-  }
-  domain = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
+      {
+        all_cells.add(cell->vertex(v));
+        if (shape.contains(cell->vertex(v), h))
+          in_zone.add(cell->vertex(v));
+      }
+  all_cells.unite(collectives);
+  in_zone.unite(collectives);
+  domain = dealii::BoundingBox<dim>(std::make_pair(all_cells.lower, all_cells.upper));
   if (!has_corner)
-    set_origin(first);
+    set_origin(in_zone.lower);
 
   const auto place_of = [&](const Point<dim> &point)
   {
@@ -142,64 +231,17 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
                        : collectives.rank() | not_owner;
         mine.emplace(site.place, site);
       }
-      const auto constrained = [&](const unsigned int v, const unsigned int d)
-      { return constraints.is_constrained(cell->vertex_dof_index(v, d)); };
-      const auto rolls = [&](const unsigned int f)
-      {
-        bool all = cell->face(f)->at_boundary();
-        for (const unsigned int v : cell->vertex_indices())
-          if ((v >> f / 2 & 1) == f % 2)
-            all &= constrained(v, f / 2);
-        return all;
-      };
-      for (const unsigned int f : cell->face_indices())
-        if (rolls(f))
-        {
-          // A node on two such planes does not slide, but would if it were on one.
-          const unsigned int normal = f / 2;
-          bool slides = true;
-          for (const unsigned int v : cell->vertex_indices())
-            if ((v >> normal & 1) == f % 2)
-              for (unsigned int d = 0; d < dim; ++d)
-                slides &= d == normal || !constrained(v, d) || rolls(2 * d + (v >> d & 1));
-          if (slides)
-            my_mirrors.push_back({{static_cast<int>(normal), static_cast<int>(f % 2),
-                                   place[normal] + static_cast<int>(f % 2)}});
-        }
+      add_mirrors<dim>(cell, place, mesh_view.constraints, my_mirrors);
     }
 
-  if (const std::vector<double> odd = collectives.gather(odd_cell); !odd.empty())
-  {
-    std::ostringstream message;
-    message << "Cells in the peridynamic zone must be squares (cubes) of one size, " << h
-            << " m; the one at (";
-    for (unsigned int d = 0; d < dim; ++d)
-      message << odd[1 + d] << (d + 1 < dim ? ", " : "");
-    message << ") m is not. Change the spacing in subsection Mesh, or set 'Cell size'.";
-    throw unsuitable_mesh(message.str());
-  }
+  refuse_odd_cells<dim>(collectives.gather(odd_cell), h);
 
   for (auto &m : mirrors)
     m = {{no_mirror, no_mirror}};
   for (const auto &m : collectives.gather(my_mirrors))
     mirrors[m[0]][m[1]] = m[2];
-  find_room(first, last, reach, mesh_view, collectives);
-
-  std::vector<Site<dim>> contributions;
-  for (const auto &[place, site] : mine)
-    contributions.push_back(site);
-  contributions = collectives.gather(contributions);
-  // Of a site that several ranks know, the owner's word counts.
-  std::stable_sort(contributions.begin(), contributions.end(),
-                   [](const auto &a, const auto &b)
-                   { return std::tie(a.place, a.owner) < std::tie(b.place, b.owner); });
-  all_sites.clear();
-  for (Site<dim> &site : contributions)
-    if (all_sites.empty() || all_sites.back().place != site.place)
-    {
-      site.owner &= ~not_owner;
-      all_sites.push_back(site);
-    }
+  find_room(in_zone.lower, in_zone.upper, reach, mesh_view, collectives);
+  all_sites = unite<dim>(mine, collectives);
 }
 
 
