@@ -2,11 +2,13 @@
 """Draw the paths of the fractures of several runs, and print how far each has turned.
 
     paths.py DIRECTORY... [--time T] [--crack N] [--split Y] [--output FILE.png]
+             [--turn FILE.png --pumping T]
 
 Looked at is x > 0, and what lies above and what lies below y = Y (0 without --split) is a wing each. Printed are
 the place of its tip, how far that has moved away from the line y = Y since the wing's first point [m], and the direction
 of the wing's last quarter against x [degrees], positive away from that line. A fracture along it has to be kept to one
 side by --split. With --crack only this one is looked at, counted from 1 in the order of the deck.
+With --turn, how far the tips have moved away is drawn against the time of each run without its last T seconds.
 """
 import argparse
 import os
@@ -53,9 +55,12 @@ def main():
     parser.add_argument("--crack", type=int)
     parser.add_argument("--split", type=float, default=0.)
     parser.add_argument("--output")
+    parser.add_argument("--turn")
+    parser.add_argument("--pumping", type=float, default=0.)
     options = parser.parse_args()
 
     figure, ax = plt.subplots(figsize=(7, 3.2))
+    moved = []
     print("run,time,x,y,away,direction")
     for i, directory in enumerate(options.directory):
         time, path = vtu.at_time(vtu.series(directory, "fracture"), options.time)
@@ -65,6 +70,7 @@ def main():
         name = os.path.basename(os.path.normpath(directory))
         for j, (points, side) in enumerate(found):
             print(f"{name},{time:g}," + ",".join(f"{v:.4g}" for v in turned(points, side)))
+            moved.append(((time - options.pumping) / 3600, turned(points, side)[2]))
             ax.plot(*points.T, color=f"C{i}", lw=1.2, label=None if j else name)
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")
@@ -72,6 +78,21 @@ def main():
     ax.legend(frameon=False)
     figure.tight_layout()
     output = options.output or os.path.join(options.directory[0], "paths.png")
+    figure.savefig(output, dpi=110)
+    print(output)
+    if options.turn:
+        draw_turn(sorted(moved), options.turn)
+
+
+def draw_turn(moved, output):
+    figure, ax = plt.subplots(figsize=(7, 2.6))
+    ax.plot(*np.transpose(moved), "o-", lw=1.2, ms=4)
+    ax.set_xscale("symlog", linthresh=1.)
+    ax.axhline(0., color="k", lw=0.6)
+    ax.set_xlabel("time before the injection [h]")
+    ax.set_ylabel("moved away [m]")
+    ax.grid(alpha=0.3)
+    figure.tight_layout()
     figure.savefig(output, dpi=110)
     print(output)
 
