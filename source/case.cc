@@ -533,6 +533,12 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
   if (the_case.network.may_boil() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
+  for (const InitialCrack<dim> &crack : the_case.scene.cracks)
+    if (crack.proppant.aperture > 0. && the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
+      throw EntryError("Time/Scheme",
+                       the_case.scheme.kind() == TimeScheme::Kind::bdf2 ? "BDF2" : "Newmark",
+                       "backward Euler with a 'Cracks/Propped aperture' > 0: the faces jump apart "
+                       "in the first step, and other schemes go on from how they have moved");
 }
 
 
