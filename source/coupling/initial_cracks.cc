@@ -36,9 +36,10 @@ void declare_initial_cracks(ParameterHandler &prm)
                     "[m^3]. Uniform along the crack.");
   prm.declare_entry(
     "Propped aperture", "0", Quantity(dimension::length, Range::non_negative()),
-    "To which proppant holds the faces apart in the middle of a crack, or at its mouth [m], from "
-    "the first step on; less towards the tips, so that they close smoothly. They open farther "
-    "against pressure. 0: none is left, and the crack presses on no other.");
+    "How far apart proppant holds the faces in the middle of a crack, or at its mouth [m], from "
+    "the first step on; towards the tips it is less, so that the faces close smoothly there. Fluid "
+    "pressure may open them farther. The fluid in the proppant's pores is not counted. Wants "
+    "backward Euler. 0: the faces touch, and the crack presses on nothing around it.");
   prm.declare_entry(
     "Fluid pressure", "", Patterns::Anything(),
     "In all cracks, where it is given [Pa]; '0' in a dry case. Empty: computed from "
@@ -71,34 +72,35 @@ Proppant parse_proppant(ParameterHandler &prm)
 {
   Proppant proppant;
   prm.enter_subsection("Cracks");
-  const std::string conductivity = prm.get("Propped conductivity");
+  const std::string conductivity = prm.get("Propped conductivity"),
+                    aperture = prm.get("Propped aperture");
   const bool propped = !prm.get("Propped").empty(), computed = prm.get("Fluid pressure").empty();
   proppant.aperture = get_quantity(prm, "Propped aperture", dimension::length);
-  const std::string aperture = prm.get("Propped aperture");
   prm.leave_subsection();
+
+  const auto refuse_conductivity = [&](const std::string &allowed)
+  { throw EntryError("Cracks/Propped conductivity", conductivity, allowed); };
   if (!propped && proppant.aperture > 0.)
     throw EntryError("Cracks/Propped aperture", aperture, "0 without cracks in 'Cracks/Propped'");
-  if (conductivity.empty() && !propped)
+  if (!propped && !conductivity.empty())
+    refuse_conductivity("nothing (an empty entry) without 'Cracks/Propped'");
+  if (!computed && !conductivity.empty())
+    refuse_conductivity("nothing (an empty entry) where 'Cracks/Fluid pressure' is given and no "
+                        "flow is computed");
+  if (!propped || !computed)
     return proppant;
-  const char *const allowed = !propped   ? "nothing (an empty entry) without 'Cracks/Propped'"
-                              : computed ? "a conductivity > 0, such as '500 md m'"
-                                         : "nothing (an empty entry) where 'Cracks/Fluid pressure' "
-                                           "is given and no flow is computed";
-  if (!propped || (!computed && !conductivity.empty()))
-    throw EntryError("Cracks/Propped conductivity", conductivity, allowed);
-  if (!computed)
-    return proppant;
+
+  const std::string allowed = "a conductivity > 0, such as '500 md m'";
   try
   {
     proppant.conductivity = parse_finite_quantity(conductivity, dimension::conductivity);
   }
   catch (const InputError &error)
   {
-    throw EntryError("Cracks/Propped conductivity", conductivity,
-                     std::string(allowed) + ": " + error.what());
+    refuse_conductivity(allowed + ": " + error.what());
   }
   if (!(proppant.conductivity > 0.))
-    throw EntryError("Cracks/Propped conductivity", conductivity, allowed);
+    refuse_conductivity(allowed);
   return proppant;
 }
 

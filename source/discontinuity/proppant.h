@@ -1,106 +1,31 @@
 #pragma once
 
-#include "discontinuity/crack_path.h"
-#include "stockwork/exchange/scene.h"
-#include "stockwork/exchange/segment.h"
+#include "discontinuity/discontinuity.h"
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace stockwork
 {
-/// Where the nearest point of a polyline is, from 0 at its first corner to 1 at its last.
-template <int dim>
-double place_along(const std::vector<dealii::Point<dim>> &polyline, const dealii::Point<dim> &point)
-{
-  double before = 0., place = 0., nearest = std::numeric_limits<double>::infinity();
-  for (unsigned int i = 0; i + 1 < polyline.size(); ++i)
-  {
-    const dealii::Tensor<1, dim> along = polyline[i + 1] - polyline[i];
-    const double t = std::clamp((point - polyline[i]) * along / along.norm_square(), 0., 1.);
-    const double distance = point.distance(polyline[i] + t * along);
-    if (distance < nearest)
-    {
-      nearest = distance;
-      place = before + t * along.norm();
-    }
-    before += along.norm();
-  }
-  return place / before;
-}
-
 /// To what proppant holds the faces of a piece apart [m]: a (1 - x^2)^(3/2) of the greatest, a,
 /// with x from 0 in the middle of the crack as the deck gives it, or at its mouth on the boundary,
 /// to 1 at its tips. With this power the faces close smoothly and the stress at the tips stays
 /// finite (Barenblatt 1962), so that the proppant alone does not make the crack grow; an ellipse,
 /// and the more a pack of uniform thickness, would. Where the crack has grown there is none.
 template <int dim>
-double
-propped_gap(const InitialCrack<dim> &crack, const CrackPath<dim> &path, const unsigned int piece)
-{
-  if (crack.proppant.aperture == 0.)
-    return 0.;
-  const auto is_mouth = [&](const CrackEnd end, const dealii::Point<dim> &given)
-  {
-    const CrackPiece<dim> &last = path.piece_at(end);
-    return last.at_boundary[static_cast<int>(end)] &&
-           path.tip(end).distance(given) < last.cell_size();
-  };
-  const bool mouth_first = is_mouth(CrackEnd::first, crack.points.front()),
-             mouth_last = is_mouth(CrackEnd::last, crack.points.back());
-  const double s = place_along(crack.points, path.pieces[piece].centre());
-  const double x = mouth_first && mouth_last ? 0.
-                   : mouth_first             ? s
-                   : mouth_last              ? 1. - s
-                                             : 2. * s - 1.;
-  const double rest = std::max(0., 1. - x * x);
-  return crack.proppant.aperture * rest * std::sqrt(rest);
-}
+double propped_gap(const InitialCrack<dim> &crack, const CrackPath<dim> &path, unsigned int piece);
 
 /// The same by crack and piece, for FaceContact; null where proppant keeps no faces apart. Both
 /// arguments must outlive it.
-template <int dim, typename Discontinuity>
+template <int dim>
 std::function<double(unsigned int, unsigned int)>
-propped_gaps(const std::vector<InitialCrack<dim>> &cracks, const Discontinuity &discontinuity)
-{
-  if (std::none_of(cracks.begin(), cracks.end(),
-                   [](const auto &crack) { return crack.proppant.aperture > 0.; }))
-    return {};
-  return [&cracks, &discontinuity](const unsigned int crack, const unsigned int piece)
-  { return propped_gap(cracks[crack], discontinuity.paths()[crack], piece); };
-}
+propped_gaps(const std::vector<InitialCrack<dim>> &cracks, const Discontinuity<dim> &discontinuity);
 
 /// The faces of propped cracks begin to close at the pore pressure in situ, keep their distance,
 /// and conduct by the proppant: what opens is the room beside it.
 /// @param segments of @p discontinuity
-template <int dim, typename Discontinuity>
+template <int dim>
 void add_proppant(const std::vector<InitialCrack<dim>> &cracks,
-                  const Discontinuity &discontinuity,
-                  std::vector<Segment<dim>> &segments)
-{
-  for (unsigned int c = 0; c < cracks.size(); ++c)
-  {
-    if (cracks[c].kind != InitialCrack<dim>::Kind::propped)
-      continue;
-    const CrackPath<dim> &path = discontinuity.paths()[c];
-    for (const CrackSpan &span : discontinuity.spans(c))
-    {
-      const std::uint64_t key = discontinuity.key(c, span);
-      const auto segment = std::find_if(segments.begin(), segments.end(),
-                                        [key](const auto &s) { return s.key == key; });
-      if (segment == segments.end() || // another rank's
-          cracks[c].distance(segment->centre) > segment->area)
-        continue;
-      double room = 0.;
-      for (unsigned int i = span.first; i <= span.last; ++i)
-        room += path.pieces[i].length() * propped_gap(cracks[c], path, i);
-      segment->opening.constant -= room / discontinuity.length(c, span);
-      segment->propped_conductivity = cracks[c].proppant.conductivity;
-      segment->initial_pressure = segment->pore_pressure.constant;
-    }
-  }
-}
+                  const Discontinuity<dim> &discontinuity,
+                  std::vector<Segment<dim>> &segments);
 } // namespace stockwork

@@ -1,0 +1,305 @@
+#include "case_checks.h"
+
+#include "stockwork/base/error.h"
+
+#include "base/parameter_tree.h"
+
+#include <algorithm>
+#include <set>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// Section of the region that an entry belongs to, also in a subsection of it; empty: none.
+std::string region_section(const DeclaredEntry &entry)
+{
+  if (entry.section.compare(0, 12, "Rock/Region ") != 0)
+    return "";
+  return entry.section.substr(0, entry.section.find('/', 12));
+}
+
+
+/// An open crack from side to side leaves two bodies, each of which must be held.
+std::string body_in_two(const std::vector<InitialCrack<2>> &cracks, const Geometry<2> &geometry)
+{
+  for (const InitialCrack<2> &crack : cracks)
+    if (crack.kind != InitialCrack<2>::Kind::cohesive && geometry.on_side(crack.points.front()) &&
+        geometry.on_side(crack.points.back()))
+      return "The open crack '" + crack.text +
+             "' cuts the rock in two: sides of both parts must be held, or nothing resists the "
+             "motion of one of them.";
+  return "";
+}
+
+
+/// Refuse what holds in a region, at the region's own entry or where that is inherited from.
+/// @throws EntryError
+[[noreturn]] void refuse_in_region(ParameterHandler &prm,
+                                   const types::material_id region,
+                                   const std::string &name,
+                                   const std::string &allowed)
+{
+  if (region != 0)
+  {
+    const std::string section = "Region " + std::to_string(region);
+    if (const std::string own = value_of(prm, {"Rock", section}, name); !own.empty())
+      throw EntryError("Rock/" + section + "/" + name, own, allowed);
+  }
+  throw EntryError("Rock/" + name, value_of(prm, {"Rock"}, name), allowed);
+}
+
+
+/// What has no scale of its own must be in the deck where it counts.
+void require(ParameterHandler &prm,
+             const std::string &section,
+             const std::string &entry,
+             const std::string &allowed)
+{
+  prm.enter_subsection(section);
+  const bool missing = prm.get(entry).empty();
+  prm.leave_subsection();
+  if (missing)
+    throw EntryError(section + "/" + entry, "", allowed);
+}
+} // namespace
+
+
+template <int dim>
+void refuse_incompressible(ParameterHandler &prm,
+                           const Rock &rock,
+                           const Geometry<dim> &geometry,
+                           const BoundaryConditions<dim> &boundary_conditions)
+{
+  bool gives_way = rock.main().inverse_biot_modulus > 0.;
+  for (const std::string &region : geometry.region_names())
+    gives_way |= rock(geometry.region(region)).inverse_biot_modulus > 0.;
+  std::vector<types::boundary_id> sides;
+  for (const std::string &name : geometry.side_names())
+    sides.push_back(geometry.side(name));
+  if (gives_way || !boundary_conditions.seal(sides))
+    return;
+  prm.enter_subsection("Boundary conditions");
+  const std::string entry = prm.get("Roller").empty() ? "Fixed" : "Roller", value = prm.get(entry);
+  prm.leave_subsection();
+  throw EntryError(
+    "Boundary conditions/" + entry, value,
+    "a side less, or one of them 'Drained', where 'Rock/Biot modulus' and "
+    "'Fluid/Bulk modulus' are infinite: the pressure of a body that nothing leaves "
+    "and nothing compresses is undetermined, and fluid that is injected has no place");
+}
+
+
+void refuse_regions(ParameterHandler &prm,
+                    const std::string &model_name,
+                    const Requirements &requirements)
+{
+  std::vector<std::string> refused = {"Fracture toughness", "Critical energy release rate",
+                                      "Shear energy release rate", "Tensile strength"};
+  if (requirements.uniform_rock)
+    refused.insert(refused.end(),
+                   {"Young modulus", "Poisson ratio", "Biot coefficient", "Solid bulk modulus"});
+  for (const DeclaredEntry &entry : declared_entries(prm))
+    if (entry.path().compare(0, 12, "Rock/Region ") == 0)
+      if (!entry.value.empty() &&
+          std::find(refused.begin(), refused.end(), entry.name) != refused.end())
+        throw EntryError(entry.path(), entry.value,
+                         "nothing (an empty entry) with the fracture model '" + model_name +
+                           (requirements.uniform_rock
+                              ? "', whose rock is one and the same everywhere; 'cohesive_xfem' and "
+                                "'prescribed' know "
+                                "regions"
+                              : "', which breaks all rock as it breaks outside of the regions"));
+}
+
+
+template <int dim>
+void refuse_absent_regions(ParameterHandler &prm, const Geometry<dim> &geometry)
+{
+  std::vector<std::string> present = {""};
+  for (const std::string &name : geometry.region_names())
+    present.push_back("Rock/Region " + std::to_string(geometry.region(name)));
+  for (const DeclaredEntry &entry : declared_entries(prm))
+    if (!entry.value.empty() &&
+        std::find(present.begin(), present.end(), region_section(entry)) == present.end())
+      throw EntryError(
+        entry.path(), entry.value,
+        "nothing (an empty entry), for the mesh has no such region: see 'Mesh/Region "
+        "boxes'");
+}
+
+
+template <int dim>
+std::vector<std::string> regions_without_rock(ParameterHandler &prm, const Geometry<dim> &geometry)
+{
+  std::set<std::string> described;
+  for (const DeclaredEntry &entry : declared_entries(prm))
+    if (!entry.value.empty())
+      described.insert(region_section(entry));
+  std::vector<std::string> others;
+  for (const std::string &name : geometry.region_names())
+    if (described.count("Rock/Region " + std::to_string(geometry.region(name))) == 0)
+      others.push_back(name);
+  return others;
+}
+
+
+template <int dim>
+void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
+{
+  for (const auto &[region, law] : laws.all())
+  {
+    const RockProperties &properties = rock(region);
+    const auto refuse = [&, region = region](const std::string &name, const std::string &allowed)
+    { refuse_in_region(prm, region, name, allowed); };
+    const auto &normal = properties.layer_normal;
+    const bool layered = properties.stiffness || properties.permeability_across > 0.;
+    const double tilt = std::abs(normal[2]);
+    const bool in_plane = tilt < 1e-12;
+    const bool across = tilt > 1. - 1e-12;
+    if (dim == 2 && layered && !in_plane && !across)
+      refuse("Normal of the layers",
+             "a direction in the plane of the run or across it: with any other the rock would move "
+             "across the plane");
+    if (properties.stiffness && laws.may_yield())
+      refuse("Law", "'elastic' beside rock that may yield");
+    const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
+    const bool stress_counts = std::isfinite(properties.permeability_decay_stress);
+    if ((!properties.has_isotropic_permeability() || stress_counts) &&
+        (leak_off == "resolved" || leak_off == "filter cake"))
+      refuse(stress_counts ? "Permeability decay stress" : "Permeability across the layers",
+             "nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
+               "', which knows one permeability; or another law of leak-off");
+  }
+}
+
+
+template <int dim>
+void check_history(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  if (the_case.laws.are_linear() || !the_case.elements.has_pore_pressure)
+    return;
+  if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
+    throw EntryError(
+      "Rock/Law", value_of(prm, {"Rock"}, "Law"),
+      "elastic where there are both inertia and a pore pressure; or leave out one of "
+      "them ('Time/Inertia', 'Rock/Bulk model')");
+  if (the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
+    throw EntryError("Time/Scheme", value_of(prm, {"Time"}, "Scheme"),
+                     "backward Euler (or auto) in porous rock that is not linear (it may yield, or "
+                     "its permeability hangs on the stress)");
+  if (std::isfinite(the_case.control.error_tolerance))
+    throw EntryError(
+      "Time/Error tolerance", value_of(prm, {"Time"}, "Error tolerance"),
+      "'inf' in porous rock that is not linear: its steps are backward Euler's, which "
+      "are not chosen by error");
+}
+
+
+template <int dim>
+void check_permeability(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  for (const auto &[region, law] : the_case.laws.all())
+    if (law->changes_permeability())
+    {
+      const auto refuse = [&, region = region](const std::string &allowed)
+      { refuse_in_region(prm, region, "Permeability decay stress", allowed); };
+      if (!the_case.elements.has_pore_pressure)
+        refuse("nothing (an empty entry): no pore pressure is solved for, so permeability does not "
+               "count; or 'Rock/Bulk model = poroelastic'");
+      if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
+        refuse("nothing (an empty entry) with inertia");
+      if (the_case.rock(region).plane_stress)
+        refuse("nothing (an empty entry) in plane stress; or 'Rock/Plane state = plane strain'");
+    }
+}
+
+
+template <int dim>
+void check_reference(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  if (the_case.reference &&
+      std::any_of(the_case.laws.all().begin(), the_case.laws.all().end(),
+                  [](const auto &law) { return law.second->changes_permeability(); }))
+    throw EntryError(
+      "Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+      "'none' with a 'Rock/Permeability decay stress': the solution is of rock whose "
+      "permeability does not hang on the stress");
+  if (the_case.reference && the_case.laws.may_yield() && !the_case.reference->is_of_yielding_rock())
+    throw EntryError("Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+                     "'none' (or 'borehole' or 'footing') with a 'Rock/Law' that may yield: the "
+                     "solution is of linear rock");
+}
+
+
+void require_for_flow(ParameterHandler &prm, const bool in_pores, const bool in_fractures)
+{
+  if (in_pores)
+    require(prm, "Rock", "Permeability",
+            "a permeability > 0 m^2, such as '1 md', for the pore pressure is solved for; or 'Bulk "
+            "model = elastic'");
+  if (in_pores || in_fractures)
+    require(prm, "Fluid", "Viscosity",
+            "a viscosity > 0 Pa s, such as '1 cP', for there is flow in pores or fractures; or, "
+            "where a fracture is dry, 'Cracks/Fluid pressure = 0'");
+}
+
+
+template <int dim>
+void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings)
+{
+  const auto &cracks = the_case.scene.cracks;
+  if constexpr (dim == 2)
+    if (const std::string text = body_in_two(cracks, the_case.geometry); !text.empty())
+      warnings.push_back(text);
+  the_case.network.check_perforations(cracks);
+  for (const InitialCrack<dim> &crack : cracks)
+    if (crack.kind == InitialCrack<dim>::Kind::propped &&
+        the_case.network.leak_off_law() == LeakOff::carter)
+      throw EntryError(crack.entry, crack.text,
+                       "nothing (an empty entry) with 'Fracture flow/Leak-off = carter', which "
+                       "knows how long faces have been bare and not what a well takes from them");
+}
+
+
+template <int dim>
+void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case)
+{
+  if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
+    require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
+  if (std::isfinite(the_case.control.error_tolerance) &&
+      the_case.scheme.kind() != TimeScheme::Kind::bdf2)
+    throw EntryError(
+      "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
+      "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
+  if (the_case.network.may_boil() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
+    throw EntryError("Time/Scheme", "BDF2",
+                     "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
+  for (const InitialCrack<dim> &crack : the_case.scene.cracks)
+    if (crack.proppant.aperture > 0. && the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
+      throw EntryError("Time/Scheme",
+                       the_case.scheme.kind() == TimeScheme::Kind::bdf2 ? "BDF2" : "Newmark",
+                       "backward Euler with a 'Cracks/Propped aperture' > 0: the faces jump apart "
+                       "in the first step, and other schemes go on from how they have moved");
+}
+
+
+#define INSTANTIATE(dim)                                                                           \
+  template void refuse_incompressible(ParameterHandler &prm, const Rock &rock,                     \
+                                      const Geometry<dim> &geometry,                               \
+                                      const BoundaryConditions<dim> &boundary_conditions);         \
+  template void refuse_absent_regions(ParameterHandler &prm, const Geometry<dim> &geometry);       \
+  template std::vector<std::string> regions_without_rock(ParameterHandler &prm,                    \
+                                                         const Geometry<dim> &geometry);           \
+  template void check_layers<dim>(ParameterHandler & prm, const RockLaws &laws, const Rock &rock); \
+  template void check_history(ParameterHandler &prm, const Case<dim> &the_case);                   \
+  template void check_permeability(ParameterHandler &prm, const Case<dim> &the_case);              \
+  template void check_reference(ParameterHandler &prm, const Case<dim> &the_case);                 \
+  template void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings);       \
+  template void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork
