@@ -1,6 +1,7 @@
 #include "stockwork/base/command_line.h"
 #include "stockwork/base/deck.h"
 #include "stockwork/base/error.h"
+#include "stockwork/base/lone_process.h"
 #include "stockwork/base/parameters.h"
 #include "stockwork/base/run_context.h"
 #include "stockwork/base/version.h"
@@ -96,6 +97,7 @@ int run_program(const CommandLine &command_line, RunContext &run)
 int main(int argc, char **argv)
 {
   using namespace stockwork;
+  start_lone_process_quickly();
   // The options are ours: newer PETSc, which deal.II starts, complains of those that it does not
   // know.
   int n_arguments = 1;

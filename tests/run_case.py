@@ -146,7 +146,8 @@ class Runner:
     def start(self, name, command):
         print("$ " + " ".join(f"'{a}'" if " " in a or "=" in a else a for a in command), flush=True)
         environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
-                           DEAL_II_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none")
+                           DEAL_II_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
+                           OMPI_MCA_pml="ob1")
         with open(self.output(name + ".stdout"), "w") as out, \
                 open(self.output(name + ".stderr"), "w") as err:
             return subprocess.Popen(command, stdout=out, stderr=err, cwd=self.scratch,

@@ -9,6 +9,7 @@
 
 #include "stockwork/base/command_line.h"
 #include "stockwork/base/error.h"
+#include "stockwork/base/lone_process.h"
 
 #include <iostream>
 
@@ -104,6 +105,7 @@ TEST_CASE("derivative along directions")
 
 int main(int argc, char **argv)
 {
+  stockwork::start_lone_process_quickly();
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   doctest::Context context;
   try

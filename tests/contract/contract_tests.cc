@@ -8,6 +8,7 @@
 
 #include "stockwork/base/command_line.h"
 #include "stockwork/base/error.h"
+#include "stockwork/base/lone_process.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -299,6 +300,7 @@ TEST_CASE("messages")
 
 int main(int argc, char **argv)
 {
+  stockwork::start_lone_process_quickly();
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   doctest::Context context;
   context.setOption("test-case", argc > 1 ? argv[1] : "");
