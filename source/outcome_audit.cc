@@ -75,9 +75,9 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
   // there is no flow.
   if (!the_case.network.may_boil() && std::isnan(the_case.scene.crack_pressure))
   {
-    const bool suction = outcome.least_pressure < vacuum;
-    assumptions.push_back({"no fluid lag: least pressure in the fracture [Pa]",
-                           outcome.least_pressure, !suction,
+    const bool suction = outcome.minimum_pressure < vacuum;
+    assumptions.push_back({"no fluid lag: minimum pressure in the fracture [Pa]",
+                           outcome.minimum_pressure, !suction,
                            suction ? "less than vacuum: real fluid would lag behind the tip"
                                    : "the fluid can fill the tips"});
   }

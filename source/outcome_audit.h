@@ -20,7 +20,7 @@ struct Outcome
   double injected = 0.;           ///< [m^2]
   double leaked = 0.;             ///< [m^2]
   double inlet_pressure = 0.;     ///< total, at the end [Pa]
-  double least_pressure = 0.;     ///< total, of all segments at the end [Pa]
+  double minimum_pressure = 0.;   ///< total, of all segments at the end [Pa]
 
   /// The cracks had this length at this time.
   void grown_to(double new_length, double time, double window)

@@ -105,7 +105,7 @@ double Report<dim>::observe_rock(Values &values) const
   values["yielded_volume"] = sums[0];
   values["rock_dissipated_energy"] = sums[1];
   const double used = system.collectives().max(mine.greatest_used);
-  values["greatest_share_of_strength"] = sums[0] > 0. ? 1. : used;
+  values["maximum_share_of_strength"] = sums[0] > 0. ? 1. : used;
   return sums[1];
 }
 
@@ -182,8 +182,8 @@ void Report<dim>::observe_fluid(const State &state, Values &values)
     // Below zero, faces have passed through one another.
     const auto apertures = network.apertures(state.current, system.collectives());
     const auto [least, greatest] = std::minmax_element(apertures.begin(), apertures.end());
-    values["least_aperture"] = *least;
-    values["greatest_aperture"] = *greatest;
+    values["minimum_aperture"] = *least;
+    values["maximum_aperture"] = *greatest;
   }
   const auto wells = network.wells(stepper.last_context(), state, system.collectives());
   if (!wells.empty())
@@ -192,9 +192,9 @@ void Report<dim>::observe_fluid(const State &state, Values &values)
     values["inlet_pressure"] = wells[0].inlet_pressure;
     shown.inlet_pressure = wells[0].inlet_pressure;
     const auto pressures = network.pressures(stepper.committed);
-    shown.least_pressure = -system.collectives().max(
+    shown.minimum_pressure = -system.collectives().max(
       pressures.empty() ? -1e300 : -*std::min_element(pressures.begin(), pressures.end()));
-    values["least_pressure"] = shown.least_pressure;
+    values["minimum_pressure"] = shown.minimum_pressure;
     // Over the in-situ stress across the fracture, which is what analytical solutions call p.
     const auto &inlet = network.segments()[wells[0].inlet_segment];
     values["net_inlet_pressure"] =

@@ -18,7 +18,7 @@ namespace
 constexpr double share_of_aperture = 0.01;
 
 /// Of the plane modulus, where nothing in the scene is a pressure.
-constexpr double least_strain = 1e-4;
+constexpr double minimum_strain = 1e-4;
 
 
 template <int dim>
@@ -39,7 +39,7 @@ viscous_pressure(const unsigned int dim, const double a, const double E, const d
 
 
 template <int dim>
-double greatest_traction(const BoundaryConditions<dim> &boundary_conditions)
+double maximum_traction(const BoundaryConditions<dim> &boundary_conditions)
 {
   double greatest = 0.;
   const auto look = [&greatest](const PrescribedValue<dim> &load)
@@ -99,11 +99,11 @@ Scales scales_of(const Scene<dim> &scene,
     consider(std::abs(*pressure - closing), "pressure of a well");
   if (scene.crack_pressure - closing != 0.) // not NaN either
     consider(std::abs(scene.crack_pressure - closing), "pressure in the cracks");
-  consider(greatest_traction(boundary_conditions), "load on the boundary");
+  consider(maximum_traction(boundary_conditions), "load on the boundary");
   if (scales.pressure == 0.)
     consider(std::abs(closing), "in-situ stress across the crack");
   if (scales.pressure == 0.)
-    consider(least_strain * modulus, "the rock's modulus");
+    consider(minimum_strain * modulus, "the rock's modulus");
   scales.aperture = 4. * scales.pressure * a / modulus;
   return scales;
 }

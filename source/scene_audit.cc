@@ -286,7 +286,7 @@ void add_principal_stresses(const Case<2> &the_case, std::vector<SceneNumber> &n
   text << std::setprecision(4) << "at " << std::abs(angle) << " degrees to x; "
        << (principal[0].first > 0. ? "tension" : "compression") << " across it of "
        << to_string(std::abs(principal[0].first), dimension::stress);
-  numbers.push_back({"greatest in-situ compression [Pa]", -principal[1].first, text.str()});
+  numbers.push_back({"maximum in-situ compression [Pa]", -principal[1].first, text.str()});
 }
 } // namespace
 
@@ -445,8 +445,8 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
     add_leak_off(the_case, pumping, mesh, numbers);
 
   for (const auto &[well, pressure] : the_case.network.least_well_pressures())
-    numbers.push_back({"least pressure in '" + well + "' [Pa]", pressure,
-                       "at it, what the well takes is what flows (Least pressure)"});
+    numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,
+                       "at it, what the well takes is what flows (Minimum pressure)"});
 
   if (!the_case.scene.cracks.empty() && !std::isnan(rock.energy_release_rate))
   {

@@ -30,7 +30,7 @@ class Run:
         fracture = vtu.read(vtu.at_time(vtu.series(directory, "fracture"))[1])
         ends, cells = fracture.cells(vtu.LINE)
         self.pieces = fracture.points[ends][:, :, :2] / scene.cell
-        self.least_aperture = (fracture.cell_data["aperture"][cells] if "aperture" in fracture.cell_data
+        self.minimum_aperture = (fracture.cell_data["aperture"][cells] if "aperture" in fracture.cell_data
                                else fracture.point_data["aperture"][ends]).min() / width
 
     def late(self, values):
@@ -53,7 +53,7 @@ def judge(scene, run, control):
             wrong.append(word)
 
     if control is None:
-        holds(run.least_aperture > -0.01, "overlap", f"least aperture {run.least_aperture:+.3f}")
+        holds(run.minimum_aperture > -0.01, "overlap", f"least aperture {run.minimum_aperture:+.3f}")
         off = degrees_off(scene, run)
         holds(off < DEGREES_OFF, "direction", f"tips {off:.1f} deg off")
     else:

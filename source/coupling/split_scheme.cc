@@ -186,7 +186,7 @@ double SplitScheme::stabilise_fracture(const SystemOperator &whole)
       if (block == 0)
         opening[e.column] += e.value * SystemOperator::entry(response.bulk, block, local);
     }
-  // A segment that boils has a row without its aperture.
+  // A segment that cavitates has a row without its aperture.
   for (const auto &e : whole.extra_bulk())
     if (is_fluid(e.row) && whole.locate(e.column).first == 0)
       has_storage[e.row] = 1.;

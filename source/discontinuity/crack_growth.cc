@@ -130,7 +130,7 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
           finding.owner = active->subdomain_id();
           finding.piece = continue_into<dim>(active, entry.cell->neighbor_of_neighbor(face),
                                              crack.tip(advance.end), advance.direction);
-          finding.piece.held = held_components(*mesh_view, active);
+          finding.piece.constrained = constrained_components(*mesh_view, active);
         }
         findings.push_back(finding);
       }

@@ -267,10 +267,10 @@ CrackPiece<dim> reversed(const CrackPiece<dim> &piece)
 
 template <int dim>
 std::array<unsigned char, CrackPiece<dim>::n_corners>
-held_components(const MeshView<dim> &mesh_view,
-                const typename dealii::DoFHandler<dim>::active_cell_iterator &cell)
+constrained_components(const MeshView<dim> &mesh_view,
+                       const typename dealii::DoFHandler<dim>::active_cell_iterator &cell)
 {
-  std::array<unsigned char, CrackPiece<dim>::n_corners> held{};
+  std::array<unsigned char, CrackPiece<dim>::n_corners> constrained{};
   const auto &fe = cell->get_fe();
   std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
   cell->get_dof_indices(dofs);
@@ -288,9 +288,9 @@ held_components(const MeshView<dim> &mesh_view,
         throw InputError("A crack passes the hanging node " + text(cell->vertex(v)) +
                          "; the cells along a crack must have one size. Refine the mesh around "
                          "the crack or shift the crack.");
-      held[v] |= 1u << component;
+      constrained[v] |= 1u << component;
     }
-  return held;
+  return constrained;
 }
 
 namespace
@@ -350,7 +350,7 @@ void cut_cell_by(const ProlongedPolyline &line,
                       : (f.piece.ends[1] - f.piece.ends[0]) / f.piece.length();
     try
     {
-      f.piece.held = held_components(mesh_view, cell);
+      f.piece.constrained = constrained_components(mesh_view, cell);
     }
     catch (const InputError &error)
     {
@@ -477,7 +477,7 @@ template std::vector<CrackSpan> spans_of(const CrackPath<2> &);
 template std::uint64_t hash_point<2>(const std::uint64_t, const Point<2> &, const double);
 template CrackPiece<2> reversed(const CrackPiece<2> &);
 template std::array<unsigned char, 4>
-held_components(const MeshView<2> &, const dealii::DoFHandler<2>::active_cell_iterator &);
+constrained_components(const MeshView<2> &, const dealii::DoFHandler<2>::active_cell_iterator &);
 template CrackPath<2> cut_polyline(const MeshView<2> &,
                                    const std::vector<Point<2>> &,
                                    const double,

@@ -45,7 +45,7 @@ struct CrackPiece
   std::array<bool, 2> joined{{false, false}};
 
   /// Components of displacement that a boundary condition holds at each corner, one bit each.
-  std::array<unsigned char, n_corners> held{};
+  std::array<unsigned char, n_corners> constrained{};
 
   double length() const
   {
@@ -76,7 +76,7 @@ struct CrackPiece
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &cell &corners &faces &ends &unit_ends &at_boundary &inside &along &joined &held;
+    ar &cell &corners &faces &ends &unit_ends &at_boundary &inside &along &joined &constrained;
   }
 };
 
@@ -168,8 +168,8 @@ CrackPiece<dim> reversed(const CrackPiece<dim> &piece);
 /// @throws InputError where a hanging node meets the crack
 template <int dim>
 std::array<unsigned char, CrackPiece<dim>::n_corners>
-held_components(const MeshView<dim> &mesh_view,
-                const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+constrained_components(const MeshView<dim> &mesh_view,
+                       const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
 
 /// A hash of integers, for keys.
 std::uint64_t hash_combine(const std::uint64_t seed, const std::int64_t value);

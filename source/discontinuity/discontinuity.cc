@@ -61,9 +61,9 @@ void Discontinuity<dim>::setup(const MeshView<dim> &d, const Collectives &collec
   std::vector<std::vector<unsigned int>> mine;
   for (const OwnedPiece &owned : owned_pieces())
   {
-    const auto held = held_components(d, owned.cell);
+    const auto constrained = constrained_components(d, owned.cell);
     std::vector<unsigned int> record{owned.crack, owned.piece};
-    record.insert(record.end(), held.begin(), held.end());
+    record.insert(record.end(), constrained.begin(), constrained.end());
     mine.push_back(record);
   }
   const auto all = collectives.gather(mine);
@@ -76,7 +76,7 @@ void Discontinuity<dim>::setup(const MeshView<dim> &d, const Collectives &collec
                      " cut cells have been refined or coarsened.");
   for (const auto &record : all)
     for (unsigned int v = 0; v < CrackPiece<dim>::n_corners; ++v)
-      cracks[record[0]].pieces[record[1]].held[v] = record[2 + v];
+      cracks[record[0]].pieces[record[1]].constrained[v] = record[2 + v];
   renumber();
 }
 

@@ -43,7 +43,7 @@ void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
         if (closed.count(key) != 0)
           continue;
         for (unsigned int d = 0; d < dim; ++d)
-          if (!(pieces[i].held[v] & (1u << d)))
+          if (!(pieces[i].constrained[v] & (1u << d)))
           {
             const std::uint64_t unknown = hash_combine(key, d);
             const auto [entry, is_new] = numbers.emplace(unknown, all_unknowns.size());

@@ -48,8 +48,8 @@ template <int dim>
 void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
 {
   prm.enter_subsection("Fracture flow");
-  least_pressure = get_quantity(prm, "Vapour pressure", dimension::pressure);
-  const std::string least_text = prm.get("Vapour pressure");
+  vapour_pressure = get_quantity(prm, "Vapour pressure", dimension::pressure);
+  const std::string vapour_text = prm.get("Vapour pressure");
   carter_coefficient = get_quantity(prm, "Carter coefficient", dimension::carter);
   filter_cake_coefficient =
     get_quantity(prm, "Filter cake coefficient", dimension::leakoff_per_pressure);
@@ -63,7 +63,7 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   if (leak_off == LeakOff::carter && carter_coefficient == 0.)
     throw EntryError("Fracture flow/Carter coefficient", "0", "a value > 0 with Carter leak-off");
   if (leak_off == LeakOff::carter && may_boil())
-    throw EntryError("Fracture flow/Vapour pressure", least_text,
+    throw EntryError("Fracture flow/Vapour pressure", vapour_text,
                      "-inf with Carter leak-off, which takes fluid that may not be there");
   if (leak_off == LeakOff::filter_cake && filter_cake_coefficient == 0.)
     throw EntryError("Fracture flow/Filter cake coefficient", "0",
@@ -74,7 +74,7 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   if (leak_off != LeakOff::filter_cake && filter_cake_coefficient != 0.)
     throw EntryError("Fracture flow/Filter cake coefficient", cake_text,
                      "0 with 'Leak-off = " + law + "': it belongs to 'filter cake'");
-  all_wells.parse_parameters(prm, least_pressure);
+  all_wells.parse_parameters(prm, vapour_pressure);
 }
 
 
@@ -392,10 +392,11 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
   values.pore_pressure.assign(all.begin() + 2 * n, all.begin() + 3 * n);
   values.pressure = pressures(state.current);
   values.pressure_reference = pressures(reference_state);
-  values.cake_drop.resize(n);
+  values.filter_cake_drop.resize(n);
   for (unsigned int i = 0; i < n; ++i)
-    values.cake_drop[i] = leak_off_rows[i] == no_row ? values.pressure[i] - values.pore_pressure[i]
-                                                     : state.current.extra[leak_off_rows[i]];
+    values.filter_cake_drop[i] = leak_off_rows[i] == no_row
+                                   ? values.pressure[i] - values.pore_pressure[i]
+                                   : state.current.extra[leak_off_rows[i]];
   find_vapour(context, values);
   return values;
 }
@@ -422,7 +423,7 @@ template <int dim>
 void Network<dim>::find_vapour(const StepContext &context, Values &values) const
 {
   values.vapour.assign(network.size(), 0.);
-  values.boils.assign(network.size(), false);
+  values.cavitates.assign(network.size(), false);
   if (!may_boil())
     return;
   const double dt = context.fracture_dt();
@@ -434,11 +435,11 @@ void Network<dim>::find_vapour(const StepContext &context, Values &values) const
     const double w = values.aperture[i], p = values.pressure[i], area = network[i].area;
     double lack = area * (w - values.aperture_reference[i] +
                           std::max(w, 0.) * c_f * (p - values.pressure_reference[i])) +
-                  2. * area * dt * leak_off_coefficient(i) * values.cake_drop[i];
+                  2. * area * dt * leak_off_coefficient(i) * values.filter_cake_drop[i];
     for (const Edge &edge : edges[i])
       lack += dt * transmissibility(i, edge, values).value * (p - values.pressure[edge.other]);
-    values.boils[i] = lack > vapour_scale(i) * (p - least_pressure);
-    if (values.boils[i])
+    values.cavitates[i] = lack > vapour_scale(i) * (p - vapour_pressure);
+    if (values.cavitates[i])
       values.vapour[i] = lack;
   }
 }

@@ -178,7 +178,7 @@ public:
   /// The fluid may lag behind the tips.
   bool may_boil() const
   {
-    return std::isfinite(least_pressure);
+    return std::isfinite(vapour_pressure);
   }
 
   /// Net, of a fracture of this scene [Pa]; see set_scales.
@@ -240,9 +240,9 @@ private:
     std::vector<double> aperture, aperture_reference;
     std::vector<double> pressure, pressure_reference;
     std::vector<double> pore_pressure;
-    std::vector<double> cake_drop; ///< of pressure across the face, for linear leak-off
-    std::vector<double> vapour;    ///< volume at the end of the step [m^3]
-    std::vector<bool> boils;       ///< the pressure is the least, else there is no vapour
+    std::vector<double> filter_cake_drop; ///< of pressure across the face, for linear leak-off
+    std::vector<double> vapour;           ///< volume at the end of the step [m^3]
+    std::vector<bool> cavitates;          ///< the pressure is the least, else there is no vapour
   };
 
   /// What a segment remembers.
@@ -339,7 +339,7 @@ private:
 
   double minimum_aperture = std::numeric_limits<double>::quiet_NaN();
   double pressure_scale = std::numeric_limits<double>::quiet_NaN();
-  double least_pressure = -std::numeric_limits<double>::infinity();
+  double vapour_pressure = -std::numeric_limits<double>::infinity();
   LeakOff leak_off = LeakOff::none;
   double carter_coefficient = 0.;
   double filter_cake_coefficient = 0.;

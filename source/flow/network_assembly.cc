@@ -56,9 +56,9 @@ struct Network<dim>::SegmentRows
     local.reinit();
   }
 
-  bool boils() const
+  bool cavitates() const
   {
-    return values.boils[index];
+    return values.cavitates[index];
   }
 
   /// For each entry of the opening, its place and coefficient.
@@ -113,7 +113,7 @@ void Network<dim>::assemble_segment(const unsigned int index,
 }
 
 
-/// In a segment that boils, the whole row.
+/// In a segment that cavitates, the whole row.
 template <int dim>
 void Network<dim>::add_storage(SegmentRows &rows_of) const
 {
@@ -123,9 +123,9 @@ void Network<dim>::add_storage(SegmentRows &rows_of) const
   LocalSystem &local = rows_of.local;
   const Values &values = rows_of.values;
   const double w = values.aperture[index], p = values.pressure[index];
-  if (rows_of.boils())
+  if (rows_of.cavitates())
   {
-    local.residual(own) -= vapour_scale(index) * (p - least_pressure);
+    local.residual(own) -= vapour_scale(index) * (p - vapour_pressure);
     local.matrix(own, own) -= vapour_scale(index);
     return;
   }
@@ -153,7 +153,7 @@ void Network<dim>::add_flow(SegmentRows &rows_of) const
     const Transmissibility T = transmissibility(index, edge, values);
     const double difference = p - values.pressure[edge.other];
     const unsigned int other = rows_of.others[e];
-    if (own != no_row && !rows_of.boils())
+    if (own != no_row && !rows_of.cavitates())
     {
       local.residual(own) -= dt * T.value * difference;
       local.matrix(own, own) -= dt * T.value;
@@ -161,7 +161,7 @@ void Network<dim>::add_flow(SegmentRows &rows_of) const
         local.matrix(own, other) += dt * T.value;
       rows_of.add_aperture_slope(own, -dt * T.slope_i * difference);
     }
-    if (other != no_row && !values.boils[edge.other])
+    if (other != no_row && !values.cavitates[edge.other])
       rows_of.add_aperture_slope(other, dt * T.slope_i * difference);
   }
 }
@@ -192,8 +192,8 @@ void Network<dim>::add_leak_off_by_pressure(SegmentRows &rows_of) const
   const LinearFunctional &P = rows_of.segment.pore_pressure;
   const double dt = rows_of.context.fracture_dt();
   const double c = 2. * rows_of.segment.area * dt * leak_off_coefficient(index),
-               d = rows_of.values.cake_drop[index], p = rows_of.values.pressure[index];
-  if (c > 0. && own != no_row && !rows_of.boils())
+               d = rows_of.values.filter_cake_drop[index], p = rows_of.values.pressure[index];
+  if (c > 0. && own != no_row && !rows_of.cavitates())
   {
     local.residual(own) -= c * d;
     if (cake == no_row)
@@ -206,7 +206,7 @@ void Network<dim>::add_leak_off_by_pressure(SegmentRows &rows_of) const
   if (own != no_row)
   {
     local.matrix(cake, own) -= c;
-    if (!rows_of.boils())
+    if (!rows_of.cavitates())
       local.matrix(own, cake) -= c;
   }
   // The balance of the rock is over the time of its scheme.

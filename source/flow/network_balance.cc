@@ -23,7 +23,7 @@ std::vector<double> Network<dim>::leaked_in_step(const StepContext &context,
     }
     else
       volumes[i] =
-        2. * network[i].area * leak_off_coefficient(i) * context.dt * values.cake_drop[i];
+        2. * network[i].area * leak_off_coefficient(i) * context.dt * values.filter_cake_drop[i];
   return volumes;
 }
 

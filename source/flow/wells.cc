@@ -66,12 +66,13 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
                         forms);
     prm.declare_entry("Pressure", "", Patterns::Anything(),
                       "In the borehole [Pa]. With control 'pressure'." + forms);
-    prm.declare_entry("Least pressure", "", Patterns::Anything(),
+    prm.declare_entry("Minimum pressure", "", Patterns::Anything(),
                       "In the borehole [Pa]. With control 'rate': a well cannot take what is not "
                       "there; at this pressure the rate is what flows. Empty: where the rate may "
                       "be negative, the 'Vapour pressure' of 'Fracture flow' if that is finite, "
                       "else 0: vacuum, or in unstressed rock, where pressures are net ones, that "
                       "at which a fracture is closed.");
+    prm.declare_alias("Minimum pressure", "Least pressure", true);
     prm.declare_entry(
       "Perforations", "", Patterns::Anything(),
       "Points where the well is open to a fracture: coordinates separated by "
@@ -110,22 +111,22 @@ typename Wells<dim>::Well Wells<dim>::read_well(dealii::ParameterHandler &prm,
                  ? TimeHistory(prm.get("Pressure"), dimension::pressure, path + "Pressure")
                  : TimeHistory(prm.get("Rate"), rate_dimension<dim>, path + "Rate");
 
-  if (const std::string text = prm.get("Least pressure"); !text.empty())
+  if (const std::string text = prm.get("Minimum pressure"); !text.empty())
   {
     const std::string allowed = "a pressure such as '5 MPa', of a well with control 'rate'";
     if (well.pressure_control)
-      throw EntryError(path + "Least pressure", text, allowed);
+      throw EntryError(path + "Minimum pressure", text, allowed);
     try
     {
-      well.least_pressure = parse_finite_quantity(text, dimension::pressure);
+      well.minimum_pressure = parse_finite_quantity(text, dimension::pressure);
     }
     catch (const InputError &)
     {
-      throw EntryError(path + "Least pressure", text, allowed);
+      throw EntryError(path + "Minimum pressure", text, allowed);
     }
   }
   else if (!well.pressure_control && well.value.least() < 0.)
-    well.least_pressure = std::isfinite(boiling_pressure) ? boiling_pressure : 0.;
+    well.minimum_pressure = std::isfinite(boiling_pressure) ? boiling_pressure : 0.;
 
   well.fraction = prm.get_double("Fraction in model");
   if (!(well.fraction > 0.))
@@ -376,7 +377,7 @@ void Wells<dim>::assemble(const StepContext &context,
       const double c = dry ? dt * well.conductance
                            : well.volume * compressibility * context.fracture_pressure_factor();
       const double reference =
-        dry ? well.least_pressure : state.fracture_reference(context).extra[index];
+        dry ? well.minimum_pressure : state.fracture_reference(context).extra[index];
       local.extra = {index};
       local.reinit();
       local.residual(0) =
@@ -476,7 +477,7 @@ std::vector<std::pair<std::string, double>> Wells<dim>::least_pressures() const
   std::vector<std::pair<std::string, double>> result;
   for (const Well &well : wells)
     if (well.is_bounded())
-      result.emplace_back(well.name, well.least_pressure);
+      result.emplace_back(well.name, well.minimum_pressure);
   return result;
 }
 

@@ -175,7 +175,7 @@ private:
     double friction = 0.; ///< kappa, for the rate in the model
     double volume = 0.;   ///< of the borehole, the part in the model
     /// In the borehole; -infinity: no bound [Pa]
-    double least_pressure = -std::numeric_limits<double>::infinity();
+    double minimum_pressure = -std::numeric_limits<double>::infinity();
     std::vector<Perforation> perforations;
     double conductance = 1.; ///< c [m^3/(Pa s)]
     double initial_pressure = 0.;
@@ -183,7 +183,7 @@ private:
 
     bool is_bounded() const
     {
-      return std::isfinite(least_pressure);
+      return std::isfinite(minimum_pressure);
     }
 
     /// The given rate enters the segment's balance as a number.
@@ -226,7 +226,7 @@ private:
     {
       return is_bounded() &&
              flow(context, state, compressibility) - given(context) >
-               conductance * (state.current.extra[pressure_index()] - least_pressure);
+               conductance * (state.current.extra[pressure_index()] - minimum_pressure);
     }
   };
 

@@ -170,7 +170,7 @@ stockwork_case_test(NAME convergence/dcb/medium DECK prm/dcb/cohesive_xfem.prm N
          "errors/dissipated_energy/final < 0.012")
 
 # A crack that follows a wave of opening: the power of the edges over its speed, 8 m/s, is the energy
-# release rate. G_c is 100 J/m^2. It is as long as it reaches, although cells beside it have soft bonds.
+# release rate. G_c is 100 J/m^2. It is as long as it reaches, although cells beside it have softening bonds.
 stockwork_case_test(NAME convergence/surfing/peridynamics DECK prm/surfing/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
   EXPECT "rates/external_work = 800 within 0.02" "rates/dissipated_energy = 800 within 0.02"

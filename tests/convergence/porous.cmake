@@ -18,7 +18,7 @@ stockwork_case_test(NAME convergence/porous/fracture ${fracture}
 # constants: K + alpha^2 M = 26.4 GPa and G = 12 GPa.
 set(sealed SET "Rock/Permeability=1e-32 m^2" "Rock/Fracture toughness="
   "Rock/Critical energy release rate=31.25 J/m^2")
-set(others "leak|stored|outflow|balance|length|energy|pore_volume|least_aperture")
+set(others "leak|stored|outflow|balance|length|energy|pore_volume|minimum_aperture")
 stockwork_same_test(NAME convergence/porous/sealed ${fracture} ${sealed} TOLERANCE 1e-6
   SECOND_SET "Fracture flow/Leak-off=none" IGNORE ${others})
 stockwork_same_test(NAME convergence/porous/undrained ${fracture} ${sealed}

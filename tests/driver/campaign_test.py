@@ -21,7 +21,7 @@ def straight_run(scene, turned=0.):
     run.wing = scene.wing * run.time**(2 / 3)
     run.aperture = run.time**(1 / 3)
     run.pressure = run.time**(-1 / 3)
-    run.least_aperture = 0.
+    run.minimum_aperture = 0.
     run.summary = {"steps": 100, "rejected_steps": 0}
     low, high = scene.straight(scene.wing, turned)
     places = low + np.linspace(0., 1., 81)[:, None] * (high - low)
@@ -90,7 +90,7 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual(judge(scene, straight_run(scene, 4.), None)[1], [])
         self.assertEqual(judge(scene, straight_run(scene, 6.), None)[1], ["direction"])
         overlapping = straight_run(scene)
-        overlapping.least_aperture = -0.02
+        overlapping.minimum_aperture = -0.02
         self.assertEqual(judge(scene, overlapping, None)[1], ["overlap"])
 
 

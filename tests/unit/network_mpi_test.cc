@@ -341,7 +341,7 @@ TEST_CASE("a rejected step leaves nothing behind; neither does a restart")
   }
 }
 
-TEST_CASE("fluid that would have to be pulled boils and lags")
+TEST_CASE("fluid that would have to be pulled cavitates and lags")
 {
   // A slot of 0.2 mm in hard rock, of which two segments are full and six open within a step.
   constexpr double slot = 2e-4, least = -3e5, rate = 1e-4; // [m], [Pa], [m^2/s]

@@ -27,7 +27,7 @@ const std::string in_and_out = "0 s: 1e-4 m^2/s; 2 s: -1e-4 m^2/s; 5 s: 1e-4 m^2
 TEST_CASE("at its least pressure a well takes what flows")
 {
   Chain chain(1);
-  Chain::Entries bound = {{"Wells/Well 1/Least pressure", "1e5 Pa"}};
+  Chain::Entries bound = {{"Wells/Well 1/Minimum pressure", "1e5 Pa"}};
   double stored = 0.;
   SUBCASE("directly")
   {
@@ -71,7 +71,8 @@ TEST_CASE("at its least pressure a well takes what flows")
   CHECK(pressure() == close(1e5 + 1e-4 / capacity));
 }
 
-TEST_CASE("without an entry the bound is vacuum, or where the fluid boils; an injector has none")
+TEST_CASE(
+  "without an entry the bound is vacuum, or where the fluid cavitates; an injector has none")
 {
   const auto bounds = [](const Chain::Entries &entries)
   {
@@ -85,10 +86,11 @@ TEST_CASE("without an entry the bound is vacuum, or where the fluid boils; an in
   CHECK(bounds(well(in_and_out))[0].second == 0.);
   CHECK(bounds(well("f(t) = 1e-4*cos(t)"))[0].second == 0.);
   CHECK(bounds(well(in_and_out, {{"Fracture flow/Vapour pressure", "-3 MPa"}}))[0].second == -3e6);
-  CHECK(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Least pressure", "2 MPa"}}))[0].second == 2e6);
-  CHECK_THROWS_AS(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Least pressure", "2 m"}})), InputError);
+  CHECK(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Minimum pressure", "2 MPa"}}))[0].second == 2e6);
+  CHECK_THROWS_AS(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Minimum pressure", "2 m"}})),
+                  InputError);
   CHECK_THROWS_AS(bounds(well("0", {{"Wells/Well 1/Control", "pressure"},
-                                    {"Wells/Well 1/Least pressure", "2 MPa"}})),
+                                    {"Wells/Well 1/Minimum pressure", "2 MPa"}})),
                   InputError);
 }
 
@@ -97,7 +99,7 @@ TEST_CASE("two perforations, one of them far from what is left")
   Chain chain(6);
   chain.set_up(
     well("0 s: 1e-4 m^2/s; 10 s: -1e-4 m^2/s", {{"Wells/Well 1/Perforations", "0.25, 0; 0.75, 0"},
-                                                {"Wells/Well 1/Least pressure", "20 kPa"}}));
+                                                {"Wells/Well 1/Minimum pressure", "20 kPa"}}));
   for (unsigned int i = 0; i < 10; ++i)
     chain.step(1.);
   for (unsigned int i = 0; i < 10; ++i)

@@ -118,9 +118,10 @@ private:
   /// and takes more fluid all the same. Empty if it need not.
   std::string reason_to_stop(const State &) const;
 
-  /// Warn, once, of a tip that is held although the rock ahead of it should have parted.
+  /// Warn, once, of a tip that is arrested although the rock ahead of it should have parted.
   /// @param drive tension ahead plus pressure [Pa]
-  void warn_of_held_tip(unsigned int crack, CrackEnd end, double drive, const std::string &cause);
+  void
+  warn_of_arrested_tip(unsigned int crack, CrackEnd end, double drive, const std::string &cause);
 
   using Advance = typename Discontinuity<dim>::Advance;
 
@@ -146,8 +147,8 @@ private:
 
   enum class TipState
   {
-    rests, ///< for now, or grows
-    held   ///< by the mesh, and driven hopelessly hard
+    rests,   ///< for now, or grows
+    arrested ///< by the mesh, and driven hopelessly hard
   };
   TipState judge(const TipAhead &tip, const State &state, GrowthPass &pass);
 

@@ -132,19 +132,19 @@ std::string CohesiveXFEM<dim>::reason_to_stop(const State &state) const
 
 
 template <int dim>
-void CohesiveXFEM<dim>::warn_of_held_tip(const unsigned int crack,
-                                         const CrackEnd end,
-                                         const double drive,
-                                         const std::string &cause)
+void CohesiveXFEM<dim>::warn_of_arrested_tip(const unsigned int crack,
+                                             const CrackEnd end,
+                                             const double drive,
+                                             const std::string &cause)
 {
   // A tip that waits for its turn is driven by the strength or a little more.
   constexpr double clearly = 2.;
   if (drive < clearly * law.strength ||
-      !limits.told_of_holding.insert({crack, static_cast<unsigned int>(end)}).second)
+      !limits.told_of_arrest.insert({crack, static_cast<unsigned int>(end)}).second)
     return;
   std::ostringstream text;
   text << "Crack " << crack + 1 << " at (" << discontinuity.paths()[crack].tip(end)
-       << ") is held: pressure and tension ahead come to " << drive << " Pa, the strength is "
+       << ") is arrested: pressure and tension ahead come to " << drive << " Pa, the strength is "
        << law.strength << " Pa. " << cause << " What follows may be too short and its pressure too "
        << "high.";
   messages.push_back(text.str());
@@ -251,11 +251,12 @@ CohesiveXFEM<dim>::judge(const TipAhead &tip, const State &state, GrowthPass &pa
   // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
   if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
   {
-    warn_of_held_tip(c, end, drive, "The cell behind it is cut, but has not begun to break.");
+    warn_of_arrested_tip(c, end, drive, "The cell behind it is cut, but has not begun to break.");
     // And that was so when the step began.
-    const bool held_before =
-      committed_limits.told_of_holding.count({c, static_cast<unsigned>(end)}) > 0;
-    return drive > hopeless * law.strength && held_before ? TipState::held : TipState::rests;
+    const bool arrested_before =
+      committed_limits.told_of_arrest.count({c, static_cast<unsigned>(end)}) > 0;
+    return drive > hopeless * law.strength && arrested_before ? TipState::arrested
+                                                              : TipState::rests;
   }
   if (!broken_here && fluid_overpowers(c, end, state))
     return TipState::rests;
@@ -286,7 +287,7 @@ std::string CohesiveXFEM<dim>::take_new_span(const GrowthPass &pass, const unsig
   ++advances[crack][end];
   limits.has_grown[crack] = true;
   limits.wait_for_mesh.erase({crack, end});
-  limits.told_of_holding.erase({crack, end});
+  limits.told_of_arrest.erase({crack, end});
   const CrackSpan &span = discontinuity.span_at(crack, growing.end);
   const std::uint64_t key = discontinuity.key(crack, span);
   initial_pressure[key] = pass.pressures[i];
@@ -391,12 +392,12 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
 
   const std::vector<TipAhead> tips = look_ahead(state, collectives);
   GrowthPass pass;
-  bool held_everywhere = !tips.empty() && std::isnan(scene.crack_pressure);
+  bool arrested_everywhere = !tips.empty() && std::isnan(scene.crack_pressure);
   for (const TipAhead &tip : tips)
-    held_everywhere &= judge(tip, state, pass) == TipState::held;
-  if (held_everywhere)
+    arrested_everywhere &= judge(tip, state, pass) == TipState::arrested;
+  if (arrested_everywhere)
     return stop(
-      "every tip is held, although pressure and tension ahead come to more than " +
+      "every tip is arrested, although pressure and tension ahead come to more than " +
       std::to_string(static_cast<int>(hopeless)) +
       " times the strength: the fracture cannot turn as it wants to on this mesh. Smaller "
       "cells, a longer notch, or one along the greatest compression may do.");
@@ -415,7 +416,7 @@ template double
 CohesiveXFEM<2>::distance_to_damage(unsigned int, CrackEnd, double, const State &) const;
 template std::string CohesiveXFEM<2>::reason_to_stop(const State &) const;
 template void
-CohesiveXFEM<2>::warn_of_held_tip(unsigned int, CrackEnd, double, const std::string &);
+CohesiveXFEM<2>::warn_of_arrested_tip(unsigned int, CrackEnd, double, const std::string &);
 template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template bool CohesiveXFEM<2>::press_faces(const State &);

@@ -17,16 +17,16 @@ struct GrowthLimits
 {
   using Tip = std::pair<unsigned int, unsigned int>; ///< crack, end
 
-  std::vector<bool> has_grown;   ///< by crack
-  std::vector<double> volume;    ///< by crack, at the last accepted step [m^2]
-  std::string blocked_by;        ///< what stopped a tip last, as told to the user
-  std::set<Tip> wait_for_mesh;   ///< tips that need the mesh changed ahead of them
-  std::set<Tip> told_of_holding; ///< tips about which the user has been told that they are held
+  std::vector<bool> has_grown;  ///< by crack
+  std::vector<double> volume;   ///< by crack, at the last accepted step [m^2]
+  std::string blocked_by;       ///< what stopped a tip last, as told to the user
+  std::set<Tip> wait_for_mesh;  ///< tips that need the mesh changed ahead of them
+  std::set<Tip> told_of_arrest; ///< tips about which the user has been told that they are arrested
 
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &has_grown &volume &blocked_by &wait_for_mesh &told_of_holding;
+    ar &has_grown &volume &blocked_by &wait_for_mesh &told_of_arrest;
   }
 };
 } // namespace stockwork::cohesive_xfem

@@ -16,7 +16,7 @@ using dealii::Tensor;
 
 namespace
 {
-/// Net pressure over the strength from which on bonds may break in a blob.
+/// Net pressure over the strength from which on bonds may break in a cloud of damage.
 constexpr double high_pressure = 0.5;
 /// In-situ stress along a crack less that across it, over the strength, below which pressure and
 /// length are off by less than 1 %.
@@ -176,7 +176,7 @@ void Peridynamics<dim>::foresee_pressure(const double spacing)
     "A fracture of this rock, fluid and rate (K_m = " + text(fracture.dimensionless_toughness()) +
     ") needs a net pressure of " + megapascals(pressure) + " when its wings are " + text(wing) +
     " m long, and the bonds of cells of " + text(spacing) + " m hold " + megapascals(strength()) +
-    ": they may break in a blob where a crack should be. Cells of " + text(finer) +
+    ": they may break over an area where a crack should be. Cells of " + text(finer) +
     " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'.");
 }
 
@@ -197,11 +197,12 @@ void Peridynamics<dim>::warn_of_pressure(const State &state)
     return;
   std::ostringstream message;
   message.precision(3);
-  message << "The net pressure in a crack, " << pressure * 1e-6
-          << " MPa, has come near the strength of the bonds, " << strength() * 1e-6
-          << " MPa with a horizon of " << parameters.horizon * zone.spacing()
-          << " m. They may break in a blob where a crack should be, and branches may be those of "
-             "the mesh. The strength grows as the cells shrink, with the root.";
+  message
+    << "The net pressure in a crack, " << pressure * 1e-6
+    << " MPa, has come near the strength of the bonds, " << strength() * 1e-6
+    << " MPa with a horizon of " << parameters.horizon * zone.spacing()
+    << " m. They may break over an area where a crack should be, and branches may be those of "
+       "the mesh. The strength grows as the cells shrink, with the root.";
   messages.push_back(message.str());
   told_of_pressure = true;
 }
