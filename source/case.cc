@@ -310,6 +310,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   scene.domain_size = geometry.diameter();
   check_cracks(*this, warnings);
   scene.crack_pressure = given_crack_pressure(prm);
+  network.set_pressures(scene.crack_pressure, scene.in_situ_stress);
   control.parse_parameters(prm);
   network.check_wells(control.start_time, control.end_time);
   scene.injection_rate = greatest_rate(network, control);

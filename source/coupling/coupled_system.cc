@@ -206,7 +206,13 @@ void CoupledSystem<dim>::adopt_extra(const ExtraNumbering &from,
 {
   std::vector<ExtraUnknown> unknowns = model.extra_unknowns();
   n_model_extra = system.n_mechanical_extra = unknowns.size();
-  network.set_segments(model.segments(), communication);
+  const std::vector<double> &earlier = *values.front();
+  network.set_segments(model.segments(), communication,
+                       [&](const std::uint64_t key)
+                       {
+                         const auto i = from.find(key);
+                         return i ? std::optional<double>(earlier[*i]) : std::nullopt;
+                       });
   network.set_offset(n_model_extra);
   const std::vector<ExtraUnknown> pressures = network.unknowns();
   unknowns.insert(unknowns.end(), pressures.begin(), pressures.end());

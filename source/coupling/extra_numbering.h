@@ -3,6 +3,7 @@
 #include "stockwork/fracture/model.h"
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -33,6 +34,15 @@ public:
     return unknowns[i];
   }
 
+  /// Index of the unknown with this key.
+  std::optional<unsigned int> find(const std::uint64_t key) const
+  {
+    const auto position = index.find(key);
+    if (position == index.end())
+      return {};
+    return position->second;
+  }
+
   bool same_keys(const ExtraNumbering &other) const
   {
     if (size() != other.size())
@@ -53,10 +63,10 @@ public:
     std::vector<double> result(size());
     for (unsigned int i = 0; i < size(); ++i)
     {
-      const auto position = from.index.find(unknowns[i].key);
-      result[i] = position != from.index.end() ? values[position->second]
-                  : new_value == new_value     ? new_value
-                                               : unknowns[i].initial;
+      const auto position = from.find(unknowns[i].key);
+      result[i] = position                 ? values[*position]
+                  : new_value == new_value ? new_value
+                                           : unknowns[i].initial;
     }
     return result;
   }

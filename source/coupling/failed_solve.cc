@@ -77,7 +77,7 @@ void CoupledSystem<dim>::explain(NonlinearReport &report,
     const unsigned int i = std::max_element(system.residual_extra.begin() + n_model_extra,
                                             system.residual_extra.end(), greater) -
                            system.residual_extra.begin() - n_model_extra;
-    if (i < segments.size() && !segments[i].has_given_pressure())
+    if (i < segments.size() && network.unknown(segments[i].key))
       text << ", most of it at (" << segments[i].centre << ") m";
   }
   if (n_limited > 0)

@@ -37,9 +37,8 @@ int end_at(const CrackPiece<dim> &piece, const Point<dim> &unit_point)
 } // namespace
 
 template <int dim>
-Discontinuity<dim>::Discontinuity(const double domain_size, const double scale)
+Discontinuity<dim>::Discontinuity(const double domain_size)
   : domain_size(domain_size)
-  , scale(scale)
 {
 }
 
@@ -254,7 +253,7 @@ void Discontinuity<dim>::add_entry(const CellIterator &cell,
 template <int dim>
 void Discontinuity<dim>::renumber()
 {
-  unknowns.rebuild(cracks, tips, domain_size, scale);
+  unknowns.rebuild(cracks, tips, domain_size);
   piece_of_cell.clear();
   spans_of_crack.clear();
   for (const CrackPath<dim> &crack : cracks)

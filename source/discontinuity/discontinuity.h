@@ -26,8 +26,8 @@ class Discontinuity
 public:
   using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
-  /// `scale` is the typical size of a jump [m], for the convergence test.
-  Discontinuity(const double domain_size, const double scale);
+  /// @param domain_size diameter of the domain [m], for tolerances
+  explicit Discontinuity(const double domain_size);
 
   /// The mesh is new. Existing cracks keep their cells.
   /// @throws SolveError if a cut cell is not in the mesh any more
@@ -179,7 +179,6 @@ private:
   void collect_entries();
 
   double domain_size;
-  double scale;
   std::unique_ptr<MeshView<dim>> mesh_view;
   std::vector<CrackPath<dim>> cracks;
   std::vector<std::vector<CrackSpan>> spans_of_crack;

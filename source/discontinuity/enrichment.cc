@@ -10,8 +10,7 @@ namespace stockwork
 template <int dim>
 void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
                               std::vector<CrackTip<dim>> &tips,
-                              const double domain_size,
-                              const double scale)
+                              const double domain_size)
 {
   all_unknowns.clear();
   piece_columns.assign(cracks.size(), {});
@@ -48,7 +47,7 @@ void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
             const std::uint64_t unknown = hash_combine(key, d);
             const auto [entry, is_new] = numbers.emplace(unknown, all_unknowns.size());
             if (is_new)
-              all_unknowns.push_back({unknown, 0., scale});
+              all_unknowns.push_back({unknown});
             piece_columns[c][i].push_back({entry->second, v, d});
           }
       }
@@ -57,10 +56,8 @@ void Enrichment<dim>::rebuild(const std::vector<CrackPath<dim>> &cracks,
     for (unsigned int mode = 0; mode < tip.extra.size(); ++mode)
     {
       tip.extra[mode] = all_unknowns.size();
-      all_unknowns.push_back(
-        {hash_combine(hash_combine(hash_combine(0x71b, tip.crack), static_cast<int>(tip.end)),
-                      mode),
-         0., scale});
+      all_unknowns.push_back({hash_combine(
+        hash_combine(hash_combine(0x71b, tip.crack), static_cast<int>(tip.end)), mode)});
     }
 }
 

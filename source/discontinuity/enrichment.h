@@ -23,8 +23,7 @@ public:
   /// Number the unknowns of these cracks anew and tell the tips theirs. Keys stay.
   void rebuild(const std::vector<CrackPath<dim>> &cracks,
                std::vector<CrackTip<dim>> &tips,
-               const double domain_size,
-               const double scale);
+               const double domain_size);
 
   const std::vector<ExtraUnknown> &unknowns() const
   {

@@ -89,7 +89,6 @@ void add_proppant(const std::vector<InitialCrack<dim>> &cracks,
         room += path.pieces[i].length() * propped_gap(cracks[c], path, i);
       segment->opening.constant -= room / discontinuity.length(c, span);
       segment->propped_conductivity = cracks[c].proppant.conductivity;
-      segment->initial_pressure = segment->pore_pressure.constant;
     }
   }
 }

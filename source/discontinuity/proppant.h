@@ -21,8 +21,8 @@ template <int dim>
 std::function<double(unsigned int, unsigned int)>
 propped_gaps(const std::vector<InitialCrack<dim>> &cracks, const Discontinuity<dim> &discontinuity);
 
-/// The faces of propped cracks begin to close at the pore pressure in situ, keep their distance,
-/// and conduct by the proppant: what opens is the room beside it.
+/// The faces of propped cracks keep their distance, and conduct by the proppant: what opens is the
+/// room beside it.
 /// @param segments of @p discontinuity
 template <int dim>
 void add_proppant(const std::vector<InitialCrack<dim>> &cracks,

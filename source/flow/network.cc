@@ -91,6 +91,16 @@ void Network<dim>::set_fluid(const double viscosity,
 
 
 template <int dim>
+void Network<dim>::set_pressures(
+  const double given,
+  std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> in_situ_stress)
+{
+  given_pressure = given;
+  this->in_situ_stress = std::move(in_situ_stress);
+}
+
+
+template <int dim>
 void Network<dim>::set_scales(const double minimum_aperture,
                               const double pressure,
                               const double aperture,
@@ -105,14 +115,14 @@ void Network<dim>::set_scales(const double minimum_aperture,
 
 template <int dim>
 void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &segments,
-                                const Collectives &collectives)
+                                const Collectives &collectives,
+                                const EarlierValue &earlier)
 {
   owned.assign(segments.begin(), segments.end());
 
   std::vector<NetworkSegment<dim>> mine;
   for (const Segment<dim> &segment : owned)
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
-                    segment.given_pressure, segment.initial_pressure,
                     segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
                     segment.pore_distance, segment.share_of_pores, segment.bare_aperture,
                     segment.propped_conductivity, collectives.rank(), segment.at_tip,
@@ -120,6 +130,8 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
   network = collectives.gather(mine);
   std::sort(network.begin(), network.end(),
             [](const auto &a, const auto &b) { return a.key < b.key; });
+  for (NetworkSegment<dim> &segment : network)
+    segment.initial_pressure = initial_pressure(segment, earlier);
 
   const auto find = [&](const std::uint64_t key) -> unsigned int
   {
@@ -160,7 +172,7 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
     throw EntryError("Fracture flow/Leak-off", "resolved",
                      "another law where the rock has no pore pressure or is impermeable");
 
-  all_wells.locate(network);
+  all_wells.locate(network, pressure_is_given());
   set_offset(0);
 
   if (!in_step)
@@ -177,13 +189,39 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
 
 
 template <int dim>
+double Network<dim>::initial_pressure(const NetworkSegment<dim> &segment,
+                                      const EarlierValue &earlier) const
+{
+  if (pressure_is_given())
+    return given_pressure;
+  if (const auto own = earlier(flow_key(segment.key, 1)))
+    return *own;
+  std::optional<double> beside;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto &neighbour : segment.neighbours)
+    if (neighbour.distance <= nearest)
+      if (const auto pressure = earlier(flow_key(neighbour.key, 1)))
+      {
+        nearest = neighbour.distance;
+        beside = pressure;
+      }
+  if (beside)
+    return *beside;
+  if (segment.propped_conductivity > 0.)
+    return segment.in_situ_pore_pressure;
+  const auto &n = segment.normal;
+  return in_situ_stress ? std::max(0., -(n * (in_situ_stress(segment.centre) * n))) : 0.;
+}
+
+
+template <int dim>
 void Network<dim>::set_offset(const unsigned int first_index)
 {
   unsigned int next = first_index;
   rows.assign(network.size(), no_row);
   leak_off_rows.assign(network.size(), no_row);
   for (unsigned int i = 0; i < network.size(); ++i)
-    if (!network[i].has_given_pressure())
+    if (!pressure_is_given())
       rows[i] = next++;
   for (unsigned int i = 0; i < network.size(); ++i)
     if (leaks_into_pores(network[i]))
@@ -196,17 +234,13 @@ template <int dim>
 std::vector<ExtraUnknown> Network<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> result;
-  const auto add = [&](const std::uint64_t key, const double initial) {
-    result.push_back({key, initial, std::max(std::abs(initial), pressure_scale)});
-  };
   for (const auto &segment : network)
-    if (!segment.has_given_pressure())
-      add(flow_key(segment.key, 1), segment.initial_pressure);
+    if (!pressure_is_given())
+      result.push_back({flow_key(segment.key, 1), segment.initial_pressure});
   for (const auto &segment : network)
     if (leaks_into_pores(segment))
-      add(flow_key(segment.key, 3),
-          (segment.has_given_pressure() ? segment.given_pressure : segment.initial_pressure) -
-            segment.in_situ_pore_pressure);
+      result.push_back(
+        {flow_key(segment.key, 3), segment.initial_pressure - segment.in_situ_pore_pressure});
   const auto of_wells = all_wells.unknowns();
   result.insert(result.end(), of_wells.begin(), of_wells.end());
   return result;
@@ -297,7 +331,7 @@ double Network<dim>::opening(const unsigned int k, const Unknowns &unknowns) con
   if (owned[k].opening_by_pressure == 0.)
     return of_rock;
   const unsigned int row = rows[owned_index[k]];
-  const double pressure = row == no_row ? owned[k].given_pressure : unknowns.extra[row];
+  const double pressure = row == no_row ? given_pressure : unknowns.extra[row];
   return of_rock + owned[k].opening_by_pressure * pressure;
 }
 
@@ -307,7 +341,7 @@ std::vector<double> Network<dim>::pressures(const Unknowns &unknowns) const
 {
   std::vector<double> result(network.size());
   for (unsigned int i = 0; i < network.size(); ++i)
-    result[i] = rows[i] == no_row ? network[i].given_pressure : unknowns.extra[rows[i]];
+    result[i] = rows[i] == no_row ? given_pressure : unknowns.extra[rows[i]];
   return result;
 }
 
@@ -330,7 +364,7 @@ double Network<dim>::pressure(const std::uint64_t key, const Unknowns &unknowns)
   const auto i = number(key);
   if (!i)
     return 0.;
-  return rows[*i] == no_row ? network[*i].given_pressure : unknowns.extra[rows[*i]];
+  return rows[*i] == no_row ? given_pressure : unknowns.extra[rows[*i]];
 }
 
 

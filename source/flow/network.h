@@ -6,6 +6,7 @@
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -31,8 +32,8 @@ namespace stockwork
 ///
 /// with T from the cubic law (conductivity.h; Batchelor 1967) and proppant, and leak-off through
 /// both faces (leak_off.h). The fluid loads the rock by A p B^T, the transpose of what the aperture
-/// adds to the balance, so that work and volume are conserved. Segments whose pressure is given
-/// have the load only; what they take from or give to others counts as injected or flowing out.
+/// adds to the balance, so that work and volume are conserved. Where the pressure is given,
+/// segments have the load only; what they take or give counts as injected or flowing out.
 ///
 /// Where it would take less than the least pressure to fill a segment, that pressure rules there
 /// and part of the segment is vapour, which weighs nothing (after Jakobsson, Floberg and Olsson;
@@ -59,18 +60,34 @@ public:
   /// @param rock_mobility k/mu of the rock, for leak-off that is resolved [m^2/(Pa s)]
   void set_fluid(double viscosity, double compressibility, double rock_mobility);
 
+  /// What the scene says of pressures.
+  /// @param given in all segments [Pa]; NaN: they are solved for
+  /// @param in_situ_stress total, tension positive [Pa]: a new segment begins to open at it
+  void set_pressures(
+    double given,
+    std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> in_situ_stress);
+
   /// After the fluid.
   /// @param minimum_aperture [m]
   /// @param pressure, aperture, length of a fracture of this scene [Pa, m, m]: of these sizes are
   /// the factors that make all unknowns of the flow pressures and all its equations volumes
   void set_scales(double minimum_aperture, double pressure, double aperture, double length);
 
+  /// Value of an extra unknown as it was before, by key; nothing if it is new.
+  using EarlierValue = std::function<std::optional<double>(std::uint64_t key)>;
+
   /// The fractures or the numbering of the unknowns are new. Collective. Segments that appear
   /// within a step were exposed within it: those of the first of two calls in its first half.
+  /// A new pressure starts from that of the nearest neighbour that has one; without any, from that
+  /// at which the segment begins to open: the in-situ compression across it, or the pore pressure
+  /// in situ where proppant is in it.
   /// @throws InputError when a perforation lies on no fracture
-  void set_segments(const dealii::ArrayView<const Segment<dim>> &owned, const Collectives &);
+  void set_segments(
+    const dealii::ArrayView<const Segment<dim>> &owned,
+    const Collectives &,
+    const EarlierValue &earlier = [](std::uint64_t) { return std::optional<double>(); });
 
-  /// One pressure for each segment without given pressure; one pressure drop p_f - p_m for each
+  /// One pressure for each segment, unless it is given; one pressure drop p_f - p_m for each
   /// segment that leaks into the rock's pores; then those of the wells. The drop could be
   /// eliminated, but that would add to the rock's own matrix, which with it stays as it is.
   std::vector<ExtraUnknown> unknowns() const;
@@ -274,6 +291,14 @@ private:
     double width;          ///< of the edge; at a tip less, see tip_gradient_factor()
   };
 
+  bool pressure_is_given() const
+  {
+    return !std::isnan(given_pressure);
+  }
+
+  /// From which the pressure of a segment starts, see set_segments().
+  double initial_pressure(const NetworkSegment<dim> &segment, const EarlierValue &earlier) const;
+
   /// Of an owned segment [m]; negative where its faces overlap.
   double opening(unsigned int owned_segment, const Unknowns &unknowns) const;
 
@@ -346,6 +371,8 @@ private:
   double viscosity = std::numeric_limits<double>::quiet_NaN();
   double compressibility = 0.;
   double rock_mobility = 0.;
+  double given_pressure = std::numeric_limits<double>::quiet_NaN(); ///< in all segments [Pa]
+  std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> in_situ_stress;
 
   Wells<dim> all_wells;
 

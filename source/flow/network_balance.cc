@@ -54,18 +54,10 @@ FluidBalance Network<dim>::balance(const StepContext &context,
     balance.step.in_fractures += gain;
     balance.step.leaked += leaked[i];
 
-    if (network[i].has_given_pressure())
-    {
-      // What it takes is supplied from outside.
-      double supply = gain + leaked[i];
-      for (const Edge &edge : edges[i])
-      {
-        const unsigned int j = edge.other;
-        supply += context.dt * transmissibility(i, edge, values).value *
-                  (values.pressure[i] - values.pressure[j]);
-      }
-      (supply > 0. ? balance.step.injected : balance.step.outflow) += std::abs(supply);
-    }
+    // What it takes is supplied from outside, and nothing flows between equal pressures.
+    if (pressure_is_given())
+      (gain + leaked[i] > 0. ? balance.step.injected : balance.step.outflow) +=
+        std::abs(gain + leaked[i]);
   }
 
   balance.total = total;

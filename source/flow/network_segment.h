@@ -15,8 +15,6 @@ struct NetworkSegment
   dealii::Point<dim> centre;
   dealii::Tensor<1, dim> normal;
   double area = 0.;
-  double given_pressure = std::numeric_limits<double>::quiet_NaN();
-  double initial_pressure = 0.;
   double in_situ_pore_pressure = 0.;
   bool rock_has_pore_pressure = false; ///< as unknowns
   double pore_distance = 0.;           ///< see Segment [m]
@@ -26,11 +24,7 @@ struct NetworkSegment
   unsigned int owner = 0;              ///< rank
   bool at_tip = false;
   std::vector<typename Segment<dim>::Neighbour> neighbours;
-
-  bool has_given_pressure() const
-  {
-    return !std::isnan(given_pressure);
-  }
+  double initial_pressure = 0.; ///< from which an unknown pressure starts [Pa]; not gathered
 
   /// Length of the segment; in 3-D the side of the square of its area [m].
   double size() const
@@ -41,9 +35,8 @@ struct NetworkSegment
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &key &centre &normal &area &given_pressure &initial_pressure &in_situ_pore_pressure
-      &rock_has_pore_pressure &pore_distance &share_of_pores &bare_aperture &propped_conductivity
-        &owner &at_tip &neighbours;
+    ar &key &centre &normal &area &in_situ_pore_pressure &rock_has_pore_pressure &pore_distance
+      &share_of_pores &bare_aperture &propped_conductivity &owner &at_tip &neighbours;
   }
 };
 

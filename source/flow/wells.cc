@@ -209,7 +209,8 @@ EntryError Wells<dim>::perforation_error(const Well &well,
 
 
 template <int dim>
-void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments)
+void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments,
+                        const bool pressure_is_given)
 {
   for (Well &well : wells)
     for (Perforation &perforation : well.perforations)
@@ -230,9 +231,8 @@ void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments)
       if (nearest > segments[perforation.segments.front()].size())
         complain("none; the nearest segment of one is at distance " + std::to_string(nearest) +
                  " m");
-      for (const unsigned int i : perforation.segments)
-        if (segments[i].has_given_pressure())
-          complain("one whose pressure is given, so the well would have no effect");
+      if (pressure_is_given)
+        complain("one whose pressure is given, so the well would have no effect");
     }
   for (Well &well : wells)
     well.initial_pressure = segments[well.perforations[0].segments[0]].initial_pressure;
@@ -260,7 +260,6 @@ std::vector<ExtraUnknown> Wells<dim>::unknowns() const
     {
       ExtraUnknown unknown;
       unknown.key = flow_key(std::uint64_t(well.number) << 32 | k, 2);
-      unknown.scale = std::max(std::abs(well.initial_pressure), pressure_scale);
       if (k == well.perforations.size())
         unknown.initial = well.initial_pressure;
       result.push_back(unknown);
@@ -485,7 +484,6 @@ std::vector<std::pair<std::string, double>> Wells<dim>::least_pressures() const
 template <int dim>
 void Wells<dim>::set_scales(const double pressure, const double typical_rate)
 {
-  pressure_scale = pressure;
   for (Well &well : wells)
   {
     const double rate = well.pressure_control ? 0. : well.value.magnitude() * well.fraction;

@@ -88,7 +88,7 @@ public:
 
   /// Find the segments that the perforations open into.
   /// @throws EntryError naming a point that lies on no segment
-  void locate(const std::vector<NetworkSegment<dim>> &segments);
+  void locate(const std::vector<NetworkSegment<dim>> &segments, bool pressure_is_given);
 
   /// Whether a perforation opens into a segment.
   bool feeds(unsigned int segment) const;
@@ -242,6 +242,5 @@ private:
 
   std::vector<Well> wells;
   double compressibility = 0.;
-  double pressure_scale = 1.;
 };
 } // namespace stockwork

@@ -59,7 +59,7 @@ struct Square
 
 Discontinuity<2> cut(const Square &square, const std::vector<std::vector<Point<2>>> &polylines)
 {
-  Discontinuity<2> discontinuity(2.8, 1.);
+  Discontinuity<2> discontinuity(2.8);
   discontinuity.setup(square.mesh_view(), square.collectives);
   std::vector<InitialCrack<2>> cracks;
   for (const auto &polyline : polylines)
@@ -323,7 +323,7 @@ TEST_CASE("growth goes on to the boundary, never turns back, and stops at anothe
 TEST_CASE("a crack that the mesh cannot hold is refused with the entry that asks for it")
 {
   Square square(10);
-  Discontinuity<2> discontinuity(2.8, 1.);
+  Discontinuity<2> discontinuity(2.8);
   discontinuity.setup(square.mesh_view(), square.collectives);
   const auto refused = [&](const std::vector<InitialCrack<2>> &cracks)
   {
@@ -349,7 +349,7 @@ TEST_CASE("a crack that the mesh cannot hold is refused with the entry that asks
 TEST_CASE("tips with functions of their own lie where the crack ends")
 {
   Square square(10); // cells of 0.2
-  Discontinuity<2> discontinuity(2.8, 1.);
+  Discontinuity<2> discontinuity(2.8);
   discontinuity.setup(square.mesh_view(), square.collectives);
   InitialCrack<2> crack;
   crack.points = {{-0.57, 0.1}, {0.44, 0.13}};

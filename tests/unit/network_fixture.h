@@ -3,7 +3,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -145,8 +148,14 @@ public:
     for (unsigned int i = 0; i < n; ++i)
       if (i % n_ranks == collectives.rank())
         mine.push_back(all[i]);
+    const auto earlier = [&](const std::uint64_t key)
+    {
+      const auto place = std::find(keys.begin(), keys.end(), key);
+      return place != keys.end() ? std::optional<double>(extra[n_model + (place - keys.begin())])
+                                 : std::nullopt;
+    };
     network.set_segments(dealii::ArrayView<const stockwork::Segment<2>>(mine.data(), mine.size()),
-                         collectives);
+                         collectives, earlier);
     network.set_offset(n_model);
 
     std::vector<double> old = std::move(extra), old_reference = std::move(extra_reference);

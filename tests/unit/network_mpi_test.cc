@@ -71,18 +71,97 @@ TEST_CASE("flow through a slot of constant width is the cubic law's")
       segment.opening = {};
       segment.opening.constant = 2e-4;
     }
-    segments.front().given_pressure = 3e6;
-    segments.back().given_pressure = 1e6;
   };
-  chain.set_up({{"Fracture flow/Minimum aperture", "0.1 um"}});
-  CHECK(chain.network.unknowns().size() == 3);
+  chain.set_up({{"Fracture flow/Minimum aperture", "0.1 um"},
+                {"Wells/Well 1/Control", "pressure"},
+                {"Wells/Well 1/Pressure", "3 MPa"},
+                {"Wells/Well 1/Perforations", "0.25, 0"},
+                {"Wells/Well 2/Control", "pressure"},
+                {"Wells/Well 2/Pressure", "1 MPa"},
+                {"Wells/Well 2/Perforations", "2.25, 0"}});
   const auto balance = chain.step(2.);
   // 2 MPa over 4 segments of 0.5 m, for 2 s
   const double expected = std::pow(2e-4, 3) / (12. * 1e-3) * 2e6 / 2. * 2.;
   CHECK(balance.step.injected == Approx(expected).epsilon(1e-9));
   CHECK(balance.step.outflow == Approx(expected).epsilon(1e-9));
   CHECK(balance.relative_error < 1e-10);
-  CHECK(chain.extra[1] == Approx(2e6));
+  CHECK(chain.extra[2] == Approx(2e6));
+}
+
+TEST_CASE("where the pressure is given, the fluid loads the rock and what it fills is supplied")
+{
+  Chain chain(4);
+  chain.network.set_pressures(2e6, {});
+  chain.set_up({{"Fracture flow/Minimum aperture", "1 um"}});
+  CHECK(chain.network.unknowns().empty());
+  const auto balance = chain.step(1.);
+  const double filled = 2e6 / chain.stiffness * 4 * chain.h;
+  CHECK(balance.step.injected == Approx(filled));
+  CHECK(balance.fracture_volume == Approx(filled));
+  CHECK(balance.relative_error < 1e-12);
+  CHECK(chain.network.pressure(1000, chain.unknowns(chain.bulk, chain.extra)) == 2e6);
+  CHECK_FALSE(chain.network.unknown(1000));
+  // A well would have no effect.
+  CHECK_THROWS_AS(chain.set_up(one_well), stockwork::InputError);
+}
+
+TEST_CASE("a new pressure starts from the neighbour's, or from that at which the segment opens")
+{
+  // Compression of 2 MPa across the segments, growing along them; tension across the last.
+  const auto stress = [](const dealii::Point<2> &x)
+  {
+    dealii::SymmetricTensor<2, 2> stress;
+    stress[0][0] = -9e6;
+    stress[1][1] = x[0] > 2. ? 1e6 : -2e6 - 1e6 * x[0];
+    return stress;
+  };
+  Chain chain(5);
+  chain.network.set_pressures(std::numeric_limits<double>::quiet_NaN(), stress);
+  chain.edit = [](auto &segments)
+  {
+    segments[1].propped_conductivity = 1e-13;
+    for (auto &segment : segments)
+      segment.pore_pressure.constant = 3e5;
+  };
+  chain.set_up(one_well);
+  CHECK(chain.extra[0] == Approx(2.25e6));
+  CHECK(chain.extra[1] == Approx(3e5)); // proppant keeps it open
+  CHECK(chain.extra[2] == Approx(3.25e6));
+  CHECK(chain.extra[4] == 0.);
+
+  // Grown by two: the first has a neighbour; the second none with a pressure of its own.
+  chain.extra[4] = 7e6;
+  chain.n = 7;
+  chain.bulk.resize(7);
+  chain.bulk_reference.resize(7);
+  chain.edit = [](auto &) {};
+  chain.network.set_pressures(std::numeric_limits<double>::quiet_NaN(),
+                              [](const auto &) { return dealii::SymmetricTensor<2, 2>(); });
+  chain.update_segments();
+  CHECK(chain.extra[1] == Approx(3e5)); // what is there stays
+  CHECK(chain.extra[5] == Approx(7e6));
+  CHECK(chain.extra[6] == 0.);
+
+  // Between two that have one, the nearer counts.
+  chain.extra[2] = 4e6;
+  const auto segments_of = [&](const double to_left, const double to_right)
+  {
+    return [=](auto &segments)
+    {
+      segments[3].key = 5;
+      segments[2].neighbours[1].key = segments[4].neighbours[0].key = 5;
+      segments[3].neighbours[0].distance = to_left;
+      segments[3].neighbours[1].distance = to_right;
+    };
+  };
+  chain.edit = segments_of(0.1, 0.2);
+  chain.update_segments();
+  CHECK(chain.extra[0] == Approx(4e6)); // keys are in order, and 5 comes first
+  chain.edit = [](auto &) {};
+  chain.update_segments();
+  chain.edit = segments_of(0.2, 0.1);
+  chain.update_segments();
+  CHECK(chain.extra[0] == Approx(7e6));
 }
 
 TEST_CASE("the matrix is the derivative of the residual")
@@ -102,7 +181,6 @@ TEST_CASE("the matrix is the derivative of the residual")
       B.extra_coefficients = {0.4};
       B.constant = 1e-6;
     }
-    segments[5].given_pressure = 2e6;
   };
   const Chain::Entries friction = {{"Wells/Well 1/Perforations", "0.25, 0; 1.25, 0; 1.75, 0"},
                                    {"Wells/Well 1/Perforation friction", "1e14"},
@@ -140,14 +218,14 @@ TEST_CASE("the matrix is the derivative of the residual")
   }
   chain.extra[0] = 2e-6;
   chain.extra[1] = -3e-6;
-  const unsigned int n_leaking = chain.extra.size() - 12; // none, or all
+  const unsigned int n_leaking = chain.extra.size() - 13; // none, or all
   REQUIRE((n_leaking == 0 || n_leaking == 6));
-  for (unsigned int k = 0; k < 5; ++k)
+  for (unsigned int k = 0; k < 6; ++k)
     chain.extra[2 + k] = 2e6 + 3e5 * k * k;
   for (unsigned int k = 0; k < n_leaking; ++k)
-    chain.extra[7 + k] = 1e6 + 1e5 * k;
+    chain.extra[8 + k] = 1e6 + 1e5 * k;
   for (unsigned int k = 0; k < 5; ++k) // rates of the first well, its pressure; of the second
-    chain.extra[7 + n_leaking + k] = std::vector<double>{3e5, -2e5, 4e5, 4e6, 3e5}[k];
+    chain.extra[8 + n_leaking + k] = std::vector<double>{3e5, -2e5, 4e5, 4e6, 3e5}[k];
   chain.bulk_reference[2] = 1e-4;
   chain.extra_reference[3] = 5e5;
 

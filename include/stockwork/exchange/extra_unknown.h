@@ -11,6 +11,5 @@ struct ExtraUnknown
 {
   std::uint64_t key;
   double initial = 0.; ///< value, and rate reference, when it appears for the first time
-  double scale = 1.;   ///< typical size, for the convergence test
 };
 } // namespace stockwork

@@ -9,7 +9,6 @@
 #include "stockwork/exchange/state.h"
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace stockwork
@@ -92,11 +91,5 @@ struct Segment
   /// Of proppant between the faces, beside what the opening conducts: permeability times thickness
   /// [m^3]. The opening is then what is left beside the proppant.
   double propped_conductivity = 0.;
-
-  /// Fluid pressure where it is given and not solved for [Pa]; NaN: an unknown of its own.
-  double given_pressure = std::numeric_limits<double>::quiet_NaN();
-
-  /// Value that starts the iteration for a new fluid pressure unknown [Pa], e.g. the old tip's.
-  double initial_pressure = 0.;
 };
 } // namespace stockwork

@@ -47,7 +47,7 @@ template <int dim>
 CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &scene)
   : parameters(parameters)
   , scene(scene)
-  , discontinuity(scene.domain_size, 1.)
+  , discontinuity(scene.domain_size)
   , contact(
       parameters.friction, contact_stiffness, scene.rock.main().plane_modulus(), scene.domain_size)
 {
@@ -151,7 +151,6 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
   committed_damage.clear();
   committed_reach.clear();
   committed_bare_tips.clear();
-  initial_pressure.clear();
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
   {
     const bool open = scene.cracks[c].kind != InitialCrack<dim>::Kind::cohesive;
@@ -164,8 +163,6 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
       committed_reach[key] = discontinuity.length(c, span);
       if (open)
         committed_bare_tips.insert(key);
-      // The pressure at which the crack begins to open.
-      initial_pressure[key] = std::max(0., closing_stress(pieces[span.first]));
     }
   }
   committed_paths = discontinuity.paths();
@@ -183,13 +180,10 @@ void CohesiveXFEM<dim>::refresh_segments()
   all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
   for (Segment<dim> &segment : all_segments)
   {
-    segment.given_pressure = scene.crack_pressure;
     segment.at_tip = segment.at_tip && bare_tips.count(segment.key) != 0;
     // Half of the leak-off in the middle of the cohesive zone, where the tip of an elastic fracture
     // with the same toughness would be.
     segment.bare_aperture = 0.7 * law.critical_opening();
-    if (const auto found = initial_pressure.find(segment.key); found != initial_pressure.end())
-      segment.initial_pressure = found->second;
   }
   add_proppant(scene.cracks, discontinuity, all_segments);
 }
@@ -208,10 +202,7 @@ void CohesiveXFEM<dim>::begin_step(const StepContext &)
 template <int dim>
 std::vector<ExtraUnknown> CohesiveXFEM<dim>::extra_unknowns() const
 {
-  std::vector<ExtraUnknown> all = discontinuity.enrichment().unknowns();
-  for (ExtraUnknown &unknown : all)
-    unknown.scale = law.critical_opening();
-  return all;
+  return discontinuity.enrichment().unknowns();
 }
 
 
@@ -358,7 +349,6 @@ bool CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
       committed_damage[piece.key(scene.domain_size)] = now;
     }
   committed_paths = discontinuity.paths();
-  initial_pressure.clear();
 
   std::unordered_map<std::uint64_t, double> reach;
   committed_bare_tips.clear();
@@ -439,7 +429,6 @@ void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
     dissipated >> started >> strength >> contact >> largest_cell >> committed_limits;
   limits = committed_limits;
   law = make_law(parameters, scene.rock.main(), strength);
-  initial_pressure.clear();
   bare_tips = committed_bare_tips;
   discontinuity.replace(committed_paths);
   if (mesh_view)

@@ -134,12 +134,11 @@ private:
   };
   std::vector<TipAhead> look_ahead(const State &state, const Collectives &collectives) const;
 
-  /// One look at all tips: those that grow, with the pressure behind each and whether the rock is
-  /// broken there, and what comes of it.
+  /// One look at all tips: those that grow, whether the rock is broken behind each, and what comes
+  /// of it.
   struct GrowthPass
   {
     std::vector<Advance> growing;
-    std::vector<double> pressures; ///< [Pa]
     std::vector<bool> broken;
     bool held_back = false; ///< a tip wants to advance by more cells than it may in a step
     bool grown = false, needs_mesh = false;
@@ -190,7 +189,6 @@ private:
   unsigned int n_presses = 0;                        ///< solves for faces that overlapped
   std::size_t n_messages_before = 0;                 ///< messages that a rollback leaves
   std::vector<std::array<unsigned int, 2>> advances; ///< spans, by crack and end
-  std::unordered_map<std::uint64_t, double> initial_pressure;
   std::unordered_set<std::uint64_t> bare_tips;
   GrowthLimits limits;
 };

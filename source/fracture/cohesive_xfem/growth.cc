@@ -273,7 +273,6 @@ CohesiveXFEM<dim>::judge(const TipAhead &tip, const State &state, GrowthPass &pa
   }
   pass.growing.push_back({c, end, direction_of_growth(tip)});
   pass.broken.push_back(broken_here);
-  pass.pressures.push_back(pressure);
   return TipState::rests;
 }
 
@@ -290,7 +289,6 @@ std::string CohesiveXFEM<dim>::take_new_span(const GrowthPass &pass, const unsig
   limits.told_of_arrest.erase({crack, end});
   const CrackSpan &span = discontinuity.span_at(crack, growing.end);
   const std::uint64_t key = discontinuity.key(crack, span);
-  initial_pressure[key] = pass.pressures[i];
   if (pass.broken[i])
     bare_tips.insert(key);
   // A process zone of fewer cells is not resolved, unless it was not from the start.

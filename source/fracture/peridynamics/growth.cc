@@ -258,16 +258,6 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (softening.brittle())
     break_bonds(candidates);
 
-  // A new segment begins at the pressure of those beside it.
-  std::map<std::uint64_t, double> known;
-  for (const auto &segment : all_segments)
-    known[segment.key] = state.segment_pressure ? state.segment_pressure(segment.key) : 0.;
-  refresh_segments();
-  for (const auto &segment : all_segments)
-    if (known.count(segment.key) == 0)
-      for (const auto &neighbour : segment.neighbours)
-        if (const auto beside = known.find(neighbour.key); beside != known.end())
-          initial_pressure[segment.key] = beside->second;
   refresh_segments();
   ++passes;
   verdict.kind = Verdict::Kind::topology_changed;

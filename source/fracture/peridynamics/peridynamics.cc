@@ -190,14 +190,8 @@ void Peridynamics<dim>::refresh_segments()
   {
     Segment<dim> &segment = all_segments[i];
     at_front.push_back(is_at_front(zone, cells[i], segment));
-    const auto &n = segment.normal;
-    segment.given_pressure = scene.crack_pressure;
     if (scene.has_pore_pressure)
       segment.share_of_pores = scene.rock.main().biot_coefficient;
-    const auto carried = initial_pressure.find(segment.key);
-    segment.initial_pressure = carried != initial_pressure.end()
-                                 ? carried->second
-                                 : std::max(0., -(n * (scene.in_situ_stress(segment.centre) * n)));
     // Unknowns are measured from the in-situ pressure.
     segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
     if (zone.owns(cells[i].place))
@@ -288,7 +282,6 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &)
       committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
                                                                     cells[i].normal.end_raw()));
   correct_faces();
-  initial_pressure.clear();
   return enlarge_zone();
 }
 
@@ -326,7 +319,6 @@ void Peridynamics<dim>::rollback()
   told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
   dissipated = committed_energy;
-  initial_pressure.clear();
   if (passes == 0)
     return;
   passes = 0;

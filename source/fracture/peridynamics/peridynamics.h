@@ -310,6 +310,5 @@ private:
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
   bool told_of_rim_before = false, told_of_pressure_before = false;
-  std::map<std::uint64_t, double> initial_pressure; ///< of new segments, by key
 };
 } // namespace stockwork::peridynamics

@@ -82,12 +82,9 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
   for (const SofteningBond &bond : softening_bonds)
   {
     const auto [from, to] = bonds.places(bond.view.first, bond.view.second);
-    ExtraUnknown unknown;
-    unknown.key = Key()
-                    .add(zone.position(from), 1e-4 * zone.spacing())
-                    .add(zone.position(to), 1e-4 * zone.spacing());
-    unknown.scale = softening.first * coefficients[bond.view.second].length;
-    unknowns.push_back(unknown);
+    unknowns.push_back({Key()
+                          .add(zone.position(from), 1e-4 * zone.spacing())
+                          .add(zone.position(to), 1e-4 * zone.spacing())});
   }
   return unknowns;
 }

@@ -27,7 +27,7 @@ public:
     , radius(get_quantity(prm, "Integral radius", dimension::number))
     , tip_functions(prm.get_bool("Tip functions"))
     , cell_size(get_quantity(prm, "Cell size", dimension::length))
-    , discontinuity(scene.domain_size, 1.)
+    , discontinuity(scene.domain_size)
     , contact(get_quantity(prm, "Friction coefficient", dimension::number),
               1000.,
               scene.rock.main().plane_modulus(),
@@ -68,12 +68,6 @@ public:
     discontinuity.cut(scene.cracks, collectives, tip_functions ? &rock : nullptr);
 
     all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
-    for (Segment<dim> &segment : all_segments)
-    {
-      const auto &n = segment.normal;
-      segment.given_pressure = scene.crack_pressure;
-      segment.initial_pressure = std::max(0., -(n * (scene.in_situ_stress(segment.centre) * n)));
-    }
     add_proppant(scene.cracks, discontinuity, all_segments);
   }
 
