@@ -12,6 +12,7 @@
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
+#include "stockwork/exchange/released_traction.h"
 #include "stockwork/fracture/registry.h"
 
 #include <cmath>
@@ -280,6 +281,7 @@ template <int dim>
 void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
 {
   LocalSystem local;
+  std::vector<Tensor<1, dim>> jumps;
   for (const auto &owned : discontinuity.owned_pieces())
   {
     const CrackPiece<dim> &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
@@ -289,20 +291,22 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
     const JumpShapes<dim> shapes(piece);
     const PointDamage history = damage(piece);
     const Tensor<1, dim> n = piece.normal(), t = piece.along;
-    const Tensor<1, dim> in_situ = scene.in_situ_stress(piece.centre()) * n;
     const double weight = piece.length() / n_points;
 
     local.extra.clear();
-    for (const EnrichedColumn &column : columns)
-      local.extra.push_back(column.extra);
+    jumps.assign(columns.size(), Tensor<1, dim>());
+    for (unsigned int i = 0; i < columns.size(); ++i)
+    {
+      local.extra.push_back(columns[i].extra);
+      jumps[i][columns[i].component] = shapes.mean(columns[i].corner);
+    }
     local.reinit();
+    add_released_traction<dim>(scene, piece.centre(), n, piece.length(), jumps, local.residual);
     for (unsigned int q = 0; q < n_points; ++q)
     {
       const CohesiveResponse response =
         law.evaluate(separation(piece, shapes, q, columns, state.current.extra), history[q]);
-      // The traction that the crack changes: what was there before is taken away.
-      const Tensor<1, dim> traction =
-        response.traction.normal * n + response.traction.shear * t - in_situ;
+      const Tensor<1, dim> traction = response.traction.normal * n + response.traction.shear * t;
       const auto &k = response.tangent;
       for (unsigned int i = 0; i < columns.size(); ++i)
       {

@@ -1,6 +1,7 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include "fracture/peridynamics/state_based.h"
+#include "stockwork/exchange/released_traction.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -219,7 +220,6 @@ void Peridynamics<dim>::assemble(const StepContext &, Sink &sink) const
 }
 
 
-/// The cracks release the in-situ traction of their faces.
 template <int dim>
 void Peridynamics<dim>::assemble(const StepContext &context, const State &state, Sink &sink) const
 {
@@ -235,21 +235,11 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   LocalSystem local;
   for (const unsigned int i : owned_cells)
   {
-    const Tensor<1, dim> &n = cells[i].normal;
-    const Tensor<1, dim> traction = scene.in_situ_stress(all_segments[i].centre) * n;
-    Tensor<1, dim> shear = traction - (traction * n) * n;
-    const double tau = shear.norm();
     local.bulk = all_segments[i].opening.bulk;
     local.reinit();
-    const auto &opening = all_segments[i].opening.bulk_coefficients;
-    for (unsigned int k = 0; k < opening.size(); ++k)
-      local.residual(k) -= all_segments[i].area * (traction * n) * opening[k];
-    if (tau > 0.)
-    {
-      const LinearFunctional slip = jump(zone, cells[i], Tensor<1, dim>(shear / tau));
-      for (unsigned int k = 0; k < slip.bulk.size(); ++k)
-        local.residual(k) -= all_segments[i].area * tau * slip.bulk_coefficients[k];
-    }
+    const std::vector<Tensor<1, dim>> of_corners = jumps(zone, cells[i]);
+    add_released_traction<dim>(scene, all_segments[i].centre, cells[i].normal, all_segments[i].area,
+                               of_corners, local.residual);
     sink.add(local);
   }
 }

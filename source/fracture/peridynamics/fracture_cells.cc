@@ -232,30 +232,26 @@ double fracture_area(const Tensor<1, dim> &normal, const double spacing)
 
 
 template <int dim>
-LinearFunctional
-jump(const Zone<dim> &zone, const FractureCell<dim> &cell, const Tensor<1, dim> &direction)
+std::vector<Tensor<1, dim>> jumps(const Zone<dim> &zone, const FractureCell<dim> &cell)
 {
   constexpr unsigned int n_corners = 1 << dim;
   const double h = zone.spacing(), width = h * sum_of_components(cell.normal);
-  const double along = direction * cell.normal; // one, or zero for a direction in the fracture
-  LinearFunctional functional;
+  const Tensor<1, dim> &n = cell.normal;
+  std::vector<Tensor<1, dim>> result;
   for (unsigned int v = 0; v < n_corners; ++v)
   {
-    const Site<dim> &site = zone.sites()[zone.find(corner<dim>(cell.place, v))];
     Tensor<1, dim> gradient; // of the shape function at the centre
     for (unsigned int d = 0; d < dim; ++d)
       gradient[d] = ((v >> d & 1) != 0u ? 1. : -1.) / (h * (n_corners / 2));
-    // n.eps.n along the normal; 2 t.eps.n across it.
-    const double by_normal = cell.normal * gradient,
-                 by_direction = (1. - std::abs(along)) * (direction * gradient);
+    const double across = n * gradient;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      functional.bulk.push_back(site.dofs[d]);
-      functional.bulk_coefficients.push_back(
-        width * (direction[d] * by_normal + cell.normal[d] * by_direction));
+      Tensor<1, dim> jump = n[d] * (gradient - across * n);
+      jump[d] += across;
+      result.push_back(width * jump);
     }
   }
-  return functional;
+  return result;
 }
 
 
@@ -276,10 +272,12 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
     segment.key = Key().add(segment.centre, 1e-4 * h);
     segment.normal = cells[i].normal;
     segment.area = fracture_area(cells[i].normal, h);
-    segment.opening = jump(zone, cells[i], cells[i].normal);
+    for (const Tensor<1, dim> &jump : jumps(zone, cells[i]))
+      segment.opening.bulk_coefficients.push_back(jump * segment.normal);
     for (unsigned int v = 0; v < 1u << dim; ++v)
     {
       const Site<dim> &site = zone.sites()[zone.find(corner<dim>(cells[i].place, v))];
+      segment.opening.bulk.insert(segment.opening.bulk.end(), site.dofs.begin(), site.dofs.end());
       if (site.pressure_dof == dealii::numbers::invalid_dof_index)
         continue;
       segment.pore_pressure.bulk.push_back(site.pressure_dof);
@@ -354,8 +352,7 @@ bool is_at_front(const Zone<dim> &zone, const FractureCell<dim> &cell, const Seg
   template std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &,             \
                                         const std::vector<double> &, const double);         \
   template double fracture_area(const Tensor<1, dim> &, const double);                      \
-  template LinearFunctional jump(const Zone<dim> &, const FractureCell<dim> &,              \
-                                 const Tensor<1, dim> &);                                   \
+  template std::vector<Tensor<1, dim>> jumps(const Zone<dim> &, const FractureCell<dim> &); \
   template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                       \
                                                    const std::vector<FractureCell<dim>> &); \
   template bool is_at_front(const Zone<dim> &, const FractureCell<dim> &, const Segment<dim> &);

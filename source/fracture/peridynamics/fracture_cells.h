@@ -50,13 +50,13 @@ std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &cells,
 template <int dim>
 double fracture_area(const dealii::Tensor<1, dim> &normal, const double spacing);
 
-/// Jump of the displacement over a fracture cell in direction @p direction [m]: the cell's volume
-/// over the fracture's area times 2 direction.eps.n, or n.eps.n along the normal itself, eps being
-/// the strain at the centre. Then area times opening is volume times n.eps.n, and summed over the
-/// cells of a fracture it is what its faces enclose.
+/// Jump of the displacement over a fracture cell that each displacement of its corners makes: the
+/// cell's volume over the fracture's area times 2 t.eps.n in a direction t of the fracture, and
+/// n.eps.n along the normal, eps being the strain at the centre. Then area times opening is volume
+/// times n.eps.n, and summed over the cells of a fracture it is what its faces enclose. In the
+/// order of the corners, and at each of the components.
 template <int dim>
-LinearFunctional
-jump(const Zone<dim> &zone, const FractureCell<dim> &cell, const dealii::Tensor<1, dim> &direction);
+std::vector<dealii::Tensor<1, dim>> jumps(const Zone<dim> &zone, const FractureCell<dim> &cell);
 
 /// Segments of all fracture cells, with opening and pore pressure; pressures are left to the model.
 /// In space, of a fracture oblique to the mesh, conductances between neighbours are approximate.

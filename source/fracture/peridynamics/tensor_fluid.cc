@@ -167,7 +167,7 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
         for (unsigned int v = 0; v < n; ++v)
         {
           local.matrix(a, v) -= more_storage * at.value[a] * at.value[v] * at.weight;
-          for (unsigned int d = 0; d < dim; ++d) // the order of the functional, see jump()
+          for (unsigned int d = 0; d < dim; ++d) // the order of the functional, see jumps()
             local.matrix(a, n + v * dim + d) +=
               rock.biot_coefficient * at.value[a] * at.gradient[v][d] * at.weight;
         }

@@ -7,6 +7,7 @@
 #include "discontinuity/proppant.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
+#include "stockwork/exchange/released_traction.h"
 #include "stockwork/fracture/registry.h"
 
 namespace stockwork::prescribed
@@ -90,19 +91,22 @@ public:
   void assemble(const StepContext &, const State &state, Sink &sink) const override
   {
     LocalSystem local;
+    std::vector<Tensor<1, dim>> jumps;
     for (const auto &owned : discontinuity.owned_pieces())
     {
       const auto &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
-      const auto jumps = discontinuity.mean_jumps(owned.crack, owned.piece);
+      local.extra.clear();
+      jumps.clear();
+      for (const auto &[extra, jump] : discontinuity.mean_jumps(owned.crack, owned.piece))
+      {
+        local.extra.push_back(extra);
+        jumps.push_back(jump);
+      }
       if (jumps.empty())
         continue;
-      const Tensor<1, dim> traction = scene.in_situ_stress(piece.centre()) * piece.normal();
-      local.extra.clear();
-      for (const auto &[extra, jump] : jumps)
-        local.extra.push_back(extra);
       local.reinit();
-      for (unsigned int i = 0; i < jumps.size(); ++i)
-        local.residual(i) = -piece.length() * (jumps[i].second * traction);
+      add_released_traction<dim>(scene, piece.centre(), piece.normal(), piece.length(), jumps,
+                                 local.residual);
       sink.add(local);
       contact.assemble(discontinuity, owned.crack, owned.piece, state.current.extra, sink);
     }
