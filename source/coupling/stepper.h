@@ -22,6 +22,10 @@ struct StepControl
   void parse_parameters(dealii::ParameterHandler &prm);
 };
 
+/// The longest that the next step may be, by what the model says of the one it has accepted [s].
+/// @param dt of that step, @p first_dt of its first attempt [s]
+double step_limit(const Verdict &verdict, double dt, double first_dt);
+
 /// What a step took.
 struct StepReport
 {
@@ -82,7 +86,7 @@ private:
     rejected,
     hopeless ///< no shorter step does better
   };
-  Outcome attempt(StepReport &report, std::string &reason, std::string &advice, double &dt_limit);
+  Outcome attempt(StepReport &report, std::string &advice, Verdict &verdict);
 
   RunContext &run;
   CoupledSystem<dim> &system;

@@ -1,6 +1,7 @@
 // A plug-in for tests: the model cohesive_xfem, but it rejects a step that has converged and grown,
 // as a model would whose state has become inadmissible. What the rejected attempt has done must
-// leave no trace: the run must equal the one in which the step before has asked for a short step.
+// leave no trace: the run must equal the one in which the step before has been held back. Other
+// steps are as long as the one before.
 #include "stockwork/fracture/registry.h"
 
 namespace
@@ -17,7 +18,6 @@ public:
     : model(std::move(model))
     , rejects(prm.get_bool("Reject"))
     , step(prm.get_integer("Step"))
-    , dt(prm.get_double("Step length"))
   {
   }
 
@@ -27,11 +27,10 @@ public:
     Verdict verdict = model->advance(context, state, collectives);
     if (verdict.kind == Verdict::Kind::accept)
     {
-      verdict.dt_limit = dt;
+      verdict.advances.reset();
+      verdict.held_back = !rejects && context.step + 1 == step;
       if (rejects && context.step == step && context.attempt == 0)
-        verdict = {Verdict::Kind::reject, dt, "the test rejects it"};
-      if (!rejects && context.step + 1 == step)
-        verdict.dt_limit = 0.5 * dt;
+        verdict = {Verdict::Kind::reject, "the test rejects it"};
     }
     return verdict;
   }
@@ -99,7 +98,6 @@ private:
   std::unique_ptr<stockwork::FractureModel<2>> model;
   bool rejects;
   unsigned int step;
-  double dt;
 };
 } // namespace
 
@@ -113,9 +111,8 @@ extern "C" void stockwork_register(stockwork::FractureModelRegistry &registry)
   {
     inner.declare_parameters(prm);
     using namespace dealii::Patterns;
-    prm.declare_entry("Reject", "true", Bool(), "Reject, or ask for a short step before.");
+    prm.declare_entry("Reject", "true", Bool(), "Reject, or hold the step before back.");
     prm.declare_entry("Step", "7", Integer(2), "The step that is rejected.");
-    prm.declare_entry("Step length", "0.1", Double(0.), "Of all other steps [s].");
   };
   entry.create_2d = [inner](dealii::ParameterHandler &prm, const stockwork::Scene<2> &scene)
   { return std::make_unique<Rejecting>(inner.create_2d(prm, scene), prm); };

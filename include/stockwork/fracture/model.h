@@ -18,7 +18,7 @@
 #include "stockwork/mesh/mesh_view.h"
 
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,8 +51,17 @@ struct Verdict
     stop              ///< nor with any shorter step: the run ends at the last accepted one
   };
   Kind kind = Kind::accept;
-  double dt_limit = std::numeric_limits<double>::infinity(); ///< for the next attempt or step
-  std::string reason;                                        ///< said to the user
+  std::string reason; ///< of a step that is not accepted; said to the user
+
+  // What the stepper makes the next step longer or shorter by, after one that is accepted.
+
+  /// The most segments by which one tip has grown in the step. Nothing: no fracture has a say in
+  /// how long steps are.
+  std::optional<unsigned int> advances = std::nullopt;
+  /// A tip would have grown on, but may not in one step.
+  bool held_back = false;
+  /// Attempts at the step have failed for another reason than its length.
+  bool length_is_right = false;
 };
 
 /// A fracture model. Few functions are pure; a model overrides what it needs. The order of calls

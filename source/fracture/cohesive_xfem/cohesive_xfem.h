@@ -140,7 +140,7 @@ private:
   {
     std::vector<Advance> growing;
     std::vector<bool> broken;
-    bool held_back = false; ///< a tip wants to advance by more cells than it may in a step
+    bool held_back = false; ///< a tip wants to advance by more spans than it may in a step
     bool grown = false, needs_mesh = false;
   };
 
@@ -158,8 +158,6 @@ private:
 
   /// Note what a tip has grown by. Returns as grow().
   std::string take_new_span(const GrowthPass &pass, unsigned int tip);
-
-  void limit_step(const GrowthPass &pass, double dt, Verdict &verdict) const;
 
   /// E' G_c / T^2 [m].
   double cohesive_length() const;

@@ -349,29 +349,8 @@ std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collect
 
 
 template <int dim>
-void CohesiveXFEM<dim>::limit_step(const GrowthPass &pass, const double dt, Verdict &verdict) const
-{
-  unsigned int most = 0;
-  for (const auto &ends : advances)
-    most = std::max({most, ends[0], ends[1]});
-  // In the end, a tip advances in every other step: with an advance in each, the error in time of a
-  // fracture driven through viscous fluid is as large as that in space.
-  verdict.dt_limit = dt * (pass.held_back || pass.needs_mesh ? 0.5
-                           : most > 1                        ? 0.6
-                           : most == 1                       ? 0.8
-                                                             : 1.25);
-  if (pass.held_back)
-    verdict.reason = "a tip wants to advance by more than " +
-                     std::to_string(parameters.most_advances) + " cells in a step";
-  if (pass.needs_mesh)
-    verdict.reason = "a tip waits for the mesh to be refined ahead of it";
-}
-
-
-template <int dim>
-Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
-                                   const State &state,
-                                   const Collectives &collectives)
+Verdict
+CohesiveXFEM<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
 {
   Verdict verdict;
   const auto stop = [&verdict](const std::string &reason)
@@ -405,8 +384,10 @@ Verdict CohesiveXFEM<dim>::advance(const StepContext &context,
       return stop(reason);
   if (pass.grown)
     verdict.kind = Verdict::Kind::topology_changed;
-  else
-    limit_step(pass, context.dt, verdict);
+  verdict.held_back = pass.held_back || pass.needs_mesh;
+  verdict.advances = 0;
+  for (const auto &[first, last] : advances)
+    verdict.advances = std::max({*verdict.advances, first, last});
   return verdict;
 }
 

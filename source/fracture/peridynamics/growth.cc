@@ -231,9 +231,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     verdict = verdict_on(context, state, collectives);
     if (verdict.kind != Verdict::Kind::accept)
       return verdict;
-    verdict.dt_limit = context.dt * (n_new > n_tips ? 0.6 : n_new > 0 ? 0.8 : 1.25);
-    if (damage_relaxation < 1.)
-      verdict.dt_limit = context.dt * std::pow(2., context.attempt);
+    verdict.advances = n_new == 0 ? 0 : 1 + (n_new - 1) / n_tips;
+    verdict.length_is_right = damage_relaxation < 1.;
     return verdict;
   }
   // A fracture in viscous fluid may jump by several cells in steps of any length.
