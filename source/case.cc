@@ -119,7 +119,7 @@ make_model(ParameterHandler &prm, const PlugIns &plug_ins, const Scene<dim> &sce
     prm.enter_subsection(name);
   try
   {
-    auto model = create(prm, scene);
+    std::unique_ptr<FractureModel<dim>> model = create(prm, scene);
     if (has_section)
       prm.leave_subsection();
     prm.leave_subsection();

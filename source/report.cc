@@ -85,6 +85,7 @@ void Report<dim>::observe_fracture(const FractureSummary &summary, Values &value
     values["stress_intensity_II"] = *summary.stress_intensity_II;
   if (summary.energy_release_rate)
     values["energy_release_rate"] = *summary.energy_release_rate;
+  cost_of_fracture = summary.cost;
   shown.n_tips = summary.n_tips;
   shown.length = summary.length;
   shown.process_zone = summary.length - summary.broken_length;
@@ -441,8 +442,8 @@ template <int dim>
 void Report<dim>::finish(const unsigned long n_cells)
 {
   summarise(n_cells);
-  if (const std::string cost = model.cost(); !cost.empty())
-    run.out << '\n' << cost << ".\n";
+  if (!cost_of_fracture.empty())
+    run.out << '\n' << cost_of_fracture << ".\n";
   run.timers.print(run.out.get_stream(), run.communicator);
   for (const auto &[name, error] : summary.errors)
     run.out << "error of " << name << ": " << 100. * error.final << " % at the end, "

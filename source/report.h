@@ -110,6 +110,7 @@ private:
   double external_work = 0.;           ///< since the start [J/m]
   double peak_load = 0.;               ///< greatest so far [N/m]
   double greatest_inlet_aperture = 0.; ///< so far [m]
+  std::string cost_of_fracture;        ///< see FractureSummary
   const dealii::Mapping<dim> &mapping;
   const ReferenceSolution<dim> *reference;
   StepControl control;

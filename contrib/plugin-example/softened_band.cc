@@ -88,7 +88,7 @@ private:
 
 
 template <int dim>
-std::unique_ptr<FractureModel<dim>> create(ParameterHandler &prm, const Scene<dim> &scene)
+std::unique_ptr<SoftenedBand<dim>> create(ParameterHandler &prm, const Scene<dim> &scene)
 {
   return std::make_unique<SoftenedBand<dim>>(prm, scene);
 }

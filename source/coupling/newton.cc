@@ -84,7 +84,7 @@ private:
     // A bulk that stays behind has no say yet.
     const bool bulk_is = condensed || (norms.momentum <= allowed.momentum && //
                                        norms.mass <= allowed.mass);
-    return model_change <= all.tolerance && bulk_is && norms.extra <= allowed.extra &&
+    return bulk_is && norms.extra <= allowed.extra &&
            norms.fracture_fluid <= allowed.fracture_fluid;
   }
 
@@ -106,8 +106,7 @@ private:
   /// Move by so many increments and evaluate the residual there.
   void move(double step);
 
-  /// Trial quantities and the residual of the unknowns as they are; `update` sees to the linear
-  /// part of the latter.
+  /// The residual of the unknowns as they are; `update` sees to the linear part of it.
   template <class Update>
   void evaluate(const Update &update);
 
@@ -127,7 +126,6 @@ private:
   BlockVector values; ///< of the bulk, owned
   Norms norms, greatest;
   double force = 0.; ///< scale of residual forces
-  double model_change = 0.;
   unsigned int n_limited = 0, n_halved = 0;
   BlockVector dx_bulk;
   std::vector<double> dx_extra;
@@ -247,7 +245,6 @@ template <int dim>
 template <class Update>
 void CoupledSystem<dim>::Newton::evaluate(const Update &update)
 {
-  model_change = all.model.update_iterate(context, state, all.communication);
   if (!all.bulk_was_touched)
     update();
   all.assemble_nonlinear(context, state);
@@ -349,8 +346,6 @@ template <int dim>
 void CoupledSystem<dim>::Newton::give_up(NonlinearReport &report, const Norms &allowed) const
 {
   report.reason = "no convergence in " + std::to_string(all.max_iterations) + " iterations";
-  if (model_change > all.tolerance)
-    report.reason += "; the fracture model still changes by " + std::to_string(model_change);
   all.explain(report, norms, allowed, n_limited, n_halved);
   if (all.system.rock_change != nullptr)
     report.advice += " Rock that yields may have come to its limit load; rock that softens, to "

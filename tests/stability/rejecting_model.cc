@@ -65,12 +65,6 @@ public:
   {
     model->assemble(context, state, sink);
   }
-  double update_iterate(const StepContext &context,
-                        const State &state,
-                        const Collectives &collectives) override
-  {
-    return model->update_iterate(context, state, collectives);
-  }
   bool commit(const StepContext &context, const State &state) override
   {
     return model->commit(context, state);
@@ -82,6 +76,14 @@ public:
   std::vector<std::string> take_messages() override
   {
     return model->take_messages();
+  }
+  void save(boost::archive::binary_oarchive &archive) const override
+  {
+    model->save(archive);
+  }
+  void load(boost::archive::binary_iarchive &archive) override
+  {
+    model->load(archive);
   }
   void wanted_cell_size(const dealii::parallel::distributed::Triangulation<2> &triangulation,
                         std::vector<float> &sizes) const override

@@ -67,11 +67,14 @@ struct Verdict
 /// A fracture model. Few functions are pure; a model overrides what it needs. The order of calls
 /// within a time step is
 ///
-///   begin_step; { assemble…, update_iterate } until converged; advance; commit or rollback
+///   begin_step; assemble… until converged; advance; commit or rollback
 ///
 /// with everything after begin_step repeated while advance() reports a changed topology. `setup`
 /// is called whenever the mesh has changed, never inside a step. A model owns no clock, no file
 /// and no communicator. doc/architecture.md walks three models through a step.
+///
+/// A model that overrides commit() has a history, and overrides rollback(), save(), load() and
+/// summary() as well: MadeModel (registry.h) takes no other.
 template <int dim>
 class FractureModel
 {
@@ -128,13 +131,6 @@ public:
   {
   }
 
-  /// Between two linear solves: move trial quantities (damage, contact sets) along with the
-  /// iterate. Returns the relative change, which counts in the convergence test.
-  virtual double update_iterate(const StepContext &, const State &, const Collectives &)
-  {
-    return 0.;
-  }
-
   /// The unknowns have converged: grow?
   virtual Verdict advance(const StepContext &, const State &, const Collectives &)
   {
@@ -175,13 +171,6 @@ public:
 
   virtual void load(boost::archive::binary_iarchive &)
   {
-  }
-
-  /// A sentence on what the model costs, where elements would do without a fracture; for the report
-  /// at the end of a run. Empty: nothing worth a sentence.
-  virtual std::string cost() const
-  {
-    return {};
   }
 
   virtual FractureSummary summary(const State &, const Collectives &) const

@@ -20,6 +20,9 @@ struct FractureSummary
   std::optional<double> stress_intensity_I; ///< of the first crack's last tip [Pa m^1/2]
   std::optional<double> stress_intensity_II;
   std::optional<double> energy_release_rate; ///< of both, at that tip [J/m^2]
+  /// A sentence on what the model costs where elements would do without a fracture; for the report
+  /// at the end of a run. Empty: nothing worth a sentence.
+  std::string cost;
 };
 
 /// Takes named fields for the output files.

@@ -2,8 +2,9 @@
 // that is the registration. Folders with a leading underscore are compiled, so that this one keeps
 // up with the interface, but not registered.
 //
-// Every function below but the constructor may be left out; what the interface does then is to do
-// nothing. CONTRIBUTING.md goes through them one by one.
+// Every function below but the constructor may be left out, and what the interface does then is to
+// do nothing; only that commit() comes with rollback(), save(), load() and summary(), or not at
+// all. CONTRIBUTING.md goes through them one by one.
 #include "law.h"
 
 #include "stockwork/base/quantity.h"
@@ -117,7 +118,7 @@ private:
 
 
 template <int dim>
-std::unique_ptr<FractureModel<dim>> create(dealii::ParameterHandler &prm, const Scene<dim> &scene)
+std::unique_ptr<Model<dim>> create(dealii::ParameterHandler &prm, const Scene<dim> &scene)
 {
   return std::make_unique<Model<dim>>(prm, scene);
 }

@@ -32,6 +32,7 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   }
   result.dissipated_energy = dissipated;
   result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));
+  result.cost = cost();
   return result;
 }
 

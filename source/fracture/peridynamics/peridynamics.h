@@ -56,8 +56,6 @@ public:
 
   void load(boost::archive::binary_iarchive &archive) override;
 
-  std::string cost() const override;
-
   FractureSummary summary(const State &state, const Collectives &collectives) const override;
 
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
@@ -187,6 +185,9 @@ private:
 
   /// That of the nearest cell whose plane crosses a bond, if one is within a horizon.
   double relief_at(unsigned int site, unsigned int bond, const std::vector<double> &relief) const;
+
+  /// See FractureSummary.
+  std::string cost() const;
 
   void write_bonds(FieldSink<dim> &sink) const;
 

@@ -125,6 +125,12 @@ public:
     return false;
   }
 
+  /// The cracks have stayed as they were; what their faces carry in a step is the contact's.
+  void rollback() override
+  {
+    contact.begin_step();
+  }
+
   std::vector<std::string> take_messages() override
   {
     return contact.take_messages();
