@@ -93,6 +93,7 @@ void refuse_incompressible(ParameterHandler &prm,
 
 
 void refuse_regions(ParameterHandler &prm,
+                    const Rock &rock,
                     const std::string &model_name,
                     const Requirements &requirements)
 {
@@ -112,6 +113,11 @@ void refuse_regions(ParameterHandler &prm,
                                 "'prescribed' know "
                                 "regions"
                               : "', which breaks all rock as it breaks outside of the regions"));
+  for (types::material_id region = 1; region <= Rock::max_regions; ++region)
+    if (requirements.uniform_rock && rock(region).stiffness)
+      refuse_in_region(prm, region, "Law",
+                       "that of an isotropic rock with the fracture model '" + model_name +
+                         "', whose rock is one and the same everywhere");
 }
 
 

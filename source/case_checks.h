@@ -22,6 +22,7 @@ void refuse_incompressible(dealii::ParameterHandler &prm,
 /// strength, and its stiffness as well where the model knows one rock only. Pores, their fluid and
 /// the mass are the elements' everywhere.
 void refuse_regions(dealii::ParameterHandler &prm,
+                    const Rock &rock,
                     const std::string &model_name,
                     const Requirements &requirements);
 

@@ -97,6 +97,7 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   // stiffer instead. Not before, for the suction at the tip of a growing fracture closes seams,
   // too.
   const double seam = broken < 1. && closing ? 10. : 1.;
+  const double plane_modulus = rock(piece.region).plane_modulus();
   const ContactLaw law{seam * stiffness * plane_modulus / piece.cell_size(), friction};
   return law.evaluate(jump * piece.normal() - patch.least_gap, jump * piece.along,
                       has_friction() ? slip(piece) : 0., broken, carried_by(piece));

@@ -27,15 +27,15 @@ class FaceContact
 {
 public:
   /// @param friction coefficient
-  /// @param plane_modulus E' of the rock [Pa]
   /// @param stiffness s
+  /// @param rock must outlive it
   FaceContact(const double friction,
               const double stiffness,
-              const double plane_modulus,
+              const Rock &rock,
               const double domain_size)
     : friction(friction)
     , stiffness(stiffness)
-    , plane_modulus(plane_modulus)
+    , rock(rock)
     , domain_size(domain_size)
   {
   }
@@ -126,7 +126,9 @@ private:
   double slip(const CrackPiece<dim> &first_of_patch) const;
   double carried_by(const CrackPiece<dim> &first_of_patch) const;
 
-  double friction, stiffness, plane_modulus, domain_size;
+  double friction, stiffness;
+  const Rock &rock;
+  double domain_size;
   std::function<double(unsigned int, unsigned int)> least_gap;
 
   // Committed, the same on all ranks.

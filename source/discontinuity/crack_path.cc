@@ -324,6 +324,7 @@ void cut_cell_by(const ProlongedPolyline &line,
     Found f;
     f.arcs = arcs;
     f.piece.cell = cell->id();
+    f.piece.region = cell->material_id();
     for (unsigned int v = 0; v < 4; ++v)
       f.piece.corners[v] = cell->vertex(v);
     for (unsigned int e = 0; e < 2; ++e)
@@ -417,6 +418,7 @@ CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cel
 {
   CrackPiece<dim> piece;
   piece.cell = cell->id();
+  piece.region = cell->material_id();
   for (unsigned int v = 0; v < 4; ++v)
     piece.corners[v] = cell->vertex(v);
 

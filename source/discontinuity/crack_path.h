@@ -29,6 +29,7 @@ struct CrackPiece
   static constexpr unsigned int n_corners = 1 << dim;
 
   dealii::CellId cell;
+  dealii::types::material_id region = 0;             ///< of the rock in the cell
   std::array<dealii::Point<dim>, n_corners> corners; ///< vertices of the cell
   std::array<unsigned char, 2> faces;                ///< through which it enters and leaves
   std::array<dealii::Point<dim>, 2> ends;            ///< where it enters and leaves
@@ -76,7 +77,8 @@ struct CrackPiece
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &cell &corners &faces &ends &unit_ends &at_boundary &inside &along &joined &constrained;
+    ar &cell &region &corners &faces &ends &unit_ends &at_boundary &inside &along &joined
+      &constrained;
   }
 };
 

@@ -81,9 +81,10 @@ void Discontinuity<dim>::setup(const MeshView<dim> &d, const Collectives &collec
 
 
 template <int dim>
-void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
-                             const Collectives &collectives,
-                             const LinearStiffness<dim> *const rock_at_tips)
+void Discontinuity<dim>::cut(
+  const std::vector<InitialCrack<dim>> &given,
+  const Collectives &collectives,
+  const std::function<LinearStiffness<dim>(dealii::types::material_id)> &rock_of_region)
 {
   cracks.clear();
   tips.clear();
@@ -97,13 +98,13 @@ void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
     try
     {
       cracks.push_back(
-        cut_polyline(*mesh_view, polyline, domain_size, collectives, rock_at_tips != nullptr));
+        cut_polyline(*mesh_view, polyline, domain_size, collectives, rock_of_region != nullptr));
     }
     catch (const InputError &error)
     {
       refuse(crack, error.what());
     }
-    if (rock_at_tips != nullptr)
+    if (rock_of_region)
       for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
         if (cracks.back().is_tip[static_cast<int>(end)])
         {
@@ -114,7 +115,8 @@ void Discontinuity<dim>::cut(const std::vector<InitialCrack<dim>> &given,
           tip.point = first ? polyline.front() : polyline.back();
           const auto out = tip.point - (first ? polyline[1] : polyline[polyline.size() - 2]);
           tip.along = out / out.norm();
-          tip.field = std::make_shared<const NearTipField>(*rock_at_tips, tip.along);
+          tip.field = std::make_shared<const NearTipField>(
+            rock_of_region(cracks.back().piece_at(end).region), tip.along);
           tip.radius = greatest_tip_radius(mesh_view->triangulation, polyline, end, collectives);
           tips.push_back(tip);
         }

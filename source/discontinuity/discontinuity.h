@@ -34,12 +34,14 @@ public:
   void setup(const MeshView<dim> &mesh_view, const Collectives &collectives);
 
   /// Replace all cracks by those of the case. After setup().
-  /// @param rock_at_tips given: the tips lie exactly where the polylines end and have functions of
-  /// their own, those of this rock, and the cracks must not grow. Null: cracks of whole cells.
+  /// @param rock_of_region given: the tips lie exactly where the polylines end and have functions
+  /// of their own, those of the rock there, and the cracks must not grow. Empty: cracks of whole
+  /// cells.
   /// @throws EntryError if the mesh cannot hold a crack
-  void cut(const std::vector<InitialCrack<dim>> &given,
-           const Collectives &collectives,
-           const LinearStiffness<dim> *rock_at_tips = nullptr);
+  void
+  cut(const std::vector<InitialCrack<dim>> &given,
+      const Collectives &collectives,
+      const std::function<LinearStiffness<dim>(dealii::types::material_id)> &rock_of_region = {});
 
   /// Put back cracks that were taken from paths() on this mesh.
   void restore(std::vector<CrackPath<dim>> earlier);

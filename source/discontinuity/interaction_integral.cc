@@ -191,7 +191,7 @@ StressIntensity stress_intensity(const unsigned int crack,
 {
   const CrackPath<dim> &path = discontinuity.paths()[crack];
   const CrackTip<dim> *exact = discontinuity.tip(crack, end);
-  const LinearStiffness<dim> rock(scene.rock.main());
+  const LinearStiffness<dim> rock(scene.rock(path.piece_at(end).region));
   const Tip<dim> tip(exact != nullptr ? exact->point : path.tip(end),
                      exact != nullptr ? exact->along : path.direction(end), end, rock);
   const TipStress stress_of{rock, tip.frame};

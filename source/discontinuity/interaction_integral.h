@@ -22,9 +22,10 @@ struct StressIntensity
 ///
 /// with the field u^a around a tip whose faces move apart by sqrt(r), a weight q that falls from
 /// one to zero between a quarter of the radius and the radius, and the traction g = -(p_f +
-/// sigma_0) n of the faces. The crack shall be nearly straight inside the disc. In anisotropic rock
-/// u^a is that rock's, and the energy release rate is 1/2 K.M K (PlaneElasticity). Errors come from
-/// the tip: below 2 % where the crack is 50 cells long or longer. Collective.
+/// sigma_0) n of the faces. The crack shall be nearly straight inside the disc, and the rock one
+/// and the same: that at the tip. In anisotropic rock u^a is that rock's, and the energy release
+/// rate is 1/2 K.M K (PlaneElasticity). Errors come from the tip: below 2 % where the crack is 50
+/// cells long or longer. Collective.
 template <int dim>
 StressIntensity stress_intensity(const unsigned int crack,
                                  const CrackEnd end,

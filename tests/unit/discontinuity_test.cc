@@ -357,7 +357,7 @@ TEST_CASE("tips with functions of their own lie where the crack ends")
   properties.young_modulus = 1.;
   properties.poisson_ratio = 0.25;
   const LinearStiffness<2> rock(properties);
-  discontinuity.cut({crack}, square.collectives, &rock);
+  discontinuity.cut({crack}, square.collectives, [&](const auto) { return rock; });
   const auto &path = discontinuity.paths()[0];
   CHECK(path.length() == doctest::Approx(std::hypot(1.01, 0.03)));
   CHECK(path.pieces.size() == 6);

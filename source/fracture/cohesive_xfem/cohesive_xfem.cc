@@ -49,8 +49,7 @@ CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &
   : parameters(parameters)
   , scene(scene)
   , discontinuity(scene.domain_size)
-  , contact(
-      parameters.friction, contact_stiffness, scene.rock.main().plane_modulus(), scene.domain_size)
+  , contact(parameters.friction, contact_stiffness, scene.rock, scene.domain_size)
 {
   const RockProperties &rock = scene.rock.main();
   if (!(rock.energy_release_rate > 0.))
@@ -111,19 +110,22 @@ double CohesiveXFEM<dim>::strength_of_cells(const double size)
 {
   const RockProperties &rock = scene.rock.main();
   double strength = rock.tensile_strength;
+  double plane_modulus = std::numeric_limits<double>::infinity(); // least along the initial cracks
+  for (const auto &path : discontinuity.paths())
+    for (const auto &piece : path.pieces)
+      plane_modulus = std::min(plane_modulus, scene.rock(piece.region).plane_modulus());
   std::ostringstream message;
   if (std::isnan(strength))
   {
     // With fewer cells a crack advances by jumps, from cell to cell; with more, the zone in which
     // the rock still holds is long for no gain.
     constexpr double cells = 8.;
-    strength = std::sqrt(rock.plane_modulus() * rock.energy_release_rate / (cells * size));
+    strength = std::sqrt(plane_modulus * rock.energy_release_rate / (cells * size));
     message << "Tensile strength: " << strength << " Pa, chosen so that the cohesive length is "
             << cells << " cells of " << size << " m.";
     messages.push_back(message.str());
   }
-  else if (const double length =
-             rock.plane_modulus() * rock.energy_release_rate / (strength * strength);
+  else if (const double length = plane_modulus * rock.energy_release_rate / (strength * strength);
            size > 0.25 * length * (1. + 1e-6))
   {
     message << "The cohesive length E'G_c/T^2 = " << length << " m is not resolved by cells of "

@@ -159,8 +159,8 @@ private:
   /// Note what a tip has grown by. Returns as grow().
   std::string take_new_span(const GrowthPass &pass, unsigned int tip);
 
-  /// E' G_c / T^2 [m].
-  double cohesive_length() const;
+  /// E' G_c / T^2 in the rock of a region [m].
+  double cohesive_length(dealii::types::material_id region) const;
 
   Parameters parameters;
   const Scene<dim> &scene;

@@ -174,10 +174,10 @@ bool CohesiveXFEM<dim>::press_faces(const State &state)
 
 
 template <int dim>
-double CohesiveXFEM<dim>::cohesive_length() const
+double CohesiveXFEM<dim>::cohesive_length(const dealii::types::material_id region) const
 {
-  const RockProperties &rock = scene.rock.main();
-  return rock.plane_modulus() * rock.energy_release_rate / (law.strength * law.strength);
+  return scene.rock(region).plane_modulus() * scene.rock.main().energy_release_rate /
+         (law.strength * law.strength);
 }
 
 
@@ -196,7 +196,8 @@ CohesiveXFEM<dim>::look_ahead(const State &state, const Collectives &collectives
           continue;
         const double h = path.piece_at(end).cell_size();
         const double radius =
-          std::min(parameters.averaging_radius * h, std::max(0.5 * cohesive_length(), 1.2 * h));
+          std::min(parameters.averaging_radius * h,
+                   std::max(0.5 * cohesive_length(path.piece_at(end).region), 1.2 * h));
         tips.push_back({{c, end, path.direction(end)}, {}, {}});
         discs.push_back({path.tip(end), path.direction(end), radius});
         discs.push_back({path.tip(end), path.direction(end), parameters.direction_radius * h});
@@ -292,12 +293,16 @@ std::string CohesiveXFEM<dim>::take_new_span(const GrowthPass &pass, const unsig
   if (pass.broken[i])
     bare_tips.insert(key);
   // A process zone of fewer cells is not resolved, unless it was not from the start.
-  const double largest = std::max(0.25 * cohesive_length(), largest_cell) * (1. + 1e-6);
   std::ostringstream reason;
   for (unsigned int k = span.first; k <= span.last && reason.str().empty(); ++k)
-    if (const double size = path.pieces[k].cell_size(); size > largest)
+  {
+    const double size = path.pieces[k].cell_size(),
+                 largest = std::max(0.25 * cohesive_length(path.pieces[k].region), largest_cell) *
+                           (1. + 1e-6);
+    if (size > largest)
       reason << "has come to cells of " << size << " m. Larger ones than " << largest
              << " m do not resolve the process zone." << remedy;
+  }
   return reason.str();
 }
 
@@ -399,6 +404,6 @@ CohesiveXFEM<2>::warn_of_arrested_tip(unsigned int, CrackEnd, double, const std:
 template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template bool CohesiveXFEM<2>::press_faces(const State &);
-template double CohesiveXFEM<2>::cohesive_length() const;
+template double CohesiveXFEM<2>::cohesive_length(dealii::types::material_id) const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);
 } // namespace stockwork::cohesive_xfem

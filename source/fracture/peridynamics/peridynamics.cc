@@ -118,6 +118,9 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   rank = collectives.rank();
   n_nodes = mesh_view.dof_handler.n_dofs() / mesh_view.dof_handler.get_fe().dofs_per_vertex;
   zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, mesh_view, collectives);
+  regions.clear();
+  for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
+    regions.push_back(cell->material_id());
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 

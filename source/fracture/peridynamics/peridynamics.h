@@ -270,7 +270,8 @@ private:
   double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
   double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
   unsigned int rank = 0;
-  unsigned int n_nodes = 0; ///< of the mesh, about
+  unsigned int n_nodes = 0;                        ///< of the mesh, about
+  std::vector<dealii::types::material_id> regions; ///< of the rock, by active cell index
   bool in_situ_is_zero = true;
 
   BondSet<dim> bonds;                         ///< broken ones

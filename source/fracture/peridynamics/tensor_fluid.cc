@@ -149,10 +149,13 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
     }
 
   const CellShape<dim> shape(zone.spacing());
-  const double more_storage = (scene.rock.fluid().compressibility - rock.inverse_biot_modulus) *
-                              context.pressure_rate / context.rate;
-  for (const Segment<dim> &segment : owned_segments)
+  for (unsigned int i = 0; i < owned_segments.size(); ++i)
   {
+    const Segment<dim> &segment = owned_segments[i];
+    const auto region = regions[zone.active_cell_index(cells[owned_cells[i]].place)];
+    const double more_storage =
+      (scene.rock.fluid().compressibility - scene.rock(region).inverse_biot_modulus) *
+      context.pressure_rate / context.rate;
     const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
     const auto gain = [&](const auto dof)
     { return state.current.bulk(dof) - state.rate_reference.bulk(dof); };

@@ -31,7 +31,7 @@ public:
     , discontinuity(scene.domain_size)
     , contact(get_quantity(prm, "Friction coefficient", dimension::number),
               1000.,
-              scene.rock.main().plane_modulus(),
+              scene.rock,
               scene.domain_size)
   {
     contact.keep_apart(propped_gaps(scene.cracks, discontinuity));
@@ -65,8 +65,12 @@ public:
   {
     mesh_view = std::make_unique<MeshView<dim>>(d);
     discontinuity.setup(d, collectives);
-    const LinearStiffness<dim> rock(scene.rock.main());
-    discontinuity.cut(scene.cracks, collectives, tip_functions ? &rock : nullptr);
+    std::function<LinearStiffness<dim>(dealii::types::material_id)> rock_of_region;
+    if (tip_functions)
+      rock_of_region = [this](const dealii::types::material_id region)
+      { return LinearStiffness<dim>(scene.rock(region)); };
+    discontinuity.cut(scene.cracks, collectives, rock_of_region);
+    find_other_rock(collectives);
 
     all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
     add_proppant(scene.cracks, discontinuity, all_segments);
@@ -175,6 +179,9 @@ public:
         for (unsigned int c = 1; c < discontinuity.paths().size(); ++c) // clear of other cracks
           for (const auto &piece : discontinuity.paths()[c].pieces)
             r = std::min(r, 0.9 * piece.centre().distance(first.tip(end)));
+        r = std::min(r, other_rock[static_cast<int>(end)]);
+        if (r < first.piece_at(end).cell_size())
+          break; // across an interface of two rocks it says nothing
         // What the faces carry is not released.
         Scene<dim> released = scene;
         released.in_situ_stress = [&](const Point<dim> &x)
@@ -213,6 +220,23 @@ public:
   }
 
 private:
+  /// Of the first crack's tips, how far it is from each to rock of another stiffness.
+  void find_other_rock(const Collectives &collectives)
+  {
+    const CrackPath<dim> &first = discontinuity.paths().front();
+    for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+    {
+      const Point<dim> tip = first.tip(end);
+      const auto here = LinearStiffness<dim>(scene.rock(first.piece_at(end).region)).tensor();
+      double nearest = std::numeric_limits<double>::max();
+      for (const auto &cell : mesh_view->triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->material_id() != first.piece_at(end).region &&
+            (LinearStiffness<dim>(scene.rock(cell->material_id())).tensor() - here).norm() > 0.)
+          nearest = std::min(nearest, cell->bounding_box().signed_distance(tip));
+      other_rock[static_cast<int>(end)] = collectives.min(nearest);
+    }
+  }
+
   /// A stress whose traction on the piece with this centre is what its faces exert on one another.
   dealii::SymmetricTensor<2, dim>
   carried_stress(const unsigned int crack, const Point<dim> &centre, const State &state) const
@@ -237,6 +261,7 @@ private:
   FaceContact<dim> contact;
   std::unique_ptr<MeshView<dim>> mesh_view;
   std::vector<Segment<dim>> all_segments;
+  std::array<double, 2> other_rock; ///< see find_other_rock() [m]
 };
 
 
