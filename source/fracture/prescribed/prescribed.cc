@@ -232,7 +232,13 @@ private:
       for (const auto &cell : mesh_view->triangulation.active_cell_iterators())
         if (cell->is_locally_owned() && cell->material_id() != first.piece_at(end).region &&
             (LinearStiffness<dim>(scene.rock(cell->material_id())).tensor() - here).norm() > 0.)
-          nearest = std::min(nearest, cell->bounding_box().signed_distance(tip));
+        {
+          const auto [low, high] = cell->bounding_box().get_boundary_points();
+          Tensor<1, dim> away;
+          for (unsigned int d = 0; d < dim; ++d)
+            away[d] = std::max({0., low[d] - tip[d], tip[d] - high[d]});
+          nearest = std::min(nearest, away.norm());
+        }
       other_rock[static_cast<int>(end)] = collectives.min(nearest);
     }
   }
