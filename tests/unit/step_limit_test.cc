@@ -5,9 +5,8 @@
 
 #include "coupling/stepper.h"
 
-using stockwork::step_limit;
-using stockwork::Verdict;
-
+namespace stockwork::step_limit_test
+{
 TEST_CASE("the next step follows how far tips have come in this one")
 {
   Verdict verdict;
@@ -23,3 +22,4 @@ TEST_CASE("the next step follows how far tips have come in this one")
   verdict.length_is_right = true;
   CHECK(step_limit(verdict, 2., 8.) == 8.);
 }
+} // namespace stockwork::step_limit_test
