@@ -326,8 +326,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   const bool solves_for_flow = has_fracture && std::isnan(scene.crack_pressure);
   if (solves_for_flow)
     chosen = chosen_for_flow;
-  if (model->requirements().uniform_rock || model->requirements().uniform_strength)
-    refuse_regions(prm, rock, model_name, model->requirements());
+  refuse_regions(prm, rock, model_name, model->requirements().regional_rock);
   refuse_absent_regions(prm, geometry);
   for (const std::string &region : regions_without_rock(prm, geometry))
     warnings.push_back("Region '" + region +

@@ -95,11 +95,14 @@ void refuse_incompressible(ParameterHandler &prm,
 void refuse_regions(ParameterHandler &prm,
                     const Rock &rock,
                     const std::string &model_name,
-                    const Requirements &requirements)
+                    const RegionalRock known_to_model)
 {
+  if (known_to_model == RegionalRock::any)
+    return;
+  const bool one_rock = known_to_model == RegionalRock::none;
   std::vector<std::string> refused = {"Fracture toughness", "Critical energy release rate",
                                       "Shear energy release rate", "Tensile strength"};
-  if (requirements.uniform_rock)
+  if (one_rock)
     refused.insert(refused.end(),
                    {"Young modulus", "Poisson ratio", "Biot coefficient", "Solid bulk modulus"});
   for (const DeclaredEntry &entry : declared_entries(prm))
@@ -108,13 +111,12 @@ void refuse_regions(ParameterHandler &prm,
           std::find(refused.begin(), refused.end(), entry.name) != refused.end())
         throw EntryError(entry.path(), entry.value,
                          "nothing (an empty entry) with the fracture model '" + model_name +
-                           (requirements.uniform_rock
-                              ? "', whose rock is one and the same everywhere; 'cohesive_xfem' and "
-                                "'prescribed' know "
-                                "regions"
+                           (one_rock
+                              ? "', whose rock is one and the same everywhere; models whose cracks "
+                                "cut cells know regions"
                               : "', which breaks all rock as it breaks outside of the regions"));
   for (types::material_id region = 1; region <= Rock::max_regions; ++region)
-    if (requirements.uniform_rock && rock(region).stiffness)
+    if (one_rock && rock(region).stiffness)
       refuse_in_region(prm, region, "Law",
                        "that of an isotropic rock with the fracture model '" + model_name +
                          "', whose rock is one and the same everywhere");

@@ -18,13 +18,12 @@ void refuse_incompressible(dealii::ParameterHandler &prm,
                            const Geometry<dim> &geometry,
                            const BoundaryConditions<dim> &boundary_conditions);
 
-/// What a region may not have of its own: what it breaks at where the fracture model knows one
-/// strength, and its stiffness as well where the model knows one rock only. Pores, their fluid and
-/// the mass are the elements' everywhere.
+/// What a region may not have of its own, for the fracture model knows one strength or one rock
+/// only. Pores, their fluid and the mass are the elements' everywhere.
 void refuse_regions(dealii::ParameterHandler &prm,
                     const Rock &rock,
                     const std::string &model_name,
-                    const Requirements &requirements);
+                    RegionalRock known_to_model);
 
 /// Rock of a region that the mesh does not have would be nowhere.
 template <int dim>

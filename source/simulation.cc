@@ -288,7 +288,8 @@ void Simulation<dim>::check_rock(ParameterHandler &prm) const
       throw EntryError("Rock/Law", law,
                        "elastic where the fracture model '" + the_case.model_name +
                          "' provides the stiffness of the rock itself: give the region that it "
-                         "works in, or all rock, the law 'elastic', or take 'cohesive_xfem'");
+                         "works in, or all rock, the law 'elastic', or take a model whose cracks "
+                         "cut cells");
 
   const auto shares = Utilities::MPI::all_gather(run.communicator,
                                                  [&]()

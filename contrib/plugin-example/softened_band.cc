@@ -67,7 +67,8 @@ public:
   Requirements requirements() const override
   {
     Requirements requirements;
-    requirements.uniform_rock = true; // the law inside is that of the rock at large
+    // The law inside is that of the rock outside of regions.
+    requirements.regional_rock = RegionalRock::none;
     requirements.law = &crushed;
     return requirements;
   }

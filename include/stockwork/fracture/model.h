@@ -24,6 +24,14 @@
 
 namespace stockwork
 {
+/// What a model can make of a rock whose regions have constants of their own.
+enum class RegionalRock
+{
+  any,                 ///< it reads the constants of the region that it looks at
+  of_uniform_strength, ///< it breaks all rock as it breaks outside of the regions
+  none                 ///< its own terms know the rock outside of the regions alone
+};
+
 /// What a model needs of the others. What nobody asks for is never allocated.
 struct Requirements
 {
@@ -34,10 +42,9 @@ struct Requirements
   /// Null: there are none. It lives as long as the model.
   const RockLaw *law = nullptr;
 
-  bool linear_elements = false;  ///< displacements live at vertices only
-  bool has_fracture = true;      ///< else neither unknowns nor segments, ever
-  bool uniform_rock = false;     ///< its own terms know the rock at large, no region's
-  bool uniform_strength = false; ///< it breaks all rock as the first region breaks
+  bool linear_elements = false; ///< displacements live at vertices only
+  bool has_fracture = true;     ///< else neither unknowns nor segments, ever
+  RegionalRock regional_rock = RegionalRock::any;
 };
 
 /// What a model says about a converged solution.

@@ -29,7 +29,7 @@ public:
   {
     Requirements needs;
     needs.symmetric = !contact.has_friction();
-    needs.uniform_strength = true;
+    needs.regional_rock = RegionalRock::of_uniform_strength;
     return needs;
   }
 

@@ -79,7 +79,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.linear_elements = true;
   requirements.pore_pressure = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
-  requirements.uniform_rock = true;
+  requirements.regional_rock = RegionalRock::none;
   return requirements;
 }
 
