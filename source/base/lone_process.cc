@@ -16,5 +16,7 @@ void start_lone_process_quickly()
   constexpr int keep = 0;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
   setenv("OMPI_MCA_pml", "ob1", keep);
+  // All of them would share one directory for this session, which each removes when it ends.
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
 }
 } // namespace stockwork
