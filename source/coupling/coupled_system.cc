@@ -1,5 +1,6 @@
 #include "coupling/coupled_system.h"
 
+#include "stockwork/base/all_gather.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -257,25 +258,56 @@ State CoupledSystem<dim>::state(const Unknowns &current,
 
 
 template <int dim>
+std::optional<IndexSet> CoupledSystem<dim>::changed_rows(const StepContext &context) const
+{
+  const KeptTerms *const kept = model.kept_terms();
+  if (kept == nullptr || !matrix_is_current || bulk_was_touched ||
+      context.acceleration != bulk->acceleration_of_matrix())
+    return {};
+  const auto mine = kept->changed_rows(kept_version);
+  if (!mine)
+    return {};
+  std::vector<types::global_dof_index> all = all_gather(run.communicator, *mine);
+  std::sort(all.begin(), all.end());
+  IndexSet rows(dof_handler.n_dofs());
+  rows.add_indices(all.begin(), all.end());
+  rows.compress();
+  return rows;
+}
+
+
+template <int dim>
 void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
 {
   const auto scope = run.timers.scope("assembly");
   const KeptTerms *const kept = model.kept_terms();
-  const bool anew = !matrix_is_current || bulk_was_touched || kept_terms_changed();
-  if (bulk->matrix(context, anew, system.bulk,
-                   elements.has_pore_pressure ? &system.fixed_stress_mass : nullptr))
+  const bool kept_changed = kept_terms_changed();
+  std::optional<IndexSet> rows = kept_changed ? changed_rows(context) : std::nullopt;
+  const bool by_rows = rows && bulk->rows(context, *rows, system.bulk);
+  const bool anew = !matrix_is_current || bulk_was_touched || (kept_changed && !by_rows);
+  if (!by_rows)
+    rows = complete_index_set(dof_handler.n_dofs());
+  const bool visited = bulk->matrix(
+    context, anew, system.bulk, elements.has_pore_pressure ? &system.fixed_stress_mass : nullptr);
+  ++stamps.bulk_values;
+  if (by_rows || visited)
   {
     if (kept != nullptr)
     {
       const auto scope = run.timers.scope("fracture");
       SystemSink sink(increment_constraints, system, system.bulk, system.residual_bulk,
                       linear_residual_extra, linear_extra_extra);
-      kept->assemble(context, sink);
+      sink.rows = by_rows ? &*rows : nullptr;
+      kept->assemble(context, *rows, sink);
       if (communication.max(sink.bulk_touched ? 1. : 0.) > 0.)
         system.bulk.compress(VectorOperation::add);
     }
     ++stamps.displacement_values;
   }
+  if (by_rows && !coefficients_changed(context))
+    system.bulk_changes.in(*rows, stamps.bulk_values);
+  else
+    system.bulk_changes.anywhere(stamps.bulk_values);
   kept_version = kept != nullptr ? kept->version() : 0;
   system.elastic = !elements.has_pore_pressure;
   system.definite_displacement = kept == nullptr || kept->is_symmetric();
@@ -283,18 +315,23 @@ void CoupledSystem<dim>::assemble_bulk_matrix(const StepContext &context)
   matrix_context = context;
   matrix_is_current = true;
   bulk_was_touched = false;
-  ++stamps.bulk_values;
+}
+
+
+template <int dim>
+bool CoupledSystem<dim>::coefficients_changed(const StepContext &context) const
+{
+  return context.acceleration != matrix_context.acceleration ||
+         (elements.has_pore_pressure && (context.rate != matrix_context.rate ||
+                                         context.pressure_rate != matrix_context.pressure_rate));
 }
 
 
 template <int dim>
 void CoupledSystem<dim>::assemble_linear(const StepContext &context, const State &state)
 {
-  const bool coefficients_changed =
-    context.acceleration != matrix_context.acceleration ||
-    (elements.has_pore_pressure && (context.rate != matrix_context.rate ||
-                                    context.pressure_rate != matrix_context.pressure_rate));
-  if (!matrix_is_current || coefficients_changed || bulk_was_touched || kept_terms_changed())
+  if (!matrix_is_current || coefficients_changed(context) || bulk_was_touched ||
+      kept_terms_changed())
     assemble_bulk_matrix(context);
 
   const auto scope = run.timers.scope("assembly");
@@ -352,6 +389,7 @@ void CoupledSystem<dim>::assemble_nonlinear(const StepContext &context, const St
     system.bulk.compress(VectorOperation::add);
     ++stamps.bulk_values;
     ++stamps.displacement_values;
+    system.bulk_changes.anywhere(stamps.bulk_values);
   }
   for (unsigned int b = 0; b < owned.size(); ++b)
     system.residual_bulk.block(b) += linear_residual_bulk.block(b);

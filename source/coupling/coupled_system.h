@@ -162,11 +162,18 @@ public:
 private:
   void assemble_bulk_matrix(const StepContext &context);
 
+  /// Those of the time scheme that the matrix depends on.
+  bool coefficients_changed(const StepContext &context) const;
+
   bool kept_terms_changed() const
   {
     const KeptTerms *const kept = model.kept_terms();
     return kept != nullptr && kept->version() != kept_version;
   }
+
+  /// The rows of the bulk where the model's kept terms are not those in the matrix; nothing: any
+  /// may be another, or has changed for other reasons. Collective.
+  std::optional<dealii::IndexSet> changed_rows(const StepContext &context) const;
 
   void assemble_linear(const StepContext &context, const State &state);
 
