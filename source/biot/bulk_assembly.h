@@ -59,12 +59,6 @@ public:
             const dealii::IndexSet &rows,
             dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
-  /// Inertia with which the matrix was assembled [1/s^2].
-  double acceleration_of_matrix() const
-  {
-    return acceleration;
-  }
-
   /// Add int alpha^2 M div u div v, which turns the drained stiffness into the undrained one, to a
   /// matrix of the displacement block.
   void undrained_term(dealii::TrilinosWrappers::SparseMatrix &matrix) const;

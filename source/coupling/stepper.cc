@@ -112,6 +112,7 @@ typename Stepper<dim>::Outcome Stepper<dim>::attempt(StepReport &report,
   scheme.predict(context, current);
   scheme.references(context, committed, rate_reference, acceleration_reference);
   before = committed;
+  system.begin_step(context);
   model.begin_step(context);
   network.begin_step(context);
 
