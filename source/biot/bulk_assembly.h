@@ -51,6 +51,14 @@ public:
               dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
               dealii::TrilinosWrappers::SparseMatrix *fixed_stress_mass);
 
+  /// Fill rows of the matrix anew, and what the fluid content takes of their unknowns; between
+  /// pressures nothing changes. What is there afterwards is what matrix() would have put there.
+  /// @param rows of all ranks
+  /// @return false where hanging nodes meet the rows: then nothing has been done. Collective.
+  bool rows(const StepContext &context,
+            const dealii::IndexSet &rows,
+            dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
+
   /// Add int alpha^2 M div u div v, which turns the drained stiffness into the undrained one, to a
   /// matrix of the displacement block.
   void undrained_term(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
@@ -86,6 +94,11 @@ private:
   void visit_cells(const StepContext &context,
                    dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
                    dealii::TrilinosWrappers::SparseMatrix *fixed_stress_mass);
+
+  /// Add what a cell without hanging nodes does to these rows.
+  void add_rows(const std::vector<dealii::types::global_dof_index> &dofs,
+                const dealii::IndexSet &rows,
+                dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
   using LocalVector = dealii::Vector<double>;
 

@@ -45,7 +45,9 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
 {
   const RockProperties *const before = rock_of_cell;
   rock_of_cell = &rock(cell->material_id());
-  const bool new_cell = integrals.reinit(cell) || rock_of_cell != before || is_special;
+  const bool new_cell =
+    integrals.reinit(cell) || rock_of_cell != before || is_special || has_passed_over;
+  has_passed_over = false;
   const CellRole<dim> role = role_of ? role_of(cell) : CellRole<dim>();
   is_special = role.skip_stiffness != nullptr || role.fracture_normal != nullptr;
   const bool new_whole = new_cell || rate != context.rate ||

@@ -54,6 +54,13 @@ public:
   void reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
               const StepContext &context);
 
+  /// As reinit() where the matrices of the cell are not wanted: those of later cells are the same,
+  /// to the last digit, as if they had been.
+  void pass_over(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell)
+  {
+    has_passed_over = integrals.reinit(cell) || has_passed_over;
+  }
+
   const BulkLayout<dim> &layout() const
   {
     return integrals.layout;
@@ -92,7 +99,8 @@ private:
   const Role role_of;
   dealii::FEValues<dim> fe_values; ///< for anisotropic rock
   const RockProperties *rock_of_cell = nullptr;
-  bool is_special = false; ///< the cell has a role, so its matrices are no other's
+  bool is_special = false;      ///< the cell has a role, so its matrices are no other's
+  bool has_passed_over = false; ///< a cell that has changed the integrals
   double rate = -1., pressure_rate = -1., acceleration = -1.; ///< of `whole`
 };
 } // namespace stockwork

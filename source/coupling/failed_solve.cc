@@ -1,4 +1,4 @@
-#include "coupling/coupled_system.h"
+#include "coupling/newton.h"
 
 #include "stockwork/base/quantity.h"
 
@@ -14,38 +14,36 @@ namespace stockwork
 using namespace dealii;
 
 template <int dim>
-Point<dim> CoupledSystem<dim>::place_in_bulk(const unsigned int block) const
+Point<dim> Newton<dim>::place_in_bulk(const unsigned int block) const
 {
-  const auto &residual = system.residual_bulk.block(block);
-  const types::global_dof_index first = block == 0 ? 0 : system.residual_bulk.block(0).size();
+  const auto &residual = assembly.linear_system().residual_bulk.block(block);
+  const types::global_dof_index first =
+    block == 0 ? 0 : assembly.linear_system().residual_bulk.block(0).size();
   double greatest = -1.;
   types::global_dof_index worst = 0;
-  for (const auto i : owned[block])
+  for (const auto i : unknowns.owned()[block])
     if (std::abs(residual(i)) > greatest)
     {
       greatest = std::abs(residual(i));
       worst = first + i;
     }
   Point<dim> place;
-  if (greatest == communication.max(greatest))
+  if (greatest == unknowns.communication.max(greatest))
   {
     std::map<types::global_dof_index, Point<dim>> points;
-    DoFTools::map_dofs_to_support_points(mapping, dof_handler, points);
+    DoFTools::map_dofs_to_support_points(unknowns.mapping, unknowns.dof_handler(), points);
     place = points.at(worst);
   }
   // Of ranks that share the greatest, which is rare, the place with the greatest coordinates.
   for (unsigned int d = 0; d < dim; ++d)
-    place[d] = communication.max(greatest == communication.max(greatest) ? place[d] : -1e300);
+    place[d] = unknowns.communication.max(
+      greatest == unknowns.communication.max(greatest) ? place[d] : -1e300);
   return place;
 }
 
 
 template <int dim>
-void CoupledSystem<dim>::explain(NonlinearReport &report,
-                                 const Norms &norms,
-                                 const Norms &tolerances,
-                                 const unsigned int n_limited,
-                                 const unsigned int n_halved) const
+void Newton<dim>::explain(NonlinearReport &report, const ResidualNorms &tolerances) const
 {
   struct Equation
   {
@@ -70,20 +68,21 @@ void CoupledSystem<dim>::explain(NonlinearReport &report,
        << " times its tolerance";
   if (worst < 2)
     text << ", most of it at (" << place_in_bulk(worst) << ") m";
-  else if (worst == 3 && numbering.size() > n_model_extra)
+  else if (worst == 3 && unknowns.n_extra() > unknowns.n_model_extra())
   {
     const auto &segments = network.segments();
+    const std::vector<double> &residual = assembly.linear_system().residual_extra;
+    const unsigned int n_model = unknowns.n_model_extra();
     const auto greater = [](const double a, const double b) { return std::abs(a) < std::abs(b); };
-    const unsigned int i = std::max_element(system.residual_extra.begin() + n_model_extra,
-                                            system.residual_extra.end(), greater) -
-                           system.residual_extra.begin() - n_model_extra;
+    const unsigned int i = std::max_element(residual.begin() + n_model, residual.end(), greater) -
+                           residual.begin() - n_model;
     if (i < segments.size() && network.unknown(segments[i].key))
       text << ", most of it at (" << segments[i].centre << ") m";
   }
   if (n_limited > 0)
     text << "; 'Nonlinear solver/Maximum pressure change' ("
-         << (pressure_limit ? to_string(*pressure_limit, dimension::pressure)
-                            : "what pressures had changed by")
+         << (parameters.pressure_limit ? to_string(*parameters.pressure_limit, dimension::pressure)
+                                       : "what pressures had changed by")
          << ") shortened " << n_limited << " of " << report.iterations << " iterations";
   if (n_halved > 0)
     text << "; " << n_halved << " were shortened because the residual grew";
@@ -100,10 +99,8 @@ void CoupledSystem<dim>::explain(NonlinearReport &report,
 }
 
 
-template Point<2> CoupledSystem<2>::place_in_bulk(const unsigned int) const;
-template Point<3> CoupledSystem<3>::place_in_bulk(const unsigned int) const;
-template void CoupledSystem<2>::explain(
-  NonlinearReport &, const Norms &, const Norms &, const unsigned int, const unsigned int) const;
-template void CoupledSystem<3>::explain(
-  NonlinearReport &, const Norms &, const Norms &, const unsigned int, const unsigned int) const;
+template Point<2> Newton<2>::place_in_bulk(const unsigned int) const;
+template Point<3> Newton<3>::place_in_bulk(const unsigned int) const;
+template void Newton<2>::explain(NonlinearReport &, const ResidualNorms &) const;
+template void Newton<3>::explain(NonlinearReport &, const ResidualNorms &) const;
 } // namespace stockwork

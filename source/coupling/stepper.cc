@@ -124,6 +124,7 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
   scheme.predict(context, current);
   scheme.references(context, committed, rate_reference, acceleration_reference);
   before = committed;
+  system.begin_step(context);
   model.begin_step(context);
   network.begin_step(context);
 

@@ -57,6 +57,8 @@ void SystemSink::add(const LocalSystem &local)
         resolve(constraints, local.bulk[i],
                 [&](const auto row, const double row_weight)
                 {
+                  if (rows != nullptr && !rows->is_element(row))
+                    return;
                   resolve(constraints, local.bulk[j],
                           [&](const auto column, const double weight)
                           { bulk.add(row, column, row_weight * weight * local.matrix(i, j)); });

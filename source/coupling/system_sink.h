@@ -4,6 +4,7 @@
 
 #include "solvers/linear_system.h"
 
+#include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <vector>
@@ -27,6 +28,9 @@ public:
   void add(const LocalSystem &local) override;
 
   bool bulk_touched = false;
+
+  /// Rows of the bulk block that terms are taken for; null: all.
+  const dealii::IndexSet *rows = nullptr;
 
 private:
   const dealii::AffineConstraints<double> &constraints;

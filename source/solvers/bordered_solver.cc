@@ -26,10 +26,11 @@ constexpr double same_entry = 1e-14;
 /// Memory for solutions that are kept, at least [numbers].
 constexpr std::size_t least_memory = 1 << 26;
 
-/// Values of this rank's rows of the bulk, not scaled.
-std::vector<double> bulk_values(const LinearSystem &system)
+/// Call use(matrix, row block, column block, local row, entries, their values, local columns) for
+/// this rank's rows of the bulk.
+template <class Function>
+void for_each_row(const LinearSystem &system, const Function &use)
 {
-  std::vector<double> result;
   for (unsigned int b = 0; b < system.bulk.n_block_rows(); ++b)
     for (unsigned int c = 0; c < system.bulk.n_block_cols(); ++c)
     {
@@ -40,9 +41,17 @@ std::vector<double> bulk_values(const LinearSystem &system)
         double *values;
         int *indices;
         matrix.ExtractMyRowView(i, n_entries, values, indices);
-        result.insert(result.end(), values, values + n_entries);
+        use(matrix, b, c, i, n_entries, values, indices);
       }
     }
+}
+
+/// Values of this rank's rows of the bulk, not scaled.
+std::vector<double> bulk_values(const LinearSystem &system)
+{
+  std::vector<double> result;
+  for_each_row(system, [&](const auto &, auto, auto, int, const int n, const double *values,
+                           const int *) { result.insert(result.end(), values, values + n); });
   return result;
 }
 } // namespace
@@ -89,28 +98,36 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
 
 bool BorderedSolver::find_changes(const SystemOperator &op)
 {
-  const std::vector<double> now = bulk_values(op.system());
+  const auto told = op.system().bulk_changes.since(factor_stamps.bulk_values);
+  const auto may_differ = [&](const auto row)
+  { return !told || (told->n_elements() > 0 && told->is_element(row)); };
   change_columns.clear();
   change_rows.clear();
-  std::vector<int> rows, columns;
   std::vector<dealii::types::global_dof_index> changed;
-  for (std::size_t k = 0; k < now.size(); ++k)
-    if (now[k] != factor_values[k])
-    {
-      if (rows.empty())
-        append_bulk_indices(op, false, rows, columns);
-      const dealii::types::global_dof_index row = rows[k] - 1;
-      const auto [block, local] = op.locate(row);
-      const double d = SystemOperator::entry(factor_scaling.bulk, block, local);
-      if (!(std::abs(now[k] - factor_values[k]) * d * d > same_entry))
-        continue;
-      if (changed.empty() || changed.back() != row)
-      {
-        changed.push_back(row);
-        change_columns.add(row, 0, 1. / d);
-      }
-      change_rows.add(row, columns[k] - 1, d * (factor_values[k] - now[k]));
-    }
+  const double *of_factor = factor_values.data();
+  for_each_row(op.system(),
+               [&](const Epetra_CrsMatrix &matrix, const unsigned int b, const unsigned int c,
+                   const int i, const int n_entries, const double *values, const int *indices)
+               {
+                 const double *const before = of_factor;
+                 of_factor += n_entries;
+                 const dealii::types::global_dof_index row = matrix.GRID64(i) + op.offset(b);
+                 if (!may_differ(row) || std::equal(values, values + n_entries, before))
+                   return;
+                 const double d = SystemOperator::entry(factor_scaling.bulk, b, i);
+                 for (int k = 0; k < n_entries; ++k)
+                 {
+                   if (!(std::abs(values[k] - before[k]) * d * d > same_entry))
+                     continue;
+                   if (changed.empty() || changed.back() != row)
+                   {
+                     changed.push_back(row);
+                     change_columns.add(row, 0, 1. / d);
+                   }
+                   change_rows.add(row, matrix.GCID64(indices[k]) + op.offset(c),
+                                   d * (before[k] - values[k]));
+                 }
+               });
   // Where the bulk has several blocks, a row comes once for each.
   std::vector<dealii::types::global_dof_index> all = all_gather(communicator, changed);
   std::sort(all.begin(), all.end());

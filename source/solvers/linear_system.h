@@ -5,6 +5,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include "solvers/displacement_hierarchy.h"
+#include "solvers/row_changes.h"
 
 #include <vector>
 
@@ -46,6 +47,7 @@ struct Triplets
 struct LinearSystem
 {
   dealii::TrilinosWrappers::BlockSparseMatrix bulk;
+  RowChanges bulk_changes; ///< whoever changes a few rows says so here; else all count as changed
 
   /// What the tangent of rock beyond its linear range adds to `bulk`, with its pattern; null:
   /// nothing. Solvers of the linear system do not look at it, TangentSolver does.

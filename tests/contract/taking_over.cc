@@ -104,7 +104,7 @@ private:
     for_each_distant_pair(couple);
   }
 
-  void assemble(const StepContext &, Sink &) const override
+  void assemble(const StepContext &, const IndexSet &, Sink &) const override
   {
   }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <deal.II/base/index_set.h>
+
 #include "stockwork/exchange/sink.h"
 #include "stockwork/exchange/state.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace stockwork
@@ -17,8 +20,17 @@ public:
 
   virtual ~KeptTerms() = default;
 
-  /// Another number whenever assemble() would add something else.
+  /// A greater number whenever assemble() would add something else, or cells have other roles. The
+  /// same on every rank.
   virtual unsigned int version() const = 0;
+
+  /// The rows of the bulk that assemble() and the roles of cells do not leave as they were at an
+  /// earlier version; each on one rank at least. Nothing, on every rank: any row may be another.
+  virtual std::optional<std::vector<dealii::types::global_dof_index>>
+  changed_rows(unsigned int /*since*/) const
+  {
+    return {};
+  }
 
   /// Whether the bulk with these terms has a symmetric matrix.
   virtual bool is_symmetric() const
@@ -32,7 +44,8 @@ public:
   {
   }
 
-  /// Add the matrix; residuals do not count.
-  virtual void assemble(const StepContext &, Sink &) const = 0;
+  /// Add the matrix, but for terms between pressures; residuals do not count.
+  /// @param rows those that are wanted: what is added to others is dropped
+  virtual void assemble(const StepContext &, const dealii::IndexSet &rows, Sink &) const = 0;
 };
 } // namespace stockwork

@@ -50,6 +50,15 @@ void BondSet<dim>::set_broken(const unsigned int site, const unsigned int bond)
 
 
 template <int dim>
+unsigned int BondSet<dim>::n_broken(const unsigned int site) const
+{
+  unsigned int n = 0;
+  broken.for_each(number[site], [&](const unsigned int) { ++n; });
+  return n;
+}
+
+
+template <int dim>
 double BondSet<dim>::damage(const unsigned int site) const
 {
   if (!broken.any(number[site]))

@@ -52,6 +52,8 @@ public:
 
   void set_broken(unsigned int site, unsigned int bond);
 
+  unsigned int n_broken(unsigned int site) const;
+
   /// Share of a site's bonds that is broken, by volume.
   double damage(unsigned int site) const;
 

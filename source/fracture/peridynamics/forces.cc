@@ -16,7 +16,6 @@ namespace
 {
 /// Stiffness that broken bonds keep where a site has lost nearly all of them.
 constexpr double remaining_share = 1e-6;
-constexpr double nearly_detached = 0.9;
 /// Of the bonds' stiffness at a free face, where about half of them are gone.
 constexpr double most_correction = 2.;
 
@@ -127,7 +126,7 @@ double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int 
   const unsigned int far = zone.far_end(site, bond).site;
   const double whole = coefficients[bond].stiffness;
   if (bonds.is_broken(site, bond))
-    return std::max(damage[site], damage[far]) > nearly_detached ? remaining_share * whole : 0.;
+    return is_nearly_detached(std::max(damage[site], damage[far])) ? remaining_share * whole : 0.;
   if (!parameters.surface_correction)
     return whole;
   return 2. / (share_left(corrected_damage[site]) + share_left(corrected_damage[far])) * whole;
@@ -165,14 +164,21 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
 
 
 template <int dim>
-void Peridynamics<dim>::assemble(const StepContext &, Sink &sink) const
+void Peridynamics<dim>::assemble(const StepContext &,
+                                 const dealii::IndexSet &rows,
+                                 Sink &sink) const
 {
+  const auto are_wanted = [&](const Site<dim> &site)
+  {
+    return std::any_of(site.dofs.begin(), site.dofs.end(),
+                       [&](const auto dof) { return rows.is_element(dof); });
+  };
   LocalSystem local;
   local.bulk.resize(2 * dim);
   for (const unsigned int i : zone.peridynamic_sites())
   {
     const Site<dim> &site = zone.sites()[i];
-    if (site.owner != rank)
+    if (site.owner != rank || !are_wanted(site))
       continue;
     for (unsigned int b = 0; b < stencil.size(); ++b)
     {
@@ -202,6 +208,10 @@ void Peridynamics<dim>::assemble(const StepContext &, Sink &sink) const
     [&](const std::vector<unsigned int> &family, const std::vector<Tensor<1, dim>> &functional,
         const double modulus)
     {
+      if (std::none_of(family.begin(), family.end(),
+                       [&](const unsigned int i)
+                       { return has_rows(i) && are_wanted(zone.sites()[i]); }))
+        return;
       local.bulk.resize(family.size() * dim);
       local.reinit();
       for (unsigned int k = 0; k < family.size(); ++k)
@@ -244,16 +254,17 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   }
 }
 
-#define INSTANTIATE(dim)                                                               \
-  template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;          \
-  template void Peridynamics<dim>::add_couplings(const Coupling &) const;              \
-  template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;      \
-  template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const; \
-  template double Peridynamics<dim>::dilatation_factor(unsigned int) const;            \
-  template void Peridynamics<dim>::for_each_dilatation(                                \
-    const std::function<void(const std::vector<unsigned int> &,                        \
-                             const std::vector<Tensor<1, dim>> &, double)> &) const;   \
-  template void Peridynamics<dim>::assemble(const StepContext &, Sink &) const;        \
+#define INSTANTIATE(dim)                                                                           \
+  template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;                      \
+  template void Peridynamics<dim>::add_couplings(const Coupling &) const;                          \
+  template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;                  \
+  template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;             \
+  template double Peridynamics<dim>::dilatation_factor(unsigned int) const;                        \
+  template void Peridynamics<dim>::for_each_dilatation(                                            \
+    const std::function<void(const std::vector<unsigned int> &,                                    \
+                             const std::vector<Tensor<1, dim>> &, double)> &) const;               \
+  template void Peridynamics<dim>::assemble(const StepContext &, const dealii::IndexSet &, Sink &) \
+    const;                                                                                         \
   template void Peridynamics<dim>::assemble(const StepContext &, const State &, Sink &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -183,7 +183,6 @@ void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
     bonds.set_broken(site, bond);
     cracked.set_broken(site, bond);
   }
-  ++bond_version;
 }
 
 

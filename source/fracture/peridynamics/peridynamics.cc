@@ -149,7 +149,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
           committed_correction[zone.sites()[i].place] = gone;
     started = true;
   }
-  ++bond_version;
+  row_versions.restart(zone.sites().size());
   refresh_segments();
 }
 
@@ -157,6 +157,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
 template <int dim>
 void Peridynamics<dim>::refresh_segments()
 {
+  const std::vector<double> damage_before = damage, corrected_before = corrected_damage;
   damage.assign(zone.sites().size(), 0.);
   for (const unsigned int i : zone.peridynamic_sites())
     damage[i] = bonds.damage(i);
@@ -167,7 +168,7 @@ void Peridynamics<dim>::refresh_segments()
       if (const unsigned int i = zone.find(place); i != dealii::numbers::invalid_unsigned_int)
         corrected_damage[i] = corrected;
   }
-  const std::vector<FractureCell<dim>> before = cells;
+  const std::vector<FractureCell<dim>> cells_before = cells;
   cells = find_fracture_cells(zone, cracked);
   align_normals(cells, parameters.horizon + 1);
   for (FractureCell<dim> &cell : cells)
@@ -216,12 +217,7 @@ void Peridynamics<dim>::refresh_segments()
       }
     }
   }
-  // Whose Biot tensors are new is known to all ranks.
-  if (scene.has_pore_pressure &&
-      !std::equal(cells.begin(), cells.end(), before.begin(), before.end(),
-                  [](const FractureCell<dim> &a, const FractureCell<dim> &b)
-                  { return a.place == b.place && a.normal == b.normal; }))
-    ++bond_version;
+  find_changed_rows(damage_before, corrected_before, cells_before);
 }
 
 
@@ -303,15 +299,15 @@ void Peridynamics<dim>::correct_faces()
         return false;
     return true;
   };
-  bool changed = false;
+  std::vector<unsigned int> changed;
   for (const unsigned int i : zone.peridynamic_sites())
     if (damage[i] > corrected_damage[i] && is_relaxed(i))
     {
       corrected_damage[i] = committed_correction[zone.sites()[i].place] = damage[i];
-      changed = true;
+      changed.push_back(i);
+      append_family(i, changed);
     }
-  if (changed)
-    ++bond_version;
+  row_versions.change(changed);
 }
 
 
@@ -328,7 +324,6 @@ void Peridynamics<dim>::rollback()
   bonds.reinit(zone, stencil);
   bonds.set_broken(committed_bonds);
   restore_softening();
-  ++bond_version;
   refresh_segments();
 }
 
@@ -404,7 +399,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
     bonds.reinit(zone, stencil);
     bonds.set_broken(committed_bonds);
     restore_softening();
-    ++bond_version;
+    row_versions.restart(zone.sites().size());
     refresh_segments();
   }
 }

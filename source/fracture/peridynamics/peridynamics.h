@@ -4,6 +4,7 @@
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
 #include "fracture/peridynamics/published_load.h"
+#include "fracture/peridynamics/row_versions.h"
 #include "fracture/peridynamics/softening.h"
 #include "stockwork/fracture/model.h"
 
@@ -64,14 +65,17 @@ private:
   // Bonds that hold.
   unsigned int version() const override
   {
-    return bond_version;
+    return row_versions.current();
   }
   bool is_symmetric() const override
   {
     return false;
   }
+  std::optional<std::vector<dealii::types::global_dof_index>>
+  changed_rows(unsigned int since) const override;
   void add_couplings(const Coupling &couple) const override;
-  void assemble(const StepContext &context, Sink &sink) const override;
+  void
+  assemble(const StepContext &context, const dealii::IndexSet &rows, Sink &sink) const override;
 
   /// Break the bonds that the initial open cracks pass through.
   void cut_initial_cracks();
@@ -97,6 +101,22 @@ private:
   /// Fracture cells and segments follow the broken bonds. The normal of a cell that tips have
   /// left behind does not change any more.
   void refresh_segments();
+
+  /// Find the sites whose rows are not what they were before the segments were refreshed: where
+  /// bonds have broken or are whole again, where the surface correction is another, and in porous
+  /// rock at the corners of cells that have become fracture cells or turned.
+  void find_changed_rows(const std::vector<double> &damage_before,
+                         const std::vector<double> &corrected_before,
+                         const std::vector<FractureCell<dim>> &cells_before);
+
+  /// A site with hardly any bond left: a little of the broken ones holds it, see stiffness().
+  static bool is_nearly_detached(const double damage)
+  {
+    return damage > 0.9;
+  }
+
+  /// Append the sites that a site's bonds lead to.
+  void append_family(unsigned int site, std::vector<unsigned int> &sites) const;
 
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
   double in_situ_stretch(unsigned int site, unsigned int bond) const;
@@ -278,6 +298,7 @@ private:
   BondSet<dim> cracked;                       ///< broken ones and those that have begun to soften
   std::vector<SofteningBond> softening_bonds; ///< sorted by view
   std::vector<double> damage;                 ///< of all sites
+  std::vector<unsigned int> n_broken;         ///< bonds of all sites
   std::vector<double> corrected_damage;       ///< what the surface correction, if any, makes up for
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;                 ///< of all ranks
@@ -287,7 +308,7 @@ private:
   std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;
-  unsigned int bond_version = 0; ///< of whole bonds and of cells' normals
+  RowVersions row_versions; ///< by whole bonds and cells' normals
 
   // Committed.
   std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;

@@ -222,10 +222,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)
     if (bond.committed >= softening.last)
-    {
       bonds.set_broken(bond.view.first, bond.view.second);
-      ++bond_version;
-    }
     else
       softening_now.push_back(bond);
   std::vector<BondView> views;

@@ -1,0 +1,155 @@
+#include "coupling/unknown_numbering.h"
+
+#include "coupling/visible_constraints.h"
+
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <algorithm>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+FESystem<dim> make_element(const ElementSettings &elements)
+{
+  const FE_Q<dim> displacement(elements.displacement_degree), pressure(1);
+  if (elements.has_pore_pressure)
+    return FESystem<dim>(displacement, dim, pressure, 1);
+  return FESystem<dim>(displacement, dim);
+}
+} // namespace
+
+
+template <int dim>
+UnknownNumbering<dim>::UnknownNumbering(parallel::distributed::Triangulation<dim> &triangulation,
+                                        const Mapping<dim> &mapping,
+                                        const BoundaryConditions<dim> &boundary_conditions,
+                                        FractureModel<dim> &model,
+                                        Network<dim> &network,
+                                        const ElementSettings &elements)
+  : communication(triangulation.get_communicator())
+  , mapping(mapping)
+  , elements(elements)
+  , triangulation(triangulation)
+  , boundary_conditions(boundary_conditions)
+  , model(model)
+  , network(network)
+  , fe(make_element<dim>(elements))
+  , handler(triangulation)
+{
+}
+
+
+template <int dim>
+void UnknownNumbering<dim>::number_bulk(const double time)
+{
+  // Cells come along a space-filling curve, so the numbering is local as it is; and the components
+  // of a node stay together, which the multigrid smoother wants.
+  handler.distribute_dofs(fe);
+  std::vector<unsigned int> block_of_component(fe.n_components(), 0);
+  if (elements.has_pore_pressure)
+    block_of_component[dim] = 1;
+  DoFRenumbering::component_wise(handler, block_of_component);
+
+  const auto dofs_per_block = DoFTools::count_dofs_per_fe_block(handler, block_of_component);
+  DoFTools::extract_locally_relevant_dofs(handler, visible);
+  own = handler.locally_owned_dofs().split_by_block(dofs_per_block);
+
+  boundary_conditions.constrain(time, mapping, handler, with_values, of_increments);
+  model.setup(mesh_view(), communication);
+
+  // What the model couples across ranks it sees as well.
+  std::vector<types::global_dof_index> coupled;
+  if (const KeptTerms *kept = model.kept_terms())
+    kept->add_couplings([&](const std::vector<types::global_dof_index> &dofs)
+                        { coupled.insert(coupled.end(), dofs.begin(), dofs.end()); });
+  std::sort(coupled.begin(), coupled.end());
+  coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
+  visible.add_indices(coupled.begin(), coupled.end());
+  seen = visible.split_by_block(dofs_per_block);
+  if (communication.max(coupled.empty() ? 0. : 1.) > 0.)
+    make_visible(of_increments, handler.locally_owned_dofs(), visible,
+                 triangulation.get_communicator());
+}
+
+
+template <int dim>
+void UnknownNumbering<dim>::couple(BlockDynamicSparsityPattern &pattern) const
+{
+  DoFTools::make_sparsity_pattern(handler, pattern, of_increments, false);
+  if (const KeptTerms *kept = model.kept_terms())
+    kept->add_couplings(
+      [&](std::vector<types::global_dof_index> dofs)
+      {
+        // A bond may lead back to its own node, across a plane of symmetry.
+        std::sort(dofs.begin(), dofs.end());
+        dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+        of_increments.add_entries_local_to_global(dofs, pattern, false);
+      });
+  SparsityTools::distribute_sparsity_pattern(pattern, handler.locally_owned_dofs(),
+                                             triangulation.get_communicator(), visible);
+}
+
+
+template <int dim>
+void UnknownNumbering<dim>::constrain(const double time)
+{
+  if (boundary_conditions.constant_in_time())
+    return;
+  AffineConstraints<double> unused;
+  boundary_conditions.constrain(time, mapping, handler, with_values, unused);
+}
+
+
+template <int dim>
+void UnknownNumbering<dim>::adopt_extra(const ExtraNumbering &from,
+                                        const std::vector<std::vector<double> *> &values)
+{
+  std::vector<ExtraUnknown> unknowns = model.extra_unknowns();
+  n_of_model = unknowns.size();
+  const std::vector<double> &earlier = *values.front();
+  network.set_segments(model.segments(), communication,
+                       [&](const std::uint64_t key)
+                       {
+                         const auto i = from.find(key);
+                         return i ? std::optional<double>(earlier[*i]) : std::nullopt;
+                       });
+  network.set_offset(n_of_model);
+  const std::vector<ExtraUnknown> pressures = network.unknowns();
+  unknowns.insert(unknowns.end(), pressures.begin(), pressures.end());
+
+  ExtraNumbering now(std::move(unknowns));
+  for (std::vector<double> *vector : values)
+    if (vector->size() == from.size()) // a quasi-static run has no reference of acceleration
+      *vector = now.transfer(from, *vector);
+  extra_numbering = std::move(now);
+}
+
+
+template <int dim>
+typename UnknownNumbering<dim>::BlockVector UnknownNumbering<dim>::ghosted_vector() const
+{
+  BlockVector vector;
+  vector.reinit(own, seen, triangulation.get_communicator());
+  return vector;
+}
+
+
+template <int dim>
+typename UnknownNumbering<dim>::BlockVector UnknownNumbering<dim>::owned_vector() const
+{
+  BlockVector vector;
+  vector.reinit(own, triangulation.get_communicator());
+  return vector;
+}
+
+
+template class UnknownNumbering<2>;
+template class UnknownNumbering<3>;
+} // namespace stockwork
