@@ -14,6 +14,7 @@
 #include "biot/cell_matrices.h"
 
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace stockwork
@@ -142,8 +143,18 @@ private:
   /// d(fluid in the pores)/d(unknowns), the pressures' part at the rate of the displacement's.
   dealii::TrilinosWrappers::MPI::BlockVector content;
 
+  /// The matrix of a cut cell, and the cut and the inertia it was made for.
+  struct CutMatrix
+  {
+    CutCell<dim> cut;
+    double inertia = 0.;
+    dealii::FullMatrix<double> matrix;
+  };
+
   mutable CellMatrices<dim> matrices;
   mutable CellEvaluator<dim> cut_evaluator;
+  /// By active cell index. A crack that grows leaves most cells as they are.
+  mutable std::map<unsigned int, CutMatrix> cut_matrices;
   mutable dealii::FEFaceValues<dim> face_values;
 };
 } // namespace stockwork

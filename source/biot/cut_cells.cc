@@ -8,6 +8,15 @@ using namespace dealii;
 
 namespace
 {
+/// Whether the same functions jump in both, whatever the indices of their unknowns.
+template <int dim>
+bool same_cut(const CutCell<dim> &a, const CutCell<dim> &b)
+{
+  return a.component == b.component && a.values == b.values && a.gradients == b.gradients &&
+         a.points == b.points && a.weights == b.weights;
+}
+
+
 /// Index in a local system of a function of the displacement.
 template <int dim>
 unsigned int place(const CellEvaluator<dim> &cell, const unsigned int function)
@@ -61,7 +70,7 @@ void add_matrix(const CellEvaluator<dim> &cell,
 
 /// Matrix times unknowns, with the rate references in the mass rows.
 template <int dim>
-void add_residual(const CellEvaluator<dim> &cell, const State &state, LocalSystem &local)
+void add_residual(const BulkLayout<dim> &layout, const State &state, LocalSystem &local)
 {
   const unsigned int n_bulk = local.bulk.size(), n_extra = local.extra.size();
   Vector<double> x(n_bulk + n_extra);
@@ -70,7 +79,7 @@ void add_residual(const CellEvaluator<dim> &cell, const State &state, LocalSyste
   for (unsigned int e = 0; e < n_extra; ++e)
     x(n_bulk + e) = state.current.extra[local.extra[e]];
   local.matrix.vmult(local.residual, x);
-  for (const unsigned int row : cell.layout.p)
+  for (const unsigned int row : layout.p)
     for (unsigned int e = 0; e < n_extra; ++e)
       local.residual(row) -=
         local.matrix(row, n_bulk + e) * state.rate_reference.extra[local.extra[e]];
@@ -113,18 +122,28 @@ void BulkAssembly<dim>::cut_cells(const StepContext &context,
                                   Sink &sink) const
 {
   LocalSystem local;
+  local.bulk.resize(mesh_view.dof_handler.get_fe().n_dofs_per_cell());
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       if (const CutCell<dim> *cut = role(cell).cut)
       {
-        cut_evaluator.reinit(cell, cut);
-        local.bulk = cut_evaluator.dofs();
-        local.extra = cut_evaluator.extra();
+        cell->get_dof_indices(local.bulk);
+        local.extra = cut->extra;
         local.reinit();
         const RockProperties &properties = rock(cell->material_id());
         const double inertia = context.acceleration * properties.density;
-        add_matrix(cut_evaluator, properties, inertia, local.matrix);
-        add_residual(cut_evaluator, state, local);
+        CutMatrix &kept = cut_matrices[cell->active_cell_index()];
+        const bool is_known =
+          !kept.matrix.empty() && kept.inertia == inertia && same_cut(kept.cut, *cut);
+        if (!is_known || inertia > 0.)
+          cut_evaluator.reinit(cell, cut);
+        if (!is_known)
+        {
+          add_matrix(cut_evaluator, properties, inertia, local.matrix);
+          kept = {*cut, inertia, local.matrix};
+        }
+        local.matrix = kept.matrix;
+        add_residual(cut_evaluator.layout, state, local);
         if (inertia > 0.)
           subtract_inertia_of_reference(cut_evaluator, state, inertia, local);
         sink.add(local);

@@ -31,7 +31,13 @@ bool MeshAdaptation<dim>::flag()
 {
   std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
   model.wanted_cell_size(triangulation, wanted);
-  return flag_cells(triangulation, geometry, wanted);
+  if (Utilities::MPI::min(wanted == settled ? 1 : 0, triangulation.get_communicator()) == 1)
+    return false;
+  settled.clear();
+  const bool changes = flag_cells(triangulation, geometry, wanted);
+  if (!changes)
+    settled = std::move(wanted);
+  return changes;
 }
 
 
@@ -46,6 +52,7 @@ void MeshAdaptation<dim>::refine_initial_mesh()
     triangulation.execute_coarsening_and_refinement();
   }
   triangulation.repartition();
+  settled.clear(); // cells may be others' now
 }
 
 

@@ -38,5 +38,6 @@ private:
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const FractureModel<dim> &model;
   unsigned int max_cells;
+  std::vector<float> settled; ///< wanted sizes that the mesh as it is fulfils; empty: not known
 };
 } // namespace stockwork

@@ -176,7 +176,9 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     bool accepted = outcome == Outcome::accepted;
 
     // A smooth run may also be judged by its local error.
-    const double error = accepted ? scheme.error_estimate(context, before, current) : -1.;
+    const double error = accepted && std::isfinite(control.error_tolerance)
+                           ? scheme.error_estimate(context, before, current)
+                           : -1.;
     if (error > 2. * control.error_tolerance && dt > control.minimum_step)
     {
       accepted = false;

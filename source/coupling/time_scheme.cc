@@ -32,6 +32,16 @@ void combine(Unknowns &result, const double a, const Unknowns &x, const double b
   for (unsigned int i = 0; i < result.extra.size(); ++i)
     result.extra[i] = a * result.extra[i] + (b != 0. ? b * y.extra[i] : 0.);
 }
+
+/// Whether an extra unknown has appeared in the last step: it has no past to be extrapolated from,
+/// and neither has what the rest did when it came.
+bool has_appeared(const std::vector<double> &previous, const std::vector<double> &now)
+{
+  for (unsigned int i = 0; i < now.size(); ++i)
+    if (previous[i] == 0. && now[i] != 0.)
+      return true;
+  return false;
+}
 } // namespace
 
 
@@ -238,7 +248,7 @@ void TimeScheme::predict(const StepContext &context, Unknowns &unknowns) const
     combine(start, 1., unknowns, context.dt, velocity);
     combine(unknowns, 1., start, 0.5 * context.dt * context.dt, acceleration);
   }
-  else if (n_accepted > 1)
+  else if (n_accepted > 1 && !has_appeared(previous.extra, unknowns.extra))
   {
     const double r = context.dt / previous_dt;
     combine(unknowns, 1. + r, unknowns, -r, previous);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stockwork
 {
@@ -70,13 +71,32 @@ void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &
       }
   }
 
+  // Most cells are far from all of this.
+  Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = std::numeric_limits<double>::infinity();
+    upper[d] = -lower[d];
+    for (const Line &line : lines)
+    {
+      lower[d] = std::min({lower[d], line.from[d] - line.margin, line.to[d] - line.margin});
+      upper[d] = std::max({upper[d], line.from[d] + line.margin, line.to[d] + line.margin});
+    }
+  }
+
   // A crack passes cells of one level only, so it is the level that is asked for: on a mesh whose
   // cells grow, the size would differ from cell to cell and leave hanging nodes on the way.
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const Point<dim> centre = cell->center();
-      const double reach = 0.5 * cell->diameter(), own_size = cell_size(cell);
+      const double reach = 0.5 * cell->diameter();
+      bool is_near = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_near = is_near && centre[d] > lower[d] - reach && centre[d] < upper[d] + reach;
+      if (!is_near)
+        continue;
+      const double own_size = cell_size(cell);
       float &size = sizes[cell->active_cell_index()];
       for (const Line &line : lines)
         if (const double wanted = std::ldexp(own_size, cell->level() - line.level);

@@ -1,6 +1,8 @@
 #include "solvers/bordered_solver.h"
 
 #include "solvers/bulk_transfer.h"
+#include "solvers/cholesky.h"
+#include "solvers/mumps.h"
 #include "solvers/stopwatch.h"
 #include "stockwork/base/all_gather.h"
 #include "stockwork/base/error.h"
@@ -69,12 +71,15 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   // The products belong to the old factor, whatever happens below.
   schur.forget();
   const bool definite = op.system().definite;
-  std::unique_ptr<Mumps> now = std::move(factor); // where it fails there is none
+  std::unique_ptr<SparseFactor> now = std::move(factor); // where it fails there is none
   if (!now || stamps.mesh != factor_stamps.mesh ||
       static_cast<unsigned int>(now->size()) != op.n_bulk())
   {
-    now = std::make_unique<Mumps>(communicator,
-                                  definite ? Mumps::Kind::definite : Mumps::Kind::unsymmetric);
+    if (definite && dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+      now = std::make_unique<Cholesky>();
+    else
+      now = std::make_unique<Mumps>(communicator,
+                                    definite ? Mumps::Kind::definite : Mumps::Kind::unsymmetric);
     std::vector<int> rows, columns;
     append_bulk_indices(op, definite, rows, columns);
     now->analyse(static_cast<int>(op.n_bulk()), std::move(rows), std::move(columns));

@@ -2,10 +2,11 @@
 
 #include "solvers/extra_schur.h"
 #include "solvers/linear_solver.h"
-#include "solvers/mumps.h"
+#include "solvers/sparse_factor.h"
 #include "solvers/system_operator.h"
 
 #include <map>
+#include <memory>
 
 namespace stockwork
 {
@@ -75,7 +76,7 @@ private:
   MPI_Comm communicator;
   bool is_root;
 
-  std::unique_ptr<Mumps> factor;
+  std::unique_ptr<SparseFactor> factor;
   SystemStamps factor_stamps;
   SystemVector factor_scaling;
   bool keeps_values = false; ///< A is not definite; the same on every rank, with rows or without
