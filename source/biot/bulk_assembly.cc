@@ -402,6 +402,7 @@ double BulkAssembly<dim>::fluid_content(const BlockVector &bulk,
                                         const std::vector<double> &extra,
                                         const Role &role) const
 {
+  const auto &layout = matrices.layout();
   double volume = 0.;
   for (unsigned int b = 0; b < bulk.n_blocks(); ++b)
   {
@@ -413,12 +414,16 @@ double BulkAssembly<dim>::fluid_content(const BlockVector &bulk,
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      if (const CutCell<dim> *cut = role(cell).cut)
-        for (unsigned int q = 0; q < cut->points.size(); ++q)
-          for (unsigned int c = 0; c < cut->n_columns(); ++c)
-            volume += rock(cell->material_id()).biot_coefficient * cut->weights[q] *
-                      cut->gradients[q * cut->n_columns() + c][cut->component[c]] *
-                      extra[cut->extra[c]];
+      const CutCell<dim> *cut = role(cell).cut;
+      if (cut == nullptr)
+        continue;
+      cut_evaluator.reinit(cell, cut);
+      const unsigned int n_ordinary = layout.u.size();
+      for (unsigned int q = 0; q < cut_evaluator.n_points(); ++q)
+        for (unsigned int c = 0; c < cut_evaluator.n_extra(); ++c)
+          volume += rock(cell->material_id()).biot_coefficient * cut_evaluator.weight(q) *
+                    trace(cut_evaluator.strain_of(n_ordinary + c, q)) *
+                    extra[cut_evaluator.extra()[c]];
     }
   return volume;
 }

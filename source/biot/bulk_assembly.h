@@ -10,8 +10,8 @@
 #include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
-#include "biot/cell_evaluator.h"
 #include "biot/cell_matrices.h"
+#include "exchange/cell_evaluator.h"
 
 #include <functional>
 #include <map>

@@ -4,24 +4,13 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping.h>
 
+#include "exchange/bulk_layout.h"
+
 #include <memory>
 #include <vector>
 
 namespace stockwork
 {
-/// Local numbering of the bulk element: displacement nodes a = 0 … n_u-1 with dim components each,
-/// pressure nodes 0 … n_p-1.
-template <int dim>
-struct BulkLayout
-{
-  explicit BulkLayout(const dealii::FiniteElement<dim> &fe);
-
-  unsigned int n_u;
-  unsigned int n_p;            ///< zero without pore pressure
-  std::vector<unsigned int> u; ///< [a * dim + component] -> dof of the cell
-  std::vector<unsigned int> p; ///< [a] -> dof of the cell
-};
-
 /// Integrals of products of shape functions over one cell, from which every constant-coefficient
 /// matrix of Biot's equations is a linear combination:
 ///

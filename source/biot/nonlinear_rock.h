@@ -4,8 +4,8 @@
 #include "stockwork/exchange/sink.h"
 #include "stockwork/mesh/mesh_view.h"
 
-#include "biot/cell_evaluator.h"
 #include "biot/point_history.h"
+#include "exchange/cell_evaluator.h"
 #include "rock/laws.h"
 
 #include <deal.II/lac/trilinos_parallel_block_vector.h>

@@ -2,8 +2,8 @@
 
 #include "stockwork/rock/linear_stiffness.h"
 
-#include "biot/cell_evaluator.h"
 #include "biot/prescribed_part.h"
+#include "exchange/cell_evaluator.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>

@@ -2,8 +2,9 @@
 
 #include "discontinuity/near_tip_field.h"
 
+#include "exchange/cell_evaluator.h"
+
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
 
 #include <cmath>
 
@@ -110,35 +111,26 @@ struct Tip
 };
 
 /// What the points of a cell add to the integral, mode by mode.
-/// @param cut the cell as a crack cuts it, or null; its points are those of @p fe_values
+/// @param piece that cuts the cell, or null
 template <int dim>
 void add_cell(const Tip<dim> &tip,
               const TipStress &stress_of,
               const Weight &weight,
-              const dealii::FEValues<dim> &fe_values,
-              const CutCell<dim> *const cut,
+              const CellEvaluator<dim> &cell,
               const CrackPiece<dim> *const piece,
               const State &state,
               std::vector<double> &sums)
 {
-  std::vector<Tensor<2, dim>> gradients(fe_values.n_quadrature_points);
-  fe_values[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(state.current.bulk,
-                                                                          gradients);
+  std::vector<Tensor<2, dim>> gradients;
+  cell.displacement_gradient(state.current, gradients);
   for (unsigned int q = 0; q < gradients.size(); ++q)
   {
-    const Tensor<1, dim> x =
-      tip.place(fe_values.quadrature_point(q), piece, piece != nullptr ? &cut->points[q] : nullptr);
-    const double r = (tip.frame * (fe_values.quadrature_point(q) - tip.point)).norm();
+    const Tensor<1, dim> x = tip.place(cell.point(q), piece, &cell.unit_points()[q]);
+    const double r = (tip.frame * (cell.point(q) - tip.point)).norm();
     if (weight.slope(r) == 0.)
       continue;
-    Tensor<2, dim> gradient = gradients[q];
-    if (cut != nullptr)
-      for (unsigned int c = 0; c < cut->n_columns(); ++c)
-        gradient[cut->component[c]] +=
-          state.current.extra[cut->extra[c]] * cut->gradients[q * cut->n_columns() + c];
-    gradient = tip.frame * gradient * transpose(tip.frame);
+    const Tensor<2, dim> gradient = tip.frame * gradients[q] * transpose(tip.frame);
     const SymmetricTensor<2, dim> stress = stress_of(gradient);
-    const double dA = cut != nullptr ? cut->weights[q] : fe_values.JxW(q);
     const Tensor<1, dim> dq = weight.slope(r) / r * x;
     for (unsigned int mode = 0; mode < 2; ++mode)
     {
@@ -148,7 +140,7 @@ void add_cell(const Tip<dim> &tip,
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           integrand += (stress[i][j] * unit[i][0] + unit_stress[i][j] * gradient[i][0]) * dq[j];
-      sums[mode] += integrand * dA;
+      sums[mode] += integrand * cell.weight(q);
     }
   }
 }
@@ -197,10 +189,9 @@ StressIntensity stress_intensity(const unsigned int crack,
   const TipStress stress_of{rock, tip.frame};
   const Weight weight{0.25 * radius, radius};
 
-  const auto &fe = mesh_view.dof_handler.get_fe();
-  const auto flags =
-    dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
-  dealii::FEValues<dim> plain_values(mesh_view.mapping, fe, dealii::QGauss<dim>(4), flags);
+  CellEvaluator<dim> evaluator(
+    mesh_view.mapping, mesh_view.dof_handler.get_fe(), dealii::QGauss<dim>(4),
+    dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values);
   std::vector<double> sums(2, 0.);
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -208,19 +199,10 @@ StressIntensity stress_intensity(const unsigned int crack,
       const auto &low = cell->vertex(0), &high = cell->vertex((1 << dim) - 1);
       if ((low + 0.5 * (high - low)).distance(tip.point) > radius + 0.75 * low.distance(high))
         continue;
-      if (const CutCell<dim> *cut = discontinuity.cut_cell(cell->active_cell_index()))
-      {
-        dealii::FEValues<dim> cut_values(mesh_view.mapping, fe,
-                                         dealii::Quadrature<dim>(cut->points), flags);
-        cut_values.reinit(cell);
-        add_cell(tip, stress_of, weight, cut_values, cut, discontinuity.piece_in(cell->id(), crack),
-                 state, sums);
-      }
-      else
-      {
-        plain_values.reinit(cell);
-        add_cell<dim>(tip, stress_of, weight, plain_values, nullptr, nullptr, state, sums);
-      }
+      const CutCell<dim> *const cut = discontinuity.cut_cell(cell->active_cell_index());
+      evaluator.reinit(cell, cut);
+      add_cell(tip, stress_of, weight, evaluator,
+               cut != nullptr ? discontinuity.piece_in(cell->id(), crack) : nullptr, state, sums);
     }
   collectives.sum(sums);
 

@@ -2,9 +2,9 @@
 
 #include "stockwork/rock/linear_law.h"
 
-#include "biot/cell_evaluator.h"
 #include "biot/cell_matrices.h"
 #include "biot/plane_tensors.h"
+#include "exchange/cell_evaluator.h"
 
 #include <deal.II/base/quadrature_lib.h>
 

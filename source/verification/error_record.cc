@@ -1,8 +1,9 @@
 #include "verification/error_record.h"
 
+#include "exchange/cell_evaluator.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
 #include <array>
@@ -74,22 +75,17 @@ struct Difference
   {
   }
 
-  /// @param cut the cell as a crack cuts it, or null; its points are those of @p values
-  void add(const FEValues<dim> &values, const CutCell<dim> *cut)
+  void add(const CellEvaluator<dim> &cell)
   {
-    computed.assign(values.n_quadrature_points, Vector<double>(expected.size()));
-    values.get_function_values(solution.bulk, computed);
-    for (unsigned int q = 0; q < computed.size(); ++q)
+    cell.displacement(solution, displacement);
+    cell.pressure(solution, pressure);
+    for (unsigned int q = 0; q < cell.n_points(); ++q)
     {
-      if (cut != nullptr)
-        for (unsigned int c = 0; c < cut->n_columns(); ++c)
-          computed[q](cut->component[c]) +=
-            cut->values[q * cut->n_columns() + c] * solution.extra[cut->extra[c]];
-      field.vector_value(values.quadrature_point(q), expected);
+      field.vector_value(cell.point(q), expected);
       for (unsigned int c = 0; c < expected.size(); ++c)
       {
-        const double difference = computed[q](c) - expected(c);
-        const double weight = cut != nullptr ? cut->weights[q] : values.JxW(q);
+        const double difference = (c < dim ? displacement[q][c] : pressure[q]) - expected(c);
+        const double weight = cell.weight(q);
         const unsigned int first = c < dim ? 0 : 3;
         squares[first] += difference * difference * weight;
         squares[first + 1] += expected(c) * expected(c) * weight;
@@ -99,7 +95,8 @@ struct Difference
   }
 
 private:
-  std::vector<Vector<double>> computed;
+  std::vector<Tensor<1, dim>> displacement;
+  std::vector<double> pressure;
   Vector<double> expected;
 };
 } // namespace
@@ -121,28 +118,16 @@ void ErrorRecord<dim>::add_fields(const double time,
   const unsigned int n_components = fe.n_components();
   AssertDimension(field->n_components, n_components);
   const QGauss<dim> quadrature(fe.degree + 2);
-  FEValues<dim> fe_values(mapping, fe, quadrature,
-                          update_values | update_quadrature_points | update_JxW_values);
+  CellEvaluator<dim> evaluator(mapping, fe, quadrature,
+                               update_values | update_quadrature_points | update_JxW_values);
   const auto point = reference.observation_point();
   double observed = -std::numeric_limits<double>::infinity();
   Difference<dim> difference(*field, solution);
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const CutCell<dim> *cut = role(cell).cut;
-      if (cut == nullptr)
-      {
-        fe_values.reinit(cell);
-        difference.add(fe_values, nullptr);
-      }
-      else
-      {
-        // Ordinary functions do not know on which side of the crack a point is.
-        FEValues<dim> cut_values(mapping, fe, Quadrature<dim>(cut->points),
-                                 update_values | update_quadrature_points);
-        cut_values.reinit(cell);
-        difference.add(cut_values, cut);
-      }
+      evaluator.reinit(cell, role(cell).cut);
+      difference.add(evaluator);
       if (point && n_components > dim)
         for (const unsigned int v : cell->vertex_indices())
           if (cell->vertex(v).distance(*point) < 1e-8 * cell->diameter())

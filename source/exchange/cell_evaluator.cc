@@ -1,20 +1,14 @@
-#include "biot/cell_evaluator.h"
+#include "exchange/cell_evaluator.h"
 
 namespace stockwork
 {
 using namespace dealii;
 
-namespace
-{
-const UpdateFlags flags =
-  update_values | update_gradients | update_quadrature_points | update_JxW_values;
-}
-
-
 template <int dim>
 CellEvaluator<dim>::CellEvaluator(const Mapping<dim> &mapping,
                                   const FiniteElement<dim> &fe,
-                                  const Quadrature<dim> &quadrature)
+                                  const Quadrature<dim> &quadrature,
+                                  const UpdateFlags flags)
   : layout(fe)
   , ordinary(mapping, fe, quadrature, flags)
   , dof_indices(fe.n_dofs_per_cell())
@@ -36,8 +30,9 @@ void CellEvaluator<dim>::reinit(const CellIterator &cell, const CutCell<dim> *cu
   auto &of_cut = of_cuts[cell->active_cell_index()];
   if (!of_cut)
   {
-    of_cut = std::make_unique<FEValues<dim>>(ordinary.get_mapping(), ordinary.get_fe(),
-                                             Quadrature<dim>(cut->points), flags);
+    of_cut =
+      std::make_unique<FEValues<dim>>(ordinary.get_mapping(), ordinary.get_fe(),
+                                      Quadrature<dim>(cut->points), ordinary.get_update_flags());
     of_cut->reinit(cell);
   }
   values = of_cut.get();
@@ -45,18 +40,51 @@ void CellEvaluator<dim>::reinit(const CellIterator &cell, const CutCell<dim> *cu
 
 
 template <int dim>
+template <class Function>
+void CellEvaluator<dim>::for_each_function(const Unknowns &unknowns, const Function &use) const
+{
+  const unsigned int n_ordinary = layout.u.size();
+  for (unsigned int k = 0; k < n_functions(); ++k)
+    use(k, k < n_ordinary ? double(unknowns.bulk(dof_indices[layout.u[k]]))
+                          : unknowns.extra[cut_cell->extra[k - n_ordinary]]);
+}
+
+
+template <int dim>
+void CellEvaluator<dim>::displacement(const Unknowns &unknowns,
+                                      std::vector<Tensor<1, dim>> &result) const
+{
+  result.assign(n_points(), Tensor<1, dim>());
+  for_each_function(unknowns,
+                    [&](const unsigned int k, const double factor)
+                    {
+                      for (unsigned int q = 0; q < n_points(); ++q)
+                        result[q][component(k)] += factor * value(k, q);
+                    });
+}
+
+
+template <int dim>
+void CellEvaluator<dim>::displacement_gradient(const Unknowns &unknowns,
+                                               std::vector<Tensor<2, dim>> &result) const
+{
+  result.assign(n_points(), Tensor<2, dim>());
+  for_each_function(unknowns,
+                    [&](const unsigned int k, const double factor)
+                    {
+                      for (unsigned int q = 0; q < n_points(); ++q)
+                        result[q][component(k)] += factor * gradient(k, q);
+                    });
+}
+
+
+template <int dim>
 void CellEvaluator<dim>::strain(const Unknowns &unknowns,
                                 std::vector<SymmetricTensor<2, dim>> &result) const
 {
+  std::vector<Tensor<2, dim>> gradients;
+  displacement_gradient(unknowns, gradients);
   result.resize(n_points());
-  std::vector<Tensor<2, dim>> gradients(n_points());
-  for (unsigned int k = 0; k < n_functions(); ++k)
-  {
-    const double value = k < layout.u.size() ? unknowns.bulk(dof_indices[layout.u[k]])
-                                             : unknowns.extra[cut_cell->extra[k - layout.u.size()]];
-    for (unsigned int q = 0; q < n_points(); ++q)
-      gradients[q][component(k)] += value * gradient(k, q);
-  }
   for (unsigned int q = 0; q < n_points(); ++q)
     result[q] = symmetrize(gradients[q]);
 }

@@ -6,7 +6,7 @@
 #include "stockwork/exchange/cell_role.h"
 #include "stockwork/exchange/state.h"
 
-#include "biot/cell_integrals.h"
+#include "exchange/bulk_layout.h"
 
 #include <map>
 #include <memory>
@@ -23,9 +23,14 @@ class CellEvaluator
 public:
   using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
+  /// @param quadrature of an ordinary cell; a cut one has its own
+  /// @param flags what will be asked for, weights being JxW
   CellEvaluator(const dealii::Mapping<dim> &mapping,
                 const dealii::FiniteElement<dim> &fe,
-                const dealii::Quadrature<dim> &quadrature);
+                const dealii::Quadrature<dim> &quadrature,
+                dealii::UpdateFlags flags = dealii::update_values | dealii::update_gradients |
+                                            dealii::update_quadrature_points |
+                                            dealii::update_JxW_values);
 
   /// @param cut null: an ordinary cell. It is the one that was given for this cell before, until
   /// forget_cuts().
@@ -121,6 +126,10 @@ public:
   }
 
   /// At all points.
+  void displacement(const Unknowns &unknowns, std::vector<dealii::Tensor<1, dim>> &result) const;
+  /// [i][j] = u_i,j
+  void displacement_gradient(const Unknowns &unknowns,
+                             std::vector<dealii::Tensor<2, dim>> &result) const;
   void strain(const Unknowns &unknowns, std::vector<dealii::SymmetricTensor<2, dim>> &result) const;
   void pressure(const Unknowns &unknowns, std::vector<double> &result) const;
   void pressure_gradient(const Unknowns &unknowns,
@@ -129,6 +138,10 @@ public:
   const BulkLayout<dim> layout;
 
 private:
+  /// Call use(function, its value) for all functions of the displacement.
+  template <class Function>
+  void for_each_function(const Unknowns &unknowns, const Function &use) const;
+
   dealii::FEValues<dim> ordinary;
   /// Of cut cells, by active cell index: dear to make, and asked for in every iteration.
   std::map<unsigned int, std::unique_ptr<dealii::FEValues<dim>>> of_cuts;
