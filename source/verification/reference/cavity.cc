@@ -13,12 +13,13 @@ using namespace dealii;
 
 namespace
 {
-class BoreholeField : public Field<2>
+template <int dim>
+class CavityField : public Field<dim>
 {
 public:
-  BoreholeField(const analytical::MohrCoulombCavity::Parameters &parameters,
-                const std::function<double(double)> &wall_pressure)
-    : Field<2>(false)
+  CavityField(const analytical::MohrCoulombCavity::Parameters &parameters,
+              const std::function<double(double)> &wall_pressure)
+    : Field<dim>(false)
     , cavity(parameters)
     , wall_pressure(wall_pressure)
   {
@@ -26,14 +27,15 @@ public:
 
   void set_time(const double time) override
   {
-    Function<2>::set_time(time);
+    Function<dim>::set_time(time);
     cavity.set_wall_pressure(wall_pressure(time));
   }
 
   analytical::MohrCoulombCavity cavity;
 
 protected:
-  void evaluate(const Point<2> &point, Tensor<1, 2> &displacement, double &pressure) const override
+  void
+  evaluate(const Point<dim> &point, Tensor<1, dim> &displacement, double &pressure) const override
   {
     const double r = point.norm();
     displacement = cavity.displacement(r) / r * point;
@@ -45,12 +47,13 @@ private:
 };
 
 
-class Borehole : public ReferenceSolution<2>
+template <int dim>
+class CavityReference : public ReferenceSolution<dim>
 {
 public:
-  Borehole(const analytical::MohrCoulombCavity::Parameters &parameters,
-           const std::function<double(double)> &wall_pressure)
-    : solution(std::make_shared<BoreholeField>(parameters, wall_pressure))
+  CavityReference(const analytical::MohrCoulombCavity::Parameters &parameters,
+                  const std::function<double(double)> &wall_pressure)
+    : solution(std::make_shared<CavityField<dim>>(parameters, wall_pressure))
     , radius(parameters.radius)
   {
   }
@@ -62,10 +65,10 @@ public:
 
   std::string name() const override
   {
-    return "borehole in Mohr-Coulomb rock";
+    return dim == 2 ? "borehole in Mohr-Coulomb rock" : "spherical cavity in Mohr-Coulomb rock";
   }
 
-  std::shared_ptr<Function<2>> field() const override
+  std::shared_ptr<Function<dim>> field() const override
   {
     return solution;
   }
@@ -77,49 +80,57 @@ public:
             {"wall_displacement", solution->cavity.displacement(radius)}};
   }
 
-  std::optional<Point<2>> place_of_displacement() const override
+  std::optional<Point<dim>> place_of_displacement() const override
   {
-    return Point<2>(radius, 0.);
+    Point<dim> place;
+    place[0] = radius;
+    return place;
   }
 
   void add_derived(std::map<std::string, double> &values) const override
   {
-    // Of the quarter ring; along the x axis the displacement is its first component.
-    values["plastic_radius"] =
-      std::sqrt(radius * radius + 4. / numbers::PI * values["yielded_volume"]);
+    // Of the quarter ring, or the octant of a shell; along the x axis the displacement is its first
+    // component.
+    const double yielded = values["yielded_volume"] / numbers::PI;
+    values["plastic_radius"] = dim == 2 ? std::sqrt(radius * radius + 4. * yielded)
+                                        : std::cbrt(radius * radius * radius + 6. * yielded);
     values["wall_displacement"] = values["displacement_x"];
   }
 
 private:
-  std::shared_ptr<BoreholeField> solution;
+  std::shared_ptr<CavityField<dim>> solution;
   double radius;
 };
 } // namespace
 
 
-Made<2> make_borehole(const ParameterHandler &, const ReferenceInput<2> &input)
+template <int dim>
+Made<dim> make_cavity(const ParameterHandler &, const ReferenceInput<dim> &input)
 {
+  const std::string name = dim == 2 ? "borehole" : "cavity", quoted = "'" + name + "'";
   const auto *law = dynamic_cast<const mohr_coulomb::MohrCoulomb *>(input.law);
   if (law == nullptr)
-    throw InputError("'borehole' is of rock with 'Rock/Law = mohr coulomb'");
-  require_perfectly_plastic(law->surface(), "borehole");
+    throw InputError(quoted + " is of rock with 'Rock/Law = mohr coulomb'");
+  require_perfectly_plastic(law->surface(), name);
   if (!(input.hole_radius > 0.))
-    throw InputError("'borehole' is in a 'Mesh/Shape = quarter ring'");
+    throw InputError(quoted +
+                     " is in a 'Mesh/Shape = " + (dim == 2 ? "quarter ring'" : "octant of shell'"));
   if (input.has_pore_pressure)
-    throw InputError("'borehole' knows no pore pressure: 'Rock/Bulk model = elastic'");
+    throw InputError(quoted + " knows no pore pressure: 'Rock/Bulk model = elastic'");
   if (input.layered || input.has_stress_gradient)
-    throw InputError("'borehole' is in uniform rock and stress");
+    throw InputError(quoted + " is in uniform rock and stress");
   const SymmetricTensor<2, 3> stress = input.in_situ_stress;
   const double mean = trace(stress) / 3.;
   if (!(deviator(stress).norm() <= 1e-9 * std::abs(mean)) || !(mean < 0.))
-    throw InputError("'borehole' is in compression that is the same in all directions, also "
-                     "'In situ/Stress across the plane'");
+    throw InputError(quoted + " is in compression that is the same in all directions" +
+                     (dim == 2 ? ", also 'In situ/Stress across the plane'" : ""));
   const RockProperties &rock = input.rock.main();
   const mohr_coulomb::Strength &strength = law->surface();
   const analytical::MohrCoulombCavity::Parameters parameters{
-    rock.young_modulus,      rock.poisson_ratio,      strength.cohesion,
-    strength.friction_angle, strength.dilation_angle, -mean - input.in_situ_pressure,
-    input.hole_radius};
+    rock.young_modulus,      rock.poisson_ratio,
+    strength.cohesion,       strength.friction_angle,
+    strength.dilation_angle, -mean - input.in_situ_pressure,
+    input.hole_radius,       dim - 1};
   // Loads are over in situ; a pull on the wall takes pressure from it.
   const auto wall_pressure = [parameters, traction = input.normal_traction](const double time)
   { return parameters.in_situ - traction("wall", time); };
@@ -130,14 +141,18 @@ Made<2> make_borehole(const ParameterHandler &, const ReferenceInput<2> &input)
       wall_pressure(input.start_time + 0.01 * i * (input.end_time - input.start_time));
     if (now < -1e-9 * parameters.in_situ)
       throw InputError(
-        "'borehole' is of a wall that is pressed, by no less than the pore pressure; "
-        "the normal traction on 'wall' pulls by more than the in-situ stress allows");
+        quoted + " is of a wall that is pressed, by no less than the pore pressure; "
+                 "the normal traction on 'wall' pulls by more than the in-situ stress allows");
     if ((now - last) * sense < 0.)
-      throw InputError("'borehole' is of a wall pressure that only falls or only rises; the normal "
-                       "traction on 'wall' turns back");
+      throw InputError(quoted + " is of a wall pressure that only falls or only rises; the normal "
+                                "traction on 'wall' turns back");
     sense = now != last ? now - last : sense;
     last = now;
   }
-  return std::make_unique<Borehole>(parameters, wall_pressure);
+  return std::make_unique<CavityReference<dim>>(parameters, wall_pressure);
 }
+
+
+template Made<2> make_cavity(const ParameterHandler &, const ReferenceInput<2> &);
+template Made<3> make_cavity(const ParameterHandler &, const ReferenceInput<3> &);
 } // namespace stockwork::reference
