@@ -24,7 +24,7 @@ struct Entry
 
 const Entry table[] = {
   {"column", reference::make_column<2>, reference::make_column<3>},
-  {"mandel", reference::make_mandel, nullptr},
+  {"mandel", reference::make_mandel, nullptr, true},
   {"cryer", nullptr, reference::make_cryer<3>},
   {"deleeuw", reference::make_cryer<2>, nullptr},
   {"borehole", reference::make_cavity<2>, nullptr},
@@ -125,9 +125,10 @@ std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
                          "a solution in " + std::to_string(dim) + "-D");
       const RockProperties &rock = input.rock.main();
       if (!entry.knows_anisotropic_rock && (rock.stiffness || !rock.has_isotropic_permeability()))
-        throw EntryError("Verification/Reference", name,
-                         "'none' or 'line crack' where stiffness or permeability is another across "
-                         "the layers: the solution is of isotropic rock");
+        throw EntryError(
+          "Verification/Reference", name,
+          "'none', 'mandel' or 'line crack' where stiffness or permeability is another across "
+          "the layers: the solution is of isotropic rock");
       try
       {
         solution = maker<dim>(entry)(prm, input);
