@@ -236,9 +236,10 @@ void check_reference(ParameterHandler &prm, const Case<dim> &the_case)
       "'none' with a 'Rock/Permeability decay stress': the solution is of rock whose "
       "permeability does not hang on the stress");
   if (the_case.reference && the_case.laws.may_yield() && !the_case.reference->is_of_yielding_rock())
-    throw EntryError("Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
-                     "'none' (or 'borehole' or 'footing') with a 'Rock/Law' that may yield: the "
-                     "solution is of linear rock");
+    throw EntryError(
+      "Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+      "'none' (or 'borehole', 'cavity' or 'footing') with a 'Rock/Law' that may yield: the "
+      "solution is of linear rock");
 }
 
 

@@ -293,34 +293,43 @@ void add_principal_stresses(const Case<2> &the_case, std::vector<SceneNumber> &n
 
 namespace
 {
-/// How near the rock is to the end of its linear range, in situ and beside the tip of a crack that
-/// carries the tensile strength across it.
+/// How near the rock of a region is to the end of its linear range, in situ and beside the tip of a
+/// crack whose faces carry the tensile strength across it: over the pressure of the fluid that
+/// fills the crack, which is then about the in-situ compression across it, or over none beside a
+/// tip that is dry.
 template <int dim>
-void add_strength(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
+void add_strength(const Case<dim> &the_case,
+                  const types::material_id region,
+                  std::vector<SceneNumber> &numbers)
 {
-  const RockLaw &law = the_case.laws(0);
-  const RockProperties &rock = the_case.rock.main();
+  const RockLaw &law = the_case.laws(region);
+  const RockProperties &rock = the_case.rock(region);
+  const std::string where = region == 0 ? "" : ", region " + std::to_string(region);
   const Point<dim> place = the_case.scene.cracks.empty() || the_case.scene.cracks[0].points.empty()
                              ? Point<dim>()
                              : the_case.scene.cracks[0].points.front();
   RockState state;
   state.in_situ_stress = the_case.scene.in_situ_tensor(place, rock);
   state.in_situ_pressure = the_case.scene.in_situ_pore_pressure(place);
-  numbers.push_back({"share of the rock's strength used in situ", law.used(state),
-                     law.describe() + "; from 1 on the rock yields"});
+  numbers.push_back({(region == 0 ? "share of the rock's strength used in situ"
+                                  : "share of strength used in situ") +
+                       where,
+                     law.used(state), law.describe() + "; from 1 on the rock yields"});
   if (the_case.scene.cracks.empty() || std::isnan(rock.tensile_strength))
     return;
-  // The least compression in the plane gives way to the strength.
+  const bool is_full = the_case.network.has_wells() && !the_case.network.may_boil();
   const auto principal = eigenvectors(state.in_situ_stress);
   const SymmetricTensor<2, 3> across =
     symmetrize(outer_product(principal[0].second, principal[0].second));
   state.in_situ_stress +=
-    (rock.tensile_strength - state.in_situ_pressure - principal[0].first) * across;
+    (rock.tensile_strength - (is_full ? 0. : state.in_situ_pressure + principal[0].first)) * across;
   const double at_tip = law.used(state);
-  numbers.push_back({"the same beside the tip of a crack", at_tip,
-                     at_tip < 0.5  ? "nowhere near yield: the rock stays linear"
-                     : at_tip < 1. ? "the rock may yield where stresses concentrate"
-                                   : "the rock yields around the tips"});
+  numbers.push_back(
+    {"the same beside the tip of a crack" + where, at_tip,
+     std::string(at_tip < 0.5  ? "nowhere near yield: the rock stays linear"
+                 : at_tip < 1. ? "the rock may yield where stresses concentrate"
+                               : "the rock yields around the tips") +
+       (is_full ? " (where the fluid fills the crack to its tip)" : " (a dry tip)")});
 }
 } // namespace
 
@@ -341,13 +350,15 @@ void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbe
   the_case.laws(0).evaluate(ArrayView<const RockState>(&state, 1),
                             ArrayView<RockResponse>(&response, 1));
   const double left = trace(response.permeability) / trace(rock.template permeability_tensor<3>());
-  const bool is_tight = left < 1e-6;
+  const bool is_tight = left<1e-6, is_wide = left> 1e3;
   numbers.push_back({"share of the permeability left in situ", left,
                      std::string("in the middle of the domain, by the mean effective stress; ") +
                        (is_tight ? "next to nothing flows: is the unit of 'Rock/Permeability decay "
                                    "stress' right?"
-                                 : "the numbers of diffusion here are with 'Rock/Permeability'"),
-                     is_tight});
+                        : is_wide ? "tension widens the pores: are the signs of the stress and the "
+                                    "unit of 'Rock/Permeability decay stress' right?"
+                                  : "the numbers of diffusion here are with 'Rock/Permeability'"),
+                     is_tight || is_wide});
 }
 
 
@@ -428,8 +439,9 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   std::vector<SceneNumber> numbers;
   if constexpr (dim == 2)
     add_principal_stresses(the_case, numbers);
-  if (the_case.laws(0).n_history() > 0)
-    add_strength(the_case, numbers);
+  for (const auto &[region, law] : the_case.laws.all())
+    if (law->n_history() > 0)
+      add_strength(the_case, region, numbers);
   if (the_case.laws(0).changes_permeability())
     add_permeability(the_case, numbers);
   const RockProperties &rock = the_case.rock.main();

@@ -141,9 +141,11 @@ void NonlinearRock<dim>::find_history(const CellIterator &cell)
 {
   const unsigned int index = cell->active_cell_index();
   committed.assign(evaluator->n_points(), nullptr);
-  if (points->has(index))
-    for (unsigned int q = 0; q < committed.size(); ++q)
-      committed[q] = points->nearest(index, evaluator->unit_points()[q]);
+  if (!points->has(index))
+    return;
+  const CutCell<dim> *const cut = role(cell).cut;
+  for (unsigned int q = 0; q < committed.size(); ++q)
+    committed[q] = points->nearest(index, evaluator->unit_points()[q], cut);
 }
 
 
@@ -521,7 +523,7 @@ typename NonlinearRock<dim>::Answer NonlinearRock<dim>::at(const CellIterator &c
                                                            const State &now) const
 {
   const RockLaw &law = this->law(cell);
-  const double *known = points->nearest(cell->active_cell_index(), unit_point);
+  const double *known = points->nearest(cell->active_cell_index(), unit_point, role(cell).cut);
   RockState state;
   state.strain = in_space(strain);
   state.pressure = pressure;

@@ -27,20 +27,26 @@ void PointHistory<dim>::reinit(const unsigned int n_active_cells)
 
 template <int dim>
 const double *PointHistory<dim>::nearest(const unsigned int cell,
-                                         const Point<dim> &unit_point) const
+                                         const Point<dim> &unit_point,
+                                         const CutCell<dim> *const cut) const
 {
   const Record &record = records[cell];
+  const int side = cut != nullptr ? cut->side(unit_point) : 0;
   const double *found = nullptr;
   double least = std::numeric_limits<double>::infinity();
+  bool found_across = true;
   for (std::size_t k = 0; k < record.size(); k += dim + n)
   {
-    double distance = 0.;
+    Point<dim> other;
     for (unsigned int d = 0; d < dim; ++d)
-      distance += (record[k + d] - unit_point[d]) * (record[k + d] - unit_point[d]);
-    if (distance < least)
+      other[d] = record[k + d];
+    const double distance = other.distance_square(unit_point);
+    const bool across = side != 0 && cut->side(other) != side;
+    if (across == found_across ? distance < least : found_across)
     {
       least = distance;
       found = &record[k + dim];
+      found_across = across;
     }
   }
   return found;

@@ -4,6 +4,8 @@
 #include <deal.II/distributed/cell_data_transfer.h>
 #include <deal.II/distributed/tria.h>
 
+#include "stockwork/exchange/cell_role.h"
+
 #include <memory>
 #include <vector>
 
@@ -15,7 +17,7 @@ namespace stockwork
 /// The points are kept with the numbers, so a cell may ask with others than it was given: those of
 /// an ordinary cell that a crack comes to cut, of a child that asks its parent, of a parent its
 /// children. The answer is that of the nearest point and no mean, for a mean of two states on a
-/// yield surface lies off it.
+/// yield surface lies off it. Where a crack passes, it is that of the nearest on the same side.
 template <int dim>
 class PointHistory
 {
@@ -32,7 +34,10 @@ public:
   }
 
   /// The numbers at the nearest point; null where nothing is remembered of the cell.
-  const double *nearest(unsigned int cell, const dealii::Point<dim> &unit_point) const;
+  /// @param cut how a crack cuts the cell now: the nearest point on its own side, and the nearest
+  /// of all where nothing is remembered on that side. Null: it does not.
+  const double *
+  nearest(unsigned int cell, const dealii::Point<dim> &unit_point, const CutCell<dim> *cut) const;
 
   /// @param values n_values for each point, one point after another
   void set(unsigned int cell,

@@ -225,9 +225,19 @@ std::vector<CrackSpan> spans_of(const CrackPath<dim> &path)
 }
 
 template <int dim>
+Tensor<1, dim> CrackPiece<dim>::unit_normal() const
+{
+  const Tensor<1, dim> along_it = unit_ends[1] - unit_ends[0];
+  Tensor<1, dim> normal;
+  normal[0] = -along_it[1];
+  normal[1] = along_it[0];
+  return normal;
+}
+
+template <int dim>
 bool CrackPiece<dim>::plus_side(const Point<dim> &unit_point) const
 {
-  return cross(unit_ends[1] - unit_ends[0], unit_point - unit_ends[0]) > 0.;
+  return unit_normal() * (unit_point - unit_ends[0]) > 0.;
 }
 
 template <int dim>

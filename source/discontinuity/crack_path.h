@@ -65,6 +65,9 @@ struct CrackPiece
   /// face that is normal to the first unit coordinate.
   bool crosses_transverse_face(const unsigned int end) const;
 
+  /// Normal in unit-cell coordinates, to the plus side, as long as the piece is there.
+  dealii::Tensor<1, dim> unit_normal() const;
+
   /// Is a point of the unit cell on the plus side?
   bool plus_side(const dealii::Point<dim> &unit_point) const;
 

@@ -157,6 +157,8 @@ make_cut_geometry(const dealii::Mapping<dim> &mapping,
   geometry.gradients.resize(rule.size() * n_corners);
   if (piece == nullptr)
     return geometry;
+  geometry.on_plane = piece->unit_ends[0];
+  geometry.normal = piece->unit_normal();
 
   std::array<bool, n_corners> plus;
   for (unsigned int v = 0; v < n_corners; ++v)
@@ -184,6 +186,8 @@ CutCell<dim> make_cut_cell(const CutGeometry<dim> &geometry,
   CutCell<dim> cut;
   cut.points = geometry.points;
   cut.weights = geometry.weights;
+  cut.on_plane = geometry.on_plane;
+  cut.normal = geometry.normal;
   const unsigned int n_more = more.extra.size();
   const std::size_t size = geometry.points.size() * (columns.size() + n_more);
   cut.values.reserve(size);

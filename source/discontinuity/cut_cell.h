@@ -27,6 +27,9 @@ struct CutGeometry
   std::vector<double> weights;                   ///< times the Jacobian
   std::vector<double> values;                    ///< [q * n_corners + corner]
   std::vector<dealii::Tensor<1, dim>> gradients; ///< real space, [q * n_corners + corner]
+
+  dealii::Point<dim> on_plane; ///< see CutCell
+  dealii::Tensor<1, dim> normal;
 };
 
 /// Unknown index, corner and component of one column of a cut cell.

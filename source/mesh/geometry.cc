@@ -59,13 +59,16 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
   prm.enter_subsection("Mesh");
   // The same in two and three dimensions: there is one manual, and a deck is read before its
   // dimension is known.
-  prm.declare_entry("Shape", "box",
-                    Patterns::Selection("box|quarter disc|octant of ball|quarter ring|gmsh file"),
-                    "Shape of the domain. Sides of a box are called left, right (across x), "
-                    "bottom, top (the last coordinate) and in 3-D front, back (y); those of a "
-                    "quarter disc (2-D) or octant of a ball (3-D) by the same names where it is "
-                    "cut, and surface; those of a quarter ring (2-D) likewise, and wall inside; "
-                    "those of a gmsh file by its physical groups.");
+  prm.declare_entry(
+    "Shape", "box",
+    Patterns::Selection("box|quarter disc|octant of ball|quarter ring|octant of shell|"
+                        "gmsh file"),
+    "Shape of the domain. Sides of a box are called left, right (across x), "
+    "bottom, top (the last coordinate) and in 3-D front, back (y); those of a "
+    "quarter disc (2-D) or octant of a ball (3-D) by the same names where it is "
+    "cut, and surface; those of a quarter ring (2-D) or an octant of a shell (3-D) "
+    "likewise, and wall inside; "
+    "those of a gmsh file by its physical groups.");
   prm.declare_entry("Uniform refinements", "0", Patterns::Integer(0, 20),
                     "How many times every cell is halved in each direction.");
   prm.declare_entry("Refinement boxes", "", Patterns::Anything(),
@@ -104,13 +107,14 @@ void Geometry<dim>::declare_parameters(ParameterHandler &prm)
 
   prm.enter_subsection("Ring");
   prm.declare_entry("Inner radius", "", Quantity(dimension::length, Range::positive(), ""),
-                    "Of the quarter ring, a borehole's. Required for it.");
+                    "Of the quarter ring, a borehole's, or the octant of a shell, a cavity's. "
+                    "Required for these.");
   prm.declare_entry("Outer radius", "", Quantity(dimension::length, Range::positive(), ""),
-                    "Required for a quarter ring.");
+                    "Required for a quarter ring or an octant of a shell.");
   prm.declare_entry("Cells along the radius", "8 cells", Patterns::Anything(),
                     "As those of a box along an axis: '1 cm at 10 cm, growth 1.2, largest 20 m'.");
   prm.declare_entry("Cells along the arc", "8", Patterns::Integer(1, 100000),
-                    "Of a quarter of a circle.");
+                    "Of a quarter of a circle; of a shell an even number.");
   prm.leave_subsection();
 
   prm.enter_subsection("Gmsh");
@@ -134,11 +138,15 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
   uniform_refinements = prm.get_integer("Uniform refinements");
   max_cells = prm.get_integer("Maximum number of cells");
   const std::string shape = prm.get("Shape");
+  const std::string ball = dim == 2 ? "quarter disc" : "octant of ball",
+                    ring = dim == 2 ? "quarter ring" : "octant of shell";
+  if (shape != "box" && shape != "gmsh file" && shape != ball && shape != ring)
+    throw EntryError("Mesh/Shape", shape,
+                     "box, " + ball + ", " + ring + " or gmsh file in " +
+                       (dim == 2 ? "two" : "three") + " dimensions");
   // What belongs to another shape would be dropped.
   const std::vector<std::array<std::string, 3>> of_shapes = {
-    {{"Ball", "Radius", dim == 2 ? "quarter disc" : "octant of ball"}},
-    {{"Ring", "Inner radius", "quarter ring"}},
-    {{"Ring", "Outer radius", "quarter ring"}}};
+    {{"Ball", "Radius", ball}}, {{"Ring", "Inner radius", ring}}, {{"Ring", "Outer radius", ring}}};
   for (const auto &[section, entry, owner] : of_shapes)
   {
     prm.enter_subsection(section);
@@ -152,14 +160,10 @@ void Geometry<dim>::parse_parameters(ParameterHandler &prm, const std::string &d
     make_box(prm);
   else if (shape == "gmsh file")
     read_gmsh(prm, deck_directory);
-  else if (shape == (dim == 2 ? "quarter disc" : "octant of ball"))
+  else if (shape == ball)
     make_ball(prm);
-  else if (dim == 2 && shape == "quarter ring")
-    make_ring(prm);
   else
-    throw EntryError("Mesh/Shape", shape,
-                     dim == 2 ? "box, quarter disc, quarter ring or gmsh file in two dimensions"
-                              : "box, octant of ball or gmsh file in three dimensions");
+    make_ring(prm);
   bounds = GridTools::compute_bounding_box(*coarse);
   if (shape != "box")
     refuse_cells(coarse->n_active_cells(), uniform_refinements);
@@ -263,9 +267,13 @@ void Geometry<dim>::create_coarse(Triangulation &triangulation) const
     interior.initialize(triangulation);
     triangulation.set_manifold(interior_manifold, interior);
   }
-  if constexpr (dim == 2)
-    if (cells == Cells::ring)
+  if (cells == Cells::ring)
+  {
+    if constexpr (dim == 2)
       triangulation.set_manifold(0, PolarManifold<dim>());
+    else
+      triangulation.set_manifold(0, SphericalManifold<dim>());
+  }
   if (region_boxes.empty() && side_boxes.empty())
     return;
   const auto set = [this, &triangulation]()

@@ -20,7 +20,8 @@ namespace stockwork
 ///
 /// Sides of a box are called left, right (x), bottom, top (y in 2-D, z in 3-D) and front, back (y
 /// in 3-D). A quarter disc has left (x = 0), bottom (y = 0) and surface, an octant of a ball left,
-/// front, bottom and surface. A gmsh file names its own, by its physical groups.
+/// front, bottom and surface; a quarter ring or an octant of a shell has a wall inside as well. A
+/// gmsh file names its own, by its physical groups.
 template <int dim>
 class Geometry
 {
@@ -81,7 +82,7 @@ public:
   /// Whether a point lies on a side of the bounding box.
   bool on_side(const dealii::Point<dim> &point) const;
 
-  /// Of the hole of a ring [m]; zero: no hole.
+  /// Of the hole of a ring or a shell [m]; zero: no hole.
   double hole_radius() const
   {
     return inner_radius;
@@ -94,6 +95,8 @@ private:
   void make_box(dealii::ParameterHandler &prm);
   void make_ball(dealii::ParameterHandler &prm);
   void make_ring(dealii::ParameterHandler &prm);
+  /// Cells between the radii, so many along a quarter of a circle; and names of the sides.
+  void make_ring_cells(const std::vector<double> &radii, unsigned int n_arc);
   void read_gmsh(dealii::ParameterHandler &prm, const std::string &deck_directory);
   void parse_refinement(dealii::ParameterHandler &prm);
   void parse_regions(dealii::ParameterHandler &prm);
@@ -135,7 +138,7 @@ private:
 
   std::shared_ptr<dealii::Triangulation<dim>> coarse;
   Cells cells = Cells::cartesian;
-  double inner_radius = 0.; ///< of a ring
+  double inner_radius = 0.; ///< of a ring or a shell
   unsigned int uniform_refinements = 0;
   unsigned int max_cells = 0;
   std::vector<RefinementBox> refinement_boxes;
@@ -145,6 +148,11 @@ private:
   std::map<std::string, dealii::types::material_id> regions;
   dealii::BoundingBox<dim> bounds;
 };
+
+template <>
+void Geometry<2>::make_ring_cells(const std::vector<double> &, unsigned int);
+template <>
+void Geometry<3>::make_ring_cells(const std::vector<double> &, unsigned int);
 
 /// The longest edge of a cell, measured along its axes [m].
 template <class CellIterator>

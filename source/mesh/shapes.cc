@@ -151,46 +151,94 @@ void Geometry<dim>::make_ball(ParameterHandler &prm)
 template <int dim>
 void Geometry<dim>::make_ring(ParameterHandler &prm)
 {
-  if constexpr (dim == 2)
-  {
-    prm.enter_subsection("Ring");
-    for (const char *entry : {"Inner radius", "Outer radius"})
-      if (prm.get(entry).empty())
-        throw EntryError(std::string("Mesh/Ring/") + entry, "", "a length > 0 m, such as '10 cm'");
-    const double inner = get_quantity(prm, "Inner radius", dimension::length),
-                 outer = get_quantity(prm, "Outer radius", dimension::length);
-    if (!(inner < outer))
-      throw EntryError("Mesh/Ring/Outer radius", prm.get("Outer radius"),
-                       "a length above the inner radius, " + prm.get("Inner radius"));
-    std::vector<double> radii;
-    interpret_entry(prm, "Mesh/Ring", "Cells along the radius",
-                    "'16 cells', '0.5 m' or '1 cm at 10 cm, growth 1.2, largest 20 m'",
-                    [&](const std::string &text) { radii = parse_lines(text, inner, outer); });
-    const unsigned int n_arc = prm.get_integer("Cells along the arc"), n_radius = radii.size() - 1;
-    refuse_cells(double(n_arc) * n_radius, uniform_refinements);
-    prm.leave_subsection();
+  prm.enter_subsection("Ring");
+  for (const char *entry : {"Inner radius", "Outer radius"})
+    if (prm.get(entry).empty())
+      throw EntryError(std::string("Mesh/Ring/") + entry, "", "a length > 0 m, such as '10 cm'");
+  const double inner = get_quantity(prm, "Inner radius", dimension::length),
+               outer = get_quantity(prm, "Outer radius", dimension::length);
+  if (!(inner < outer))
+    throw EntryError("Mesh/Ring/Outer radius", prm.get("Outer radius"),
+                     "a length above the inner radius, " + prm.get("Inner radius"));
+  std::vector<double> radii;
+  interpret_entry(prm, "Mesh/Ring", "Cells along the radius",
+                  "'16 cells', '0.5 m' or '1 cm at 10 cm, growth 1.2, largest 20 m'",
+                  [&](const std::string &text) { radii = parse_lines(text, inner, outer); });
+  const unsigned int n_arc = prm.get_integer("Cells along the arc");
+  if (dim == 3 && n_arc % 2 != 0)
+    throw EntryError("Mesh/Ring/Cells along the arc", prm.get("Cells along the arc"),
+                     "an even number with 'Mesh/Shape = octant of shell'");
+  refuse_cells((dim == 2 ? n_arc : 0.75 * n_arc * n_arc) * (radii.size() - 1.),
+               uniform_refinements);
+  prm.leave_subsection();
+  make_ring_cells(radii, n_arc);
+  cells = Cells::ring;
+  inner_radius = inner;
+  coarse->set_all_manifold_ids(0);
+}
 
-    // Counterclockwise from the x axis, so that cells do not turn over.
-    GridGenerator::subdivided_hyper_rectangle(*coarse, {n_radius, n_arc}, Point<dim>(),
-                                              Point<dim>(n_radius, n_arc), true);
-    for (const auto &cell : coarse->active_cell_iterators())
-      cell->set_material_id(0);
+template <>
+void Geometry<2>::make_ring_cells(const std::vector<double> &radii, const unsigned int n_arc)
+{
+  const unsigned int n_radius = radii.size() - 1;
+  // Counterclockwise from the x axis, so that cells do not turn over.
+  GridGenerator::subdivided_hyper_rectangle(*coarse, {n_radius, n_arc}, Point<2>(),
+                                            Point<2>(n_radius, n_arc), true);
+  for (const auto &cell : coarse->active_cell_iterators())
+    cell->set_material_id(0);
+  GridTools::transform(
+    [&](const Point<2> &index)
+    {
+      const double r = radii[static_cast<std::size_t>(std::lround(index[0]))];
+      const long i = std::lround(index[1]);
+      if (i == static_cast<long>(n_arc))
+        return Point<2>(0., r); // and not 1e-17 beside the plane of symmetry
+      const double angle = 0.5 * numbers::PI * i / n_arc;
+      return Point<2>(r * std::cos(angle), r * std::sin(angle));
+    },
+    *coarse);
+  sides = {{"wall", 0}, {"surface", 1}, {"bottom", 2}, {"left", 3}};
+}
+
+template <>
+void Geometry<3>::make_ring_cells(const std::vector<double> &radii, const unsigned int n_arc)
+{
+  // Three patches around the axes, which meet along the lines from the middles of the arcs to the
+  // middle of the octant. Each is a box of indices: twice along the arcs, and along the radius.
+  const unsigned int n = n_arc / 2, n_radius = radii.size() - 1;
+  std::array<dealii::Triangulation<3>, 3> patches;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    Tensor<1, 3> x, y, z;
+    x[axis] = y[(axis + 1) % 3] = z[(axis + 2) % 3] = 1.;
+    GridGenerator::subdivided_hyper_rectangle(patches[axis], {n, n, n_radius}, Point<3>(),
+                                              Point<3>(n, n, n_radius));
     GridTools::transform(
-      [&](const Point<dim> &index)
+      [&](const Point<3> &index)
       {
-        const double r = radii[static_cast<std::size_t>(std::lround(index[0]))];
-        const long i = std::lround(index[1]);
-        if (i == static_cast<long>(n_arc))
-          return Point<dim>(0., r); // and not 1e-17 beside the plane of symmetry
-        const double angle = 0.5 * numbers::PI * i / n_arc;
-        return Point<dim>(r * std::cos(angle), r * std::sin(angle));
+        const double s = index[0] / n, t = index[1] / n;
+        const Tensor<1, 3> corner[4] = {x, (x + y) / std::sqrt(2.), (x + z) / std::sqrt(2.),
+                                        (x + y + z) / std::sqrt(3.)};
+        const Tensor<1, 3> flat = (1. - t) * ((1. - s) * corner[0] + s * corner[1]) +
+                                  t * ((1. - s) * corner[2] + s * corner[3]);
+        return Point<3>(radii[static_cast<std::size_t>(std::lround(index[2]))] / flat.norm() *
+                        flat);
       },
-      *coarse);
-    cells = Cells::ring;
-    inner_radius = inner;
-    coarse->set_all_manifold_ids(0);
-    sides = {{"wall", 0}, {"surface", 1}, {"bottom", 2}, {"left", 3}};
+      patches[axis]);
   }
+  GridGenerator::merge_triangulations({&patches[0], &patches[1], &patches[2]}, *coarse,
+                                      1e-6 * radii.front() / n_arc);
+
+  sides = {{"left", 0}, {"surface", 1}, {"front", 2}, {"wall", 3}, {"bottom", 4}};
+  const double inside = 0.5 * (radii[0] + radii[1]);
+  for (const auto &face : coarse->active_face_iterators())
+    if (face->at_boundary())
+    {
+      face->set_boundary_id(face->vertex(0).norm() < inside ? 3 : 1);
+      for (unsigned int d = 0; d < 3; ++d)
+        if (std::abs(face->center()[d]) < 1e-10 * radii.front())
+          face->set_boundary_id(2 * d);
+    }
 }
 
 template <int dim>

@@ -59,7 +59,9 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
   optional(
     "Permeability decay stress", dimension::stress, Range::positive(),
     "sigma_0/zeta in k = k_0 exp(-zeta sigma'_m/sigma_0): the mean effective stress that lowers "
-    "the permeability by the factor e; 'Permeability' is k_0, that without any stress. Empty: "
+    "the permeability by the factor e; 'Permeability' is k_0, that without any stress. In tension "
+    "it "
+    "grows, to 1e6 k_0 at most. Empty: "
     "the permeability does not hang on the stress.");
   prm.declare_entry("Normal of the layers", "",
                     Quantities(dimension::number, Range::finite(), 0, 3),

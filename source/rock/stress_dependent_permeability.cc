@@ -1,10 +1,18 @@
 #include "rock/stress_dependent_permeability.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stockwork
 {
 using namespace dealii;
+
+namespace
+{
+/// Greatest k/k_0, in tension.
+constexpr double greatest_share = 1e6;
+} // namespace
+
 
 StressDependentPermeability::StressDependentPermeability(std::unique_ptr<RockLaw> inside,
                                                          const RockProperties &properties)
@@ -27,7 +35,18 @@ void StressDependentPermeability::evaluate(const ArrayView<const RockState> stat
     RockResponse &response = responses[q];
     const double effective = -trace(state.in_situ_stress + response.stress) / 3. -
                              biot_coefficient * (state.in_situ_pressure + state.pressure);
-    response.permeability = std::exp(-effective / decay_stress) * unstressed;
+    const double exponent = -effective / decay_stress, greatest = std::log(greatest_share);
+    response.permeability = std::exp(std::min(exponent, greatest)) * unstressed;
+    if (exponent > greatest)
+    {
+      response.permeability_by_strain = SymmetricTensor<4, 3>();
+      response.permeability_by_pressure = SymmetricTensor<2, 3>();
+      response.remark =
+        "The effective stress of the rock has come to a tension in which its permeability would be "
+        "more than a million times 'Rock/Permeability': there it is kept at that. Is the unit of "
+        "'Rock/Permeability decay stress' right?";
+      continue;
+    }
     // Through -d(sigma'_m)/d(strain) = 1 : d(sigma)/d(strain) / 3, and likewise by the pressure.
     const SymmetricTensor<2, 3> slope = response.permeability / decay_stress;
     response.permeability_by_strain =

@@ -12,8 +12,9 @@ namespace stockwork
 ///   k = k_0 exp(-sigma'_m / s),    sigma'_m = -(tr sigma)/3 - alpha p
 ///
 /// with the stress s = sigma_0/zeta of that equation and total stress and pore pressure, in situ
-/// and since. The paper does not say which effective stress; Biot's is what its rock deforms by. In
-/// all else it is the rock inside.
+/// and since. In tension it grows, up to a million times k_0: beyond that the numbers are no longer
+/// those of pores, and it is kept, which is said. The paper does not say which effective stress;
+/// Biot's is what its rock deforms by. In all else it is the rock inside.
 class StressDependentPermeability : public RockLaw
 {
 public:

@@ -24,10 +24,11 @@ struct Entry
 
 const Entry table[] = {
   {"column", reference::make_column<2>, reference::make_column<3>},
-  {"mandel", reference::make_mandel, nullptr},
+  {"mandel", reference::make_mandel, nullptr, true},
   {"cryer", nullptr, reference::make_cryer<3>},
   {"deleeuw", reference::make_cryer<2>, nullptr},
-  {"borehole", reference::make_borehole, nullptr},
+  {"borehole", reference::make_cavity<2>, nullptr},
+  {"cavity", nullptr, reference::make_cavity<3>},
   {"footing", reference::make_footing, nullptr},
   {"bar wave", reference::make_bar_wave<2>, reference::make_bar_wave<3>},
   {"porous wave", reference::make_porous_wave<2>, reference::make_porous_wave<3>},
@@ -66,8 +67,10 @@ void declare_reference_parameters(ParameterHandler &prm)
     "Analytical solution that the run is compared with. It takes its constants from "
     "the rest of the deck. column: along the last axis, loaded at the top. mandel: "
     "quarter x, y >= 0, moved at the top. cryer: octant of a ball, deleeuw: quarter of a "
-    "disc, loaded and drained at the surface. borehole: quarter ring in Mohr-Coulomb rock, loaded "
-    "at the wall. footing: limit load of a strip on rock that yields. bar wave, porous wave: along "
+    "disc, loaded and drained at the surface. borehole: quarter ring, cavity: octant of a shell, "
+    "in "
+    "Mohr-Coulomb rock, loaded at the wall. footing: limit load of a strip on rock that yields. "
+    "bar wave, porous wave: along "
     "the last "
     "axis, loaded at the top. line crack, penny crack (3-D): in an infinite body; crack in "
     "box: with rollers all round. double cantilever: beams along x joined by a cohesive "
@@ -122,9 +125,10 @@ std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
                          "a solution in " + std::to_string(dim) + "-D");
       const RockProperties &rock = input.rock.main();
       if (!entry.knows_anisotropic_rock && (rock.stiffness || !rock.has_isotropic_permeability()))
-        throw EntryError("Verification/Reference", name,
-                         "'none' or 'line crack' where stiffness or permeability is another across "
-                         "the layers: the solution is of isotropic rock");
+        throw EntryError(
+          "Verification/Reference", name,
+          "'none', 'mandel' or 'line crack' where stiffness or permeability is another across "
+          "the layers: the solution is of isotropic rock");
       try
       {
         solution = maker<dim>(entry)(prm, input);

@@ -17,11 +17,35 @@ stockwork_case_test(NAME convergence/column/undrained DECK prm/column/undrained/
 stockwork_case_test(NAME convergence/mandel/classic DECK prm/mandel/none.prm NEGATIVE LABELS quick
   SET "Resolution=medium" EXPECT "errors/peak_pore_pressure/final < 1e-3" "errors/pore_pressure/mean < 2e-3"
          "errors/displacement/mean < 1e-3")
-foreach(set rock soft incompressible)
+foreach(set rock soft incompressible layered)
   stockwork_case_test(NAME convergence/mandel/${set} DECK prm/mandel/${set}/none.prm NEGATIVE
     SET "Resolution=medium"
     EXPECT "errors/peak_pore_pressure/final < 1e-3" "errors/pore_pressure/mean < 2e-3")
 endforeach()
+# Layers across the plates, of lower permeability along the flow; and in the plane of the run.
+stockwork_case_test(NAME convergence/mandel/layered/across DECK prm/mandel/layered/none.prm NEGATIVE LABELS quick
+  SET "Resolution=medium" "Rock/Normal of the layers=1, 0" "Time/End time=30000 s"
+  EXPECT "errors/peak_pore_pressure/final < 3e-4" "errors/pore_pressure/mean < 2e-3"
+         "errors/displacement/mean < 1e-4")
+stockwork_case_test(NAME convergence/mandel/layered/in_plane DECK prm/mandel/layered/none.prm NEGATIVE LABELS quick
+  SET "Resolution=medium" "Rock/Normal of the layers=0, 0, 1"
+  EXPECT "errors/peak_pore_pressure/final < 5e-4" "errors/pore_pressure/mean < 2e-3"
+         "errors/displacement/mean < 1e-4")
+# Layers that are none: five constants of isotropic rock.
+stockwork_same_test(NAME convergence/mandel/layered/isotropic DECK prm/mandel/layered/none.prm TOLERANCE 1e-9
+  LABELS quick
+  SET "Resolution=coarse" "Rock/transversely isotropic/Young modulus along=15 GPa"
+      "Rock/transversely isotropic/Young modulus across=15 GPa"
+      "Rock/transversely isotropic/Poisson ratio along=0.25"
+      "Rock/transversely isotropic/Poisson ratio across=0.25"
+      "Rock/transversely isotropic/Shear modulus across=6 GPa" "Rock/Permeability across the layers=1e-19 m^2"
+  SECOND_SET "Rock/Law=elastic" "Rock/Young modulus=15 GPa" "Rock/Poisson ratio=0.25"
+      "Rock/Normal of the layers=" "Rock/Permeability across the layers="
+      "Rock/transversely isotropic/Young modulus along=" "Rock/transversely isotropic/Young modulus across="
+      "Rock/transversely isotropic/Poisson ratio along=" "Rock/transversely isotropic/Poisson ratio across="
+      "Rock/transversely isotropic/Shear modulus across=")
+stockwork_same_test(NAME convergence/mandel/layered/ranks DECK prm/mandel/layered/none.prm RANKS 1,2 TOLERANCE 1e-6
+  IGNORE balance_error LABELS quick SET "Resolution=coarse")
 stockwork_case_test(NAME convergence/deleeuw DECK prm/deleeuw/none.prm NEGATIVE
   SET "Resolution=medium"
   EXPECT "errors/peak_pore_pressure/final < 2.5e-3" "errors/pore_pressure/mean < 1.5e-3"

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 namespace stockwork::analytical_consolidation_test
 {
 using namespace stockwork::analytical;
@@ -27,8 +29,8 @@ Column column(const ReferenceTable &table, const ColumnParameters::Kind kind)
 
 MandelParameters mandel(const ReferenceTable &table)
 {
-  return {medium(table, table.parameter("nu")), table.parameter("a"), table.parameter("b"),
-          table.parameter("F")};
+  return {block_rock(medium(table, table.parameter("nu"))), table.parameter("a"),
+          table.parameter("b"), table.parameter("F")};
 }
 } // namespace
 
@@ -167,7 +169,8 @@ TEST_CASE("Mandel: histories and the undrained state")
 
 TEST_CASE("Mandel: the plate carries the force at all times")
 {
-  const MandelParameters parameters{{1e8, 0.25, 0.5, 1. / 6.06e9, 1e-12, 1e-3}, 2., 1., 1e4};
+  const PoroelasticMedium medium{1e8, 0.25, 0.5, 1. / 6.06e9, 1e-12, 1e-3};
+  const MandelParameters parameters{block_rock(medium), 2., 1., 1e4};
   const Mandel solution(parameters);
   const auto now = solution.at(0.4);
   double sum = 0.;
@@ -175,5 +178,78 @@ TEST_CASE("Mandel: the plate carries the force at all times")
   for (int i = 0; i < n; ++i)
     sum += now.stress_yy((i + 0.5) / n * parameters.half_width) * parameters.half_width / n;
   CHECK(sum == doctest::Approx(-parameters.force).epsilon(1e-7));
+}
+
+TEST_CASE("Mandel: isotropic rock as Cheng and Detournay (1988) have it")
+{
+  const PoroelasticMedium medium{15.96e9, 0.25, 0.8, 1. / 11.65e9, 1e-14, 1e-3};
+  const double a = 1.5, force = 1e6, nu = medium.poisson_ratio,
+               nu_u = medium.undrained_poisson_ratio(), shear = medium.shear_modulus();
+  const Mandel solution({block_rock(medium), a, 1., force});
+  const auto approx = [](const double value) { return doctest::Approx(value).epsilon(1e-12); };
+  CHECK(solution.diffusivity() == approx(medium.diffusivity()));
+  CHECK(solution.undrained_pressure() ==
+        approx(force * medium.skempton_coefficient() * (1. + nu_u) / (3. * a)));
+  const auto start = solution.at(0.), end = solution.at(1e9);
+  CHECK(start.displacement_x(a) == approx(force * nu_u / (2. * shear)));
+  CHECK(start.displacement_y(1.) == approx(-force * (1. - nu_u) / (2. * shear * a)));
+  CHECK(end.displacement_x(a) == approx(force * nu / (2. * shear)));
+  CHECK(end.displacement_y(1.) == approx(-force * (1. - nu) / (2. * shear * a)));
+}
+
+TEST_CASE("Mandel: layered rock obeys the equations of the block")
+{
+  // Along the plates stiff and permeable; across them; and one in which nu' turns the coupling
+  // over.
+  for (const BlockRock &rock : {BlockRock{30e9, 4e9, 14e9, 0.8, 1. / 12e9, 1e-16},
+                                BlockRock{14e9, 4e9, 30e9, 0.8, 1. / 12e9, 1e-17},
+                                BlockRock{10e9, 15e9, 40e9, 0.8, 1. / 12e9, 1e-17}})
+  {
+    const double a = 0.04, force = 4e5;
+    const Mandel solution({rock, a, 0.1, force});
+    const double scale = std::abs(solution.undrained_pressure()),
+                 unit_time = a * a / solution.diffusivity();
+    for (const double time : {0.01, 0.1, 0.7})
+    {
+      CAPTURE(time);
+      const double t = time * unit_time, dt = 1e-4 * t, h = 1e-3 * a;
+      const auto before = solution.at(t - dt), now = solution.at(t), after = solution.at(t + dt);
+      double carried = 0.;
+      constexpr int n = 2000;
+      for (int i = 0; i < n; ++i)
+      {
+        const double x = (i + 0.5) / n * a;
+        carried += now.stress_yy(x) * a / n;
+        if (i % 400 != 100)
+          continue;
+        const double p = now.pressure(x), e_yy = now.displacement_y(1.),
+                     e_xx = (now.displacement_x(x + h) - now.displacement_x(x - h)) / (2. * h);
+        CHECK(std::abs(rock.c_xx * e_xx + rock.c_xy * e_yy - rock.biot_coefficient * p) <
+              1e-5 * scale);
+        CHECK(std::abs(rock.c_xy * e_xx + rock.c_yy * e_yy - rock.biot_coefficient * p -
+                       now.stress_yy(x)) < 1e-5 * scale);
+        const auto content = [&](const MandelAtTime &state)
+        {
+          return rock.inverse_biot_modulus * state.pressure(x) +
+                 rock.biot_coefficient *
+                   ((state.displacement_x(x + h) - state.displacement_x(x - h)) / (2. * h) +
+                    state.displacement_y(1.));
+        };
+        const double gained = (content(after) - content(before)) / (2. * dt),
+                     flows_in = rock.mobility / (h * h) *
+                                (now.pressure(x + h) - 2. * p + now.pressure(x - h));
+        CHECK(std::abs(gained - flows_in) < 1e-5 * rock.storage() * scale / t);
+      }
+      CHECK(carried == doctest::Approx(-force).epsilon(1e-6));
+      CHECK(std::abs(now.pressure(a)) < 1e-12 * scale);
+    }
+    // At first no fluid has moved.
+    const auto start = solution.at(0.);
+    CHECK(std::abs(rock.inverse_biot_modulus * start.pressure(0.) +
+                   rock.biot_coefficient * (start.displacement_x(1.) + start.displacement_y(1.))) <
+          1e-12 * rock.storage() * scale);
+    CHECK(solution.at(1e-6 * unit_time).pressure(0.) ==
+          doctest::Approx(solution.undrained_pressure()).epsilon(5e-3));
+  }
 }
 } // namespace stockwork::analytical_consolidation_test

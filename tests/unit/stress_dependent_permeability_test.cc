@@ -93,6 +93,30 @@ TEST_CASE(
 }
 
 
+TEST_CASE("stress-dependent permeability: in tension it ends at a million times, and says so")
+{
+  const RockProperties rock = properties();
+  const StressDependentPermeability law(std::make_unique<LinearRockLaw>(rock), rock);
+  RockState state;
+  const double full = std::log(1e6) * rock.permeability_decay_stress;
+  const auto share = [&](const double tension)
+  {
+    state.in_situ_stress = tension * unit_symmetric_tensor<3>();
+    return ask(law, state).permeability[0][0] / rock.permeability;
+  };
+  CHECK(share(0.5 * full) == doctest::Approx(1e3));
+  CHECK(ask(law, state).remark == nullptr);
+  for (const double tension : {1.01 * full, 1e4 * full}) // the exponential would not be a number
+  {
+    CHECK(share(tension) == doctest::Approx(1e6));
+    const RockResponse response = ask(law, state);
+    CHECK(response.permeability_by_strain.norm() == 0.);
+    CHECK(response.permeability_by_pressure.norm() == 0.);
+    CHECK(response.remark != nullptr);
+  }
+}
+
+
 TEST_CASE("stress-dependent permeability: its value, in layered rock")
 {
   const RockProperties rock = properties();

@@ -26,9 +26,23 @@ struct CutCell
   std::vector<double> values;                    ///< [q * n_columns + c]
   std::vector<dealii::Tensor<1, dim>> gradients; ///< real space, [q * n_columns + c]
 
+  /// The discontinuity, as the plane that it is in unit-cell coordinates: a point of it, and a
+  /// normal of any length. Zero: none passes through the cell, which sees a tip nearby.
+  dealii::Point<dim> on_plane;
+  dealii::Tensor<1, dim> normal;
+
   unsigned int n_columns() const
   {
     return extra.size();
+  }
+
+  /// On which side a point is, in unit-cell coordinates: 1 where the normal points, -1 on the
+  /// other, 0 where nothing passes. The plane goes on where the discontinuity ends in the cell.
+  int side(const dealii::Point<dim> &unit_point) const
+  {
+    if (normal.norm_square() == 0.)
+      return 0;
+    return normal * (unit_point - on_plane) > 0. ? 1 : -1;
   }
 };
 

@@ -48,21 +48,34 @@ double MandelAtTime::stress_yy(const double x) const
 }
 
 
+BlockRock block_rock(const PoroelasticMedium &medium)
+{
+  const double c_xx = medium.uniaxial_modulus();
+  return {c_xx,
+          c_xx - 2. * medium.shear_modulus(),
+          c_xx,
+          medium.biot_coefficient,
+          medium.inverse_biot_modulus,
+          medium.permeability / medium.viscosity};
+}
+
+
 Mandel::Mandel(const MandelParameters &parameters)
   : parameters(parameters)
 {
-  const double nu = parameters.medium.poisson_ratio;
-  const double nu_u = parameters.medium.undrained_poisson_ratio();
-  if (nu_u - nu < undrained_limit) // no Biot coupling: nothing happens after the load
+  const BlockRock &rock = parameters.rock;
+  const double coupled = rock.coupling() * rock.coupling(),
+               separate = rock.storage() * rock.stiffness();
+  if (coupled <= undrained_limit * separate) // no Biot coupling: nothing happens after the load
     return;
 
-  const double ratio = (1. - nu) / (nu_u - nu);
+  ratio = 1. + separate / coupled;
   roots.reserve(n_mandel_roots);
   for (int i = 0; i < n_mandel_roots; ++i)
   {
     // f has one root between i pi and (i + 1/2) pi; for i = 0 it is away from the trivial
     // root x = 0 because ratio > 1.
-    const auto f = [ratio](const double x) { return std::sin(x) - ratio * x * std::cos(x); };
+    const auto f = [this](const double x) { return std::sin(x) - ratio * x * std::cos(x); };
     const double lower = i == 0 ? 1e-6 : i * pi;
     const double upper = (i + 0.5) * pi;
     std::uintmax_t iterations = 100;
@@ -75,27 +88,30 @@ Mandel::Mandel(const MandelParameters &parameters)
 
 MandelAtTime Mandel::at(const double t) const
 {
-  const PoroelasticMedium &medium = parameters.medium;
-  const double a = parameters.half_width;
-  const double force = parameters.force;
-  const double shear = medium.shear_modulus();
-  const double nu = medium.poisson_ratio;
-  const double nu_u = medium.undrained_poisson_ratio();
-  const double time = medium.diffusivity() * t / (a * a);
+  const BlockRock &rock = parameters.rock;
+  const double a = parameters.half_width, mean_stress = -parameters.force / a,
+               p_0 = undrained_pressure();
+  const double time = diffusivity() * t / (a * a);
 
   MandelAtTime now;
-  now.uniform_stress = -force / a;
+  const auto set_strain = [&](const double uniform_pressure)
+  {
+    now.strain_x =
+      (rock.biot_coefficient * uniform_pressure - rock.c_xy * now.strain_y) / rock.c_xx;
+  };
+  now.uniform_stress = mean_stress;
   if (time <= 0. || roots.empty())
   {
-    now.uniform_pressure = undrained_pressure();
-    now.strain_x = force * nu_u / (2. * shear * a);
-    now.strain_y = -force * (1. - nu_u) / (2. * shear * a);
+    now.uniform_pressure = p_0;
+    now.strain_y = (mean_stress + rock.coupling() * p_0) / rock.stiffness();
+    set_strain(p_0);
     return now;
   }
 
-  now.pressure_scale = 2. * undrained_pressure();
-  now.displacement_scale = force / shear;
-  now.stress_scale = -2. * force * (nu_u - nu) / (a * (1. - nu));
+  // p = 2 p_0 sum sin (cos(k x) - cos) exp(...)/(alpha - sin cos), and sin = ratio alpha cos.
+  now.pressure_scale = 2. * p_0;
+  now.displacement_scale = 2. * p_0 * rock.biot_coefficient / rock.c_xx * ratio * a;
+  now.stress_scale = -2. * p_0 * rock.coupling();
 
   double sum = 0.;
   for (const double root : roots)
@@ -109,22 +125,24 @@ MandelAtTime Mandel::at(const double t) const
     now.terms.push_back({root / a, cosine, factor * sine, factor * cosine});
     sum += factor * sine * cosine;
   }
-  now.strain_x = force / (shear * a) * (0.5 * nu - nu_u * sum);
-  now.strain_y = force / (shear * a) * (-0.5 * (1. - nu) + (1. - nu_u) * sum);
-  now.uniform_stress += 2. * force / a * sum;
+  now.strain_y = (mean_stress + 2. * p_0 * rock.coupling() * (ratio - 1.) * sum) / rock.stiffness();
+  set_strain(-2. * p_0 * sum);
+  now.uniform_stress *= 1. - 2. * sum;
   return now;
 }
 
 
 double Mandel::undrained_pressure() const
 {
-  return parameters.force * parameters.medium.skempton_coefficient() *
-         (1. + parameters.medium.undrained_poisson_ratio()) / (3. * parameters.half_width);
+  const BlockRock &rock = parameters.rock;
+  const double coupling = rock.coupling();
+  return parameters.force / parameters.half_width * coupling /
+         (rock.storage() * rock.stiffness() + coupling * coupling);
 }
 
 
 double Mandel::diffusivity() const
 {
-  return parameters.medium.diffusivity();
+  return parameters.rock.mobility / parameters.rock.storage();
 }
 } // namespace stockwork::analytical

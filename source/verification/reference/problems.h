@@ -31,7 +31,8 @@ Made<2> make_kgd(const dealii::ParameterHandler &prm, const ReferenceInput<2> &i
 Made<2> make_kgd_vertex(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<2> make_kgd_carter(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<2> make_kgd_box(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
-Made<2> make_borehole(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+template <int dim>
+Made<dim> make_cavity(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
 Made<2> make_footing(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<3> make_penny_crack(const dealii::ParameterHandler &prm, const ReferenceInput<3> &input);
 Made<3> make_radial(const dealii::ParameterHandler &prm, const ReferenceInput<3> &input);
