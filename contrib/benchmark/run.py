@@ -3,6 +3,7 @@
 
     contrib/benchmark/run.py [--dolfinx SCRIPT] [--dealii PROGRAM] [--repeat 3] [--write FILE]
                              [--jobs step/mandel2d/33 memory ...] [--nice -18]
+    contrib/benchmark/run.py --before OLD/build/source/stockwork --repeat 10 --jobs before
 
 Jobs: step/CASE/N    a time step, direct and iterative, with everything made anew and with the
                      factor (or preconditioner) kept
@@ -10,7 +11,10 @@ Jobs: step/CASE/N    a time step, direct and iterative, with everything made ane
       memory         of iterative runs, per unknown
       ranks/CASE/N   a time step on one and two ranks
       accuracy       Mandel's problem to a pressure error of 6.4e-4
-      kgd/NAME/RESOLUTION      a whole run with a fracture, by phase
+      kgd/NAME/RESOLUTION      a whole run with a fracture, by phase; its speed-up on two ranks, if asked
+                               for as kgd/NAME/RESOLUTION/2
+      plastic/borehole         a step in which 5 % of the cells yield, over an elastic one
+      before                   whole runs beside an older build, --before PROGRAM: user time, memory
 Cases: mandel2d      [0,100] x [0,10] m, 10 N x N squares, Q2-Q1, plate displacement prescribed
        footing3d     [0,10]^3 m, N^3 hexahedra, Q2-Q1, load on a quarter of the top
 
@@ -35,7 +39,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
 sys.path.insert(0, os.path.join(HERE, ".."))
-from results import read_summary  # noqa: E402
+from results import read_statistics, read_summary  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
                    DEAL_II_NUM_THREADS="1")
@@ -48,6 +52,28 @@ CASES = {
     "mandel2d": ("mandel_2d.prm", {"X": 10, "Y": 1}, 10.),
     "footing3d": ("footing_3d.prm", {"X": 1, "Y": 1, "Z": 1}, 1.),
 }
+
+
+# Whole runs beside an older program, which reads the decks of its own tree. Fields are not written: what
+# is in them may be more today.
+BEFORE = {
+    "mandel": ("mandel/none.prm", []),
+    "cryer": ("cryer/none.prm", []),
+    "column": ("column/alpha_1/none.prm", []),
+    "sneddon, given": ("sneddon/prescribed.prm", []),
+    "sneddon, cohesive": ("sneddon/cohesive_xfem.prm", []),
+    "kgd/toughness, cohesive": ("kgd/toughness/cohesive_xfem.prm", ["Resolution=coarse"]),
+    "kgd/viscosity, cohesive": ("kgd/viscosity/cohesive_xfem.prm", ["Resolution=medium"]),
+    "kgd/sun, bonds, to 6 s": ("kgd/sun/peridynamics.prm", ["Resolution=coarse", "Time/End time=6 s"]),
+    "radial, bonds, to 0.2 s": ("radial/toughness/peridynamics.prm", ["Resolution=coarse", "Time/End time=0.2 s"]),
+}
+
+# A borehole in rock that yields, cells of equal length along the radius: the share of cells that yield is
+# that of the radius.
+PLASTIC = ["Mesh/Ring/Cells along the radius=1 cm at 10 cm, growth 1, largest 1 cm",
+           "Mesh/Ring/Cells along the arc=24", "Mesh/Uniform refinements=1", "Time/Initial step=0.05 s",
+           "Output/Fields=false", "Verification/Compare=at the end"]
+INNER_RADIUS, OUTER_RADIUS = 0.1, 1.
 
 
 class Bench:
@@ -75,14 +101,14 @@ class Bench:
                      f"{done.stderr[-2000:]}")
         return done.stdout
 
-    def stockwork(self, deck, settings, ranks=1):
-        """summary.json of one run."""
+    def stockwork(self, deck, settings, ranks=1, read=read_summary):
+        """What one run leaves behind, by default summary.json."""
         with tempfile.TemporaryDirectory() as output:
             command = [self.options.program, os.path.join(ROOT, "prm", deck), "--output", output]
             for setting in settings:
                 command += ["--set", setting]
             self.run(command, ranks)
-            return read_summary(output)
+            return read(output)
 
     def own_run(self, case, n, solver, steps, reuse=False, ranks=1):
         """`full`: every step has another length, so nothing that depends on it can be kept."""
@@ -222,7 +248,86 @@ class Bench:
                  f"error {rival['errp']:.1e}" if other else "",
                  statistics.median(ratios) if ratios else None, "1.0", "0.15")
 
-    def kgd(self, name, resolution):
+    def plastic(self, case):
+        """A step at whose end 5 % of the cells have yielded, over elastic ones; per linear iteration."""
+        deck = f"{case}/convergence/none.prm"
+        dt = 0.05
+
+        def run(steps, *settings, read=read_summary):
+            return self.stockwork(deck, [*PLASTIC, f"Time/End time={steps * dt} s", *settings], read=read)
+
+        def seconds(summary, *phases):
+            """Of processor time; what a phase takes is known of the wall clock only."""
+            wall = summary["wall_seconds"]
+            return summary["cpu_seconds"] * sum(wall.get(phase, 0.) for phase in phases) / wall["total"]
+
+        def share(radius):
+            return (radius - INNER_RADIUS) / (OUTER_RADIUS - INNER_RADIUS)
+        elastic = ["Rock/mohr coulomb/Cohesion=1 GPa"]
+        radii = run(20, read=read_statistics)["plastic_radius"]
+        last = 1 + next(k for k, radius in enumerate(radii) if share(radius) > 0.05)
+        steps, solves, per_iteration = [], [], []
+        for _ in range(self.options.repeat):
+            before, after, one, many = run(last - 1), run(last), run(1, *elastic), run(11, *elastic)
+            newton = after["nonlinear_iterations"] - before["nonlinear_iterations"]
+            linear = after["linear_iterations"] - before["linear_iterations"]
+            anew = seconds(one, "assembly", "preconditioner", "solve")
+            solve = seconds(after, "solve") - seconds(before, "solve")
+            back = (seconds(many, "solve") - seconds(one, "solve")) / 10
+            steps.append((after["cpu_seconds"] - before["cpu_seconds"]) / anew)
+            solves.append(solve / newton / back)
+            per_iteration.append(solve / linear / back)
+        self.row(f"{case}, {after['unknowns']} unknowns, {100 * share(radii[last - 1]):.1f} % of the cells yield: step",
+                 f"{newton} iterations, {linear} linear ones",
+                 f"elastic step, factor anew, {anew:.2g} s", statistics.median(steps), "2", "")
+        self.row(f"{case}: solve of an iteration", "", f"elastic, factor kept, {back:.2g} s",
+                 statistics.median(solves), "2", "")
+        self.row(f"{case}: solve per linear iteration", "", f"elastic, factor kept, {back:.2g} s",
+                 statistics.median(per_iteration), "2", "")
+        iterative = "Linear solver/Type=iterative"
+        first, before, after = run(1, iterative), run(last - 1, iterative), run(last, iterative)
+        newton = after["nonlinear_iterations"] - before["nonlinear_iterations"]
+        linear = after["linear_iterations"] - before["linear_iterations"]
+        self.row(f"{case}: linear iterations of an iteration, iterative",
+                 f"{linear / newton:.1f}, {linear} of the step", f"elastic step: {first['linear_iterations']}",
+                 linear / newton / first["linear_iterations"], "1.3", "")
+
+    def measured(self, program, deck, settings):
+        """User seconds and peak memory [MB] of a run."""
+        with tempfile.TemporaryDirectory() as output:
+            command = [program, deck, "--output", output]
+            for setting in [*settings, "Output/Fields=false"]:
+                command += ["--set", setting]
+            if self.options.nice:
+                command = ["nice", "-n", str(self.options.nice), *command]
+            child = subprocess.Popen(command, env=ENVIRONMENT, stdout=subprocess.DEVNULL)
+            _, status, usage = os.wait4(child.pid, 0)
+            child.returncode = status
+            if status:
+                sys.exit(f"{' '.join(command)}\nexit status {status}")
+            return usage.ru_utime, usage.ru_maxrss / 1e3
+
+    def before(self):
+        """Whole runs of two builds in turns."""
+        old = self.options.before
+        if not old:
+            sys.exit("Say which program was before: --before PROGRAM")
+        old_decks = os.path.join(os.path.dirname(old), "..", "..", "prm")
+        for name, (deck, settings) in BEFORE.items():
+            now, before = [], []
+            for _ in range(self.options.repeat):
+                before.append(self.measured(old, os.path.join(old_decks, deck), settings))
+                now.append(self.measured(self.options.program, os.path.join(ROOT, "prm", deck), settings))
+            ratios = sorted(a[0] / b[0] for a, b in zip(now, before))
+            quarter = len(ratios) // 4
+            self.row(name, f"{min(t for t, _ in now):.2f} s, {max(m for _, m in now):.0f} MB",
+                     f"{min(t for t, _ in before):.2f} s, {max(m for _, m in before):.0f} MB",
+                     statistics.median(ratios), f"{ratios[quarter]:.2f} to {ratios[-1 - quarter]:.2f}",
+                     f"{max(m for _, m in now) / max(m for _, m in before):.3f}")
+
+    def kgd(self, name, resolution, ranks=1):
+        if ranks > 1:
+            return self.kgd_on_ranks(name, resolution, ranks)
         summaries = [self.stockwork(f"kgd/{name}/cohesive_xfem.prm", [f"Resolution={resolution}"])
                      for _ in range(self.options.repeat)]
         summary = sorted(summaries, key=lambda s: s["wall_seconds"]["total"])[len(summaries) // 2]
@@ -233,6 +338,16 @@ class Bench:
                      f"{phase} {value:.2g}" for phase, value in
                      sorted(seconds.items(), key=lambda item: -item[1])
                      if phase != "total" and value > 0.02 * seconds["total"]), "", None, required, great)
+
+    def kgd_on_ranks(self, name, resolution, ranks):
+        """Wall time of a whole run on one rank over that on several."""
+        times = []
+        for _ in range(self.options.repeat):
+            times.append([self.stockwork(f"kgd/{name}/cohesive_xfem.prm", [f"Resolution={resolution}"], n)
+                          ["wall_seconds"]["total"] for n in (1, ranks)])
+        self.row(f"kgd/{name}, {resolution}: speed-up on {ranks} ranks",
+                 f"{statistics.median(one / many for one, many in times):.2f} (from {times[-1][0]:.3g} s)", "",
+                 None, "1.4", "")
 
 
 def main():
@@ -247,15 +362,19 @@ def main():
     parser.add_argument("--dolfinx", metavar="SCRIPT", help="peer: script for dolfinx + PETSc")
     parser.add_argument("--python", default="/usr/bin/python3", help="interpreter of that script")
     parser.add_argument("--dealii", metavar="PROGRAM", help="peer: textbook deal.II program")
+    parser.add_argument("--before", metavar="PROGRAM", help="an older build, in its own tree")
     parser.add_argument("--nice", type=int, default=0, help="priority of all runs, e.g. -18")
     parser.add_argument("--write", metavar="FILE", help="append the table to a file")
     options = parser.parse_args()
     options.program = os.path.abspath(options.program)
+    if options.before:
+        options.before = os.path.abspath(options.before)
     bench = Bench(options)
     print(bench.run([options.program, "--version"], 1).strip())
     print("load of the machine:", " ".join(f"{x:.1f}" for x in os.getloadavg()))
     kinds = {"step": bench.compare_steps, "iterations": bench.iterations, "memory": bench.memory,
-             "ranks": bench.ranks, "accuracy": bench.accuracy, "kgd": bench.kgd}
+             "ranks": bench.ranks, "accuracy": bench.accuracy, "kgd": bench.kgd,
+             "plastic": bench.plastic, "before": bench.before}
     for job in options.jobs:
         kind, *arguments = job.split("/")
         kinds[kind](*(int(a) if a.isdigit() else a for a in arguments))

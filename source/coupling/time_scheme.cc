@@ -34,11 +34,13 @@ void combine(Unknowns &result, const double a, const Unknowns &x, const double b
 }
 
 /// Whether an extra unknown has appeared in the last step: it has no past to be extrapolated from,
-/// and neither has what the rest did when it came.
-bool has_appeared(const std::vector<double> &previous, const std::vector<double> &now)
+/// and in elastic rock, where all follows the fracture, neither has the rest.
+bool has_appeared(const Unknowns &previous, const Unknowns &now)
 {
-  for (unsigned int i = 0; i < now.size(); ++i)
-    if (previous[i] == 0. && now[i] != 0.)
+  if (now.bulk.n_blocks() > 1)
+    return false;
+  for (unsigned int i = 0; i < now.extra.size(); ++i)
+    if (previous.extra[i] == 0. && now.extra[i] != 0.)
       return true;
   return false;
 }
@@ -248,7 +250,7 @@ void TimeScheme::predict(const StepContext &context, Unknowns &unknowns) const
     combine(start, 1., unknowns, context.dt, velocity);
     combine(unknowns, 1., start, 0.5 * context.dt * context.dt, acceleration);
   }
-  else if (n_accepted > 1 && !has_appeared(previous.extra, unknowns.extra))
+  else if (n_accepted > 1 && !has_appeared(previous, unknowns))
   {
     const double r = context.dt / previous_dt;
     combine(unknowns, 1. + r, unknowns, -r, previous);

@@ -163,7 +163,8 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   Stopwatch stopwatch;
   // The displacement part is dear and tolerates a matrix that has changed a little; the pressure
   // part is cheap and depends on the time step.
-  const bool new_mesh = !is_built || stamps.mesh != built_for.mesh;
+  const bool new_mesh =
+    !is_built || stamps.mesh != built_for.mesh || stamps.matrix != built_for.matrix;
   const bool worn_out = last_iterations > first_iterations + first_iterations / 2;
   report.factorised = new_mesh || (worn_out && stamps.displacement_values != multigrid_values);
   if (new_mesh || stamps.bulk_values != built_for.bulk_values)
@@ -178,7 +179,8 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   report.setup_seconds = stopwatch.seconds();
 
   const KrylovLimits limits{tolerance, parameters.max_iterations, parameters.restart,
-                            system.definite && !poroelastic && op.n_extra() == 0};
+                            system.definite && !poroelastic && op.n_extra() == 0 &&
+                              system.rock_change == nullptr};
   SystemVector dx = op.make_vector();
   const auto iterate = [&]()
   {

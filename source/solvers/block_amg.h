@@ -30,6 +30,11 @@ public:
     return true;
   }
 
+  bool sees_rock_change(dealii::types::global_dof_index) const override
+  {
+    return true;
+  }
+
   LinearReport solve(const LinearSystem &system,
                      const SystemStamps &stamps,
                      double tolerance,

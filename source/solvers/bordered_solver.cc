@@ -276,7 +276,7 @@ void BorderedSolver::eliminate(const SystemOperator &op,
 
 bool BorderedSolver::has_factor(const LinearSystem &system, const SystemStamps &stamps) const
 {
-  return factor && stamps.mesh == factor_stamps.mesh &&
+  return factor && stamps.mesh == factor_stamps.mesh && stamps.matrix == factor_stamps.matrix &&
          factor_scaling.bulk.n_blocks() == system.residual_bulk.n_blocks() &&
          factor_scaling.bulk.size() == system.residual_bulk.size();
 }

@@ -65,6 +65,11 @@ public:
     return dim == 3 && n_dofs > parameters.direct_below;
   }
 
+  bool sees_rock_change(const dealii::types::global_dof_index n_dofs) const override
+  {
+    return wants_hierarchy(n_dofs);
+  }
+
   LinearReport solve(const LinearSystem &system,
                      const SystemStamps &stamps,
                      const double tolerance,

@@ -96,6 +96,13 @@ public:
     return false;
   }
 
+  /// Whether solve() takes LinearSystem::rock_change along, of a system with that many bulk
+  /// unknowns; its preconditioner then is that of linear rock.
+  virtual bool sees_rock_change(dealii::types::global_dof_index /*n_dofs*/) const
+  {
+    return false;
+  }
+
   /// dx with |R + J dx| <= tolerance |R| in the norm of LinearReport. What the stamps call
   /// unchanged may be reused; the residual is checked with the present matrix all the same.
   /// `dx_bulk` has the layout of residual_bulk. Throws SolveError when the matrix is singular.

@@ -50,7 +50,8 @@ struct LinearSystem
   RowChanges bulk_changes; ///< whoever changes a few rows says so here; else all count as changed
 
   /// What the tangent of rock beyond its linear range adds to `bulk`, with its pattern; null:
-  /// nothing. Solvers of the linear system do not look at it, TangentSolver does.
+  /// nothing. TangentSolver sees to it; of the solvers only those do that say so
+  /// (LinearSolver::sees_rock_change).
   const dealii::TrilinosWrappers::BlockSparseMatrix *rock_change = nullptr;
   bool rock_change_is_symmetric = true;
 
@@ -80,6 +81,7 @@ struct LinearSystem
 struct SystemStamps
 {
   unsigned int mesh = 0;                ///< size and sparsity of the bulk block
+  unsigned int matrix = 0;              ///< values that have nothing to do with those before
   unsigned int bulk_values = 0;         ///< values of the bulk block
   unsigned int displacement_values = 0; ///< values of its displacement block
   unsigned int extra = 0;        ///< number or meaning of the extra unknowns, or their bulk columns

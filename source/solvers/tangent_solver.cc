@@ -10,7 +10,7 @@ namespace stockwork
 namespace
 {
 /// A factor costs ten to thirty back-substitutions; beyond this many it is worth a new one.
-constexpr unsigned int most_iterations = 5;
+constexpr unsigned int most_iterations = 20;
 /// A preconditioner need not be exact; a factor is at once.
 constexpr double inner_tolerance = 1e-2;
 
@@ -55,8 +55,10 @@ void TangentSolver::form_tangent(const LinearSystem &system, const SystemStamps 
   tangent.elastic = system.elastic;
   tangent.symmetric = system.symmetric && system.rock_change_is_symmetric;
   tangent.definite = tangent.definite_displacement = false;
-  // As if the mesh were new: the old factor is of no use, nor a list of the rows that have changed.
-  ++tangent_stamps.mesh;
+  // The old factor is of no use, nor a list of the rows that have changed.
+  if (new_mesh)
+    ++tangent_stamps.mesh;
+  ++tangent_stamps.matrix;
   ++tangent_stamps.bulk_values;
   ++tangent_stamps.displacement_values;
   formed_at = stamps;
@@ -193,8 +195,15 @@ LinearReport TangentSolver::solve(LinearSystem &system,
   // has said whether it loads or unloads, the linear rock gives the direction.
   try
   {
-    report = tangent_is_good ? iterate(system, by_tangent, tolerance, most_iterations, dx)
-                             : iterate(system, by_linear, tolerance, most_iterations, dx);
+    if (linear->sees_rock_change(system.bulk.m()) && !tangent_is_good)
+    {
+      report = linear->solve(system, stamps, tolerance, dx_bulk, dx_extra);
+      if (report.converged)
+        return report;
+    }
+    else
+      report = tangent_is_good ? iterate(system, by_tangent, tolerance, most_iterations, dx)
+                               : iterate(system, by_linear, tolerance, most_iterations, dx);
     if (!report.converged)
     {
       if (!of_tangent)
