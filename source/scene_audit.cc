@@ -444,6 +444,14 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   if (the_case.network.needs_pore_pressure())
     add_leak_off(the_case, pumping, mesh, numbers);
 
+  for (const auto &[well, radius] : the_case.network.source_radii())
+  {
+    std::ostringstream text;
+    text << std::setprecision(3) << "its fluid enters the pores over " << radius
+         << " m, and before this time the pressure in the borehole is not yet that of radial flow";
+    numbers.push_back({"R^2 / (4 c_v) of '" + well + "' [s]",
+                       0.25 * radius * radius / pressure_diffusivity(the_case), text.str()});
+  }
   for (const auto &[well, pressure] : the_case.network.least_well_pressures())
     numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,
                        "at it, what the well takes is what flows (Minimum pressure)"});

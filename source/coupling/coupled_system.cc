@@ -125,6 +125,7 @@ void CoupledSystem<dim>::setup_mesh(const double time)
   boundary_conditions.constrain(time, mapping, dof_handler, constraints, increment_constraints);
   constraints_time = time;
   model.setup(mesh_view(), communication);
+  network.set_mesh(mesh_view(), scene, communication);
 
   // What the model couples across ranks it sees as well.
   std::vector<types::global_dof_index> coupled;

@@ -310,10 +310,12 @@ double CoupledSystem<dim>::Newton::pressure_factor() const
   // drives it later: the limit must let it come, and only keep it from a single leap.
   double greatest_change = all.network.typical_pressure(), factor = 1.;
   for (unsigned int i = all.n_model_extra; i < all.numbering.size(); ++i)
-    greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
+    if (!all.network.is_of_rock(i))
+      greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
   const double limit = all.pressure_limit.value_or(greatest_change);
   for (unsigned int i = all.n_model_extra; i < all.numbering.size(); ++i)
-    if (const double change = std::abs(dx_extra[i]); factor * change > limit)
+    if (const double change = std::abs(dx_extra[i]);
+        factor * change > limit && !all.network.is_of_rock(i))
       factor = limit / change;
   return factor;
 }

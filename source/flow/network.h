@@ -65,6 +65,13 @@ public:
   /// the factors that make all unknowns of the flow pressures and all its equations volumes
   void set_scales(double minimum_aperture, double pressure, double aperture, double length);
 
+  /// The mesh is new; set_segments follows. Collective.
+  /// @throws InputError when a perforation opens into rock that does not suit it
+  void set_mesh(const MeshView<dim> &mesh, const Scene<dim> &scene, const Collectives &collectives)
+  {
+    all_wells.set_mesh(mesh, scene, collectives);
+  }
+
   /// The fractures or the numbering of the unknowns are new. Collective. Segments that appear
   /// within a step were exposed within it: those of the first of two calls in its first half.
   /// @throws InputError when a perforation lies on no fracture
@@ -146,10 +153,29 @@ public:
     return all_wells.starts_at(t);
   }
 
+  /// Whether a well opens into the rock: it needs the pressure of its pores.
+  bool opens_into_rock() const
+  {
+    return all_wells.any_in_rock();
+  }
+
+  /// Whether an extra unknown belongs to such a well.
+  bool is_of_rock(const unsigned int index) const
+  {
+    return all_wells.is_of_rock(index);
+  }
+
   /// Leak-off into pores that are resolved needs their pressure.
   bool needs_pore_pressure() const
   {
     return leak_off == LeakOff::resolved;
+  }
+
+  /// Whether what leaks off stays in the model.
+  bool leaks_into_pores() const
+  {
+    return std::any_of(network.begin(), network.end(),
+                       [this](const auto &segment) { return leaks_into_pores(segment); });
   }
 
   LeakOff leak_off_law() const
@@ -227,6 +253,16 @@ public:
   std::vector<dealii::Point<dim>> perforations_of_first_well() const
   {
     return all_wells.first_perforations();
+  }
+
+  std::vector<typename Wells<dim>::SourceInRock> sources_in_rock() const
+  {
+    return all_wells.sources_in_rock();
+  }
+
+  std::vector<std::pair<std::string, double>> source_radii() const
+  {
+    return all_wells.source_radii();
   }
 
   void save(boost::archive::binary_oarchive &) const;
