@@ -11,6 +11,7 @@
 #include <boost/math/special_functions/ellint_rf.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -224,7 +225,65 @@ void PointSource<dim>::check_constraints(const MeshView<dim> &mesh,
 
 
 template <int dim>
-void PointSource<dim>::find_resistance(const double viscosity)
+SymmetricTensor<2, dim> PointSource<dim>::curvature(const Point<dim> &x) const
+{
+  const Tensor<1, dim> d = x - entries.point;
+  const double r = distance(x), s = std::min(r / radius, 1.);
+  const double mean = std::pow(determinant(permeability), 1. / dim);
+  const double density = r < radius ? (1. - s * s) / whole_weight<dim>(radius) : 0.;
+  // The share of the fluid that enters within r, over r^dim.
+  const double within = dim == 2 ? (2. - s * s) * s * s / (r * r)
+                                 : 0.5 * (5. - 3. * s * s) * s * s * s / (r * r * r);
+  const double slope = -within / ((dim == 2 ? 2. : 4.) * numbers::PI * mean); // p'/r
+  const double second = -density / mean - (dim - 1) * slope;                   // p''
+  const Tensor<1, dim> along = metric * d;
+  return slope * metric + ((second - slope) / (r * r)) * symmetrize(outer_product(along, along));
+}
+
+
+template <int dim>
+double PointSource<dim>::lack_of_elements(const MeshView<dim> &mesh,
+                                          const Collectives &collectives) const
+{
+  // It falls with the fourth power of the distance.
+  constexpr double far = 8.;
+  std::map<unsigned int, std::unique_ptr<FEValues<dim>>> values_of; // by parts of an edge
+  double sum = 0.;
+  for (const auto &cell : mesh.dof_handler.active_cell_iterators())
+  {
+    const double nearest = cell->center().distance(entries.point) - 0.5 * cell->diameter();
+    if (!cell->is_locally_owned() || nearest > far * radius * widest)
+      continue;
+    const unsigned int parts =
+      std::clamp(std::ceil(4. * cell_size(cell) / std::max(radius * narrowest, nearest)), 1., 16.);
+    std::unique_ptr<FEValues<dim>> &values = values_of[parts];
+    if (!values)
+      values = std::make_unique<FEValues<dim>>(mesh.mapping, mesh.dof_handler.get_fe(),
+                                               QIterated<dim>(QGauss<1>(2), parts),
+                                               update_quadrature_points | update_JxW_values);
+    values->reinit(cell);
+    std::array<Tensor<1, dim>, dim> edges;
+    for (unsigned int d = 0; d < dim; ++d)
+      edges[d] = cell->face(2 * d + 1)->center() - cell->face(2 * d)->center();
+    for (const unsigned int q : values->quadrature_point_indices())
+    {
+      const auto second = curvature(values->quadrature_point(q));
+      for (const Tensor<1, dim> &h : edges)
+      {
+        const double along = h * (second * h);
+        sum += values->JxW(q) / 12. * (h * (permeability * h)) * along * along /
+               (h.norm_square() * h.norm_square());
+      }
+    }
+  }
+  return collectives.sum(sum);
+}
+
+
+template <int dim>
+void PointSource<dim>::find_resistance(const MeshView<dim> &mesh,
+                                       const double viscosity,
+                                       const Collectives &collectives)
 {
   if (entries.borehole_radius == 0.)
     return;
@@ -245,6 +304,7 @@ void PointSource<dim>::find_resistance(const double viscosity)
       boost::math::ellint_rf(mean / k[0], mean / k[1], mean / k[2]) / entries.borehole_radius;
     resistance = (inverse - 10. / (7. * radius)) / (4. * numbers::PI * mean);
   }
+  resistance += lack_of_elements(mesh, collectives) / entries.fraction;
   resistance_in_model = viscosity * resistance / entries.fraction;
   if (!(resistance > 0.))
     throw InputError("has a source of radius " + to_string(radius, dimension::length) +
@@ -262,7 +322,7 @@ void PointSource<dim>::setup(const MeshView<dim> &mesh,
   integrate(mesh, scene, collectives);
   if (!is_ready)
     check_constraints(mesh, collectives);
-  find_resistance(scene.rock.fluid().viscosity);
+  find_resistance(mesh, scene.rock.fluid().viscosity, collectives);
   is_ready = true;
 }
 

@@ -23,6 +23,14 @@ namespace stockwork
 ///   11/24] 3-D:  p_b - mean = Q mu/(4 pi k) [1/r_w - 1/R - int F^2/r^2 dr] = Q mu/(4 pi k) [1/r_w -
 ///   10/(7R)]
 ///
+/// The mean that the elements find is less, by the energy of what they cannot follow; for linear
+/// elements of edges h_d along e_d that is, to leading order,
+///
+///   Q mu sum_d int h_d^2/12 (e_d.k.e_d) (d^2 p_1/de_d^2)^2,   p_1 the pressure for Q mu = 1,
+///
+/// a 24th of Q mu/(2 pi k) where R is two cells. It is added, so that the pressure in the borehole
+/// does not hang on the cells.
+///
 /// This takes the place of Peaceman's well index (1978, SPE J. 18), whose radius belongs to the
 /// cells; R is chosen once and kept, so nothing jumps when cells are split. In layered rock r is
 /// measured as r^2 = k_e x.k^-1.x with k_e = det(k)^(1/dim), which makes the flow isotropic, and a
@@ -107,7 +115,15 @@ private:
 
   void check_constraints(const MeshView<dim> &mesh, const Collectives &) const;
 
-  void find_resistance(double viscosity);
+  /// Second derivatives of the steady pressure in an unbounded body, by rate and viscosity [1/m^4;
+  /// 1/m^5 in 3-D].
+  dealii::SymmetricTensor<2, dim> curvature(const dealii::Point<dim> &x) const;
+
+  /// What the linear elements of this mesh lack of the mean pressure, by rate and viscosity [1/m^2;
+  /// 1/m^3 in 3-D]. Collective.
+  double lack_of_elements(const MeshView<dim> &mesh, const Collectives &) const;
+
+  void find_resistance(const MeshView<dim> &mesh, double viscosity, const Collectives &);
 
   /// From the point, in the metric of the flow [m].
   double distance(const dealii::Point<dim> &x) const
