@@ -366,8 +366,10 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
   summary.rejected_steps += step_report.rejected;
   summary.nonlinear_iterations += step_report.nonlinear_iterations;
   summary.linear_iterations += step_report.linear_iterations;
-  summary.fluid_balance.stored += pores.stored;
-  summary.fluid_balance.outflow += pores.outflow + stepper.fluid_balance().step.outflow;
+  // Pores are balanced over the time of the scheme.
+  const double scheme = stepper.last_context().dt / stepper.last_context().effective_dt();
+  summary.fluid_balance.stored += scheme * pores.stored;
+  summary.fluid_balance.outflow += scheme * pores.outflow + stepper.fluid_balance().step.outflow;
   summary.fluid_balance.relative_error =
     std::max(summary.fluid_balance.relative_error, balance_error);
 

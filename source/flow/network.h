@@ -260,9 +260,9 @@ public:
     return all_wells.sources_in_rock();
   }
 
-  std::vector<std::pair<std::string, double>> source_radii() const
+  std::vector<typename Wells<dim>::SourceSize> sources() const
   {
-    return all_wells.source_radii();
+    return all_wells.sources();
   }
 
   void save(boost::archive::binary_oarchive &) const;

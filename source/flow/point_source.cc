@@ -218,9 +218,9 @@ void PointSource<dim>::check_constraints(const MeshView<dim> &mesh,
         found |= is_prescribed(entry.first);
   }
   if (collectives.max(found ? 1. : 0.) > 0.)
-    throw InputError("is nearer than " + to_string(radius, dimension::length) +
-                     " to a side whose pore pressure is given: move it, or take smaller cells "
-                     "there");
+    throw InputError("has cells within " + to_string(radius, dimension::length) +
+                     " that lie at a side whose pore pressure is given: move it, or take smaller "
+                     "cells there");
 }
 
 

@@ -502,22 +502,23 @@ std::vector<typename Wells<dim>::SourceInRock> Wells<dim>::sources_in_rock() con
 
 
 template <int dim>
-std::vector<std::pair<std::string, double>> Wells<dim>::source_radii() const
+std::vector<typename Wells<dim>::SourceSize> Wells<dim>::sources() const
 {
-  std::vector<std::pair<std::string, double>> radii;
+  std::vector<SourceSize> result;
   for (const Well &well : wells)
     for (const Perforation &perforation : well.perforations)
       if (perforation.source)
-        radii.emplace_back(well.name, perforation.source->source_radius());
-  return radii;
+        result.push_back({well.name, perforation.source->source_radius(),
+                          perforation.source->borehole_radius() > 0.});
+  return result;
 }
 
 
 template <int dim>
 void Wells<dim>::save(boost::archive::binary_oarchive &archive) const
 {
-  for (const auto &name_and_radius : source_radii())
-    archive << name_and_radius.second;
+  for (const SourceSize &source : sources())
+    archive << source.radius;
 }
 
 

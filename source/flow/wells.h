@@ -198,8 +198,14 @@ public:
   };
   std::vector<SourceInRock> sources_in_rock() const;
 
-  /// Of each perforation in the rock: its well's name and the radius of its source [m].
-  std::vector<std::pair<std::string, double>> source_radii() const;
+  /// How a perforation in the rock is represented.
+  struct SourceSize
+  {
+    std::string well; ///< its name
+    double radius;    ///< of the source [m]
+    bool has_borehole;
+  };
+  std::vector<SourceSize> sources() const;
 
   /// What the mesh at the start has decided.
   void save(boost::archive::binary_oarchive &) const;
