@@ -50,9 +50,10 @@ ElementSettings parse_elements(ParameterHandler &prm,
       "poroelastic or auto, because the fracture model or its leak-off needs the pore "
       "pressure");
   if (rock.bulk_model() == "elastic" && network.opens_into_rock())
-    throw EntryError("Rock/Bulk model", "elastic",
-                     "poroelastic or auto, because a well opens into the rock ('Opens into'), whose "
-                     "pores take its fluid");
+    throw EntryError(
+      "Rock/Bulk model", "elastic",
+      "poroelastic or auto, because a well opens into the rock ('Opens into'), whose "
+      "pores take its fluid");
   if (rock.bulk_model() == "elastic" && boundary_conditions.mentions_pore_pressure())
     throw EntryError("Rock/Bulk model", "elastic",
                      "poroelastic or auto, because 'Boundary conditions' gives pore pressures or "

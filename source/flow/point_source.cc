@@ -47,8 +47,8 @@ bool has_point(const Mapping<dim> &mapping, const CellIterator &cell, const Poin
     return false;
   try
   {
-    return GeometryInfo<dim>::is_inside_unit_cell(
-      mapping.transform_real_to_unit_cell(cell, point), 1e-6);
+    return GeometryInfo<dim>::is_inside_unit_cell(mapping.transform_real_to_unit_cell(cell, point),
+                                                  1e-6);
   }
   catch (const typename Mapping<dim>::ExcTransformationFailed &)
   {
@@ -142,10 +142,9 @@ void PointSource<dim>::integrate(const MeshView<dim> &mesh,
       std::clamp(std::ceil(4. * cell_size(cell) / (radius * narrowest)), 1., 16.);
     std::unique_ptr<FEValues<dim>> &values = values_of[parts];
     if (!values)
-      values = std::make_unique<FEValues<dim>>(mesh.mapping, fe,
-                                               QIterated<dim>(QGauss<1>(3), parts),
-                                               update_values | update_quadrature_points |
-                                                 update_JxW_values);
+      values = std::make_unique<FEValues<dim>>(
+        mesh.mapping, fe, QIterated<dim>(QGauss<1>(3), parts),
+        update_values | update_quadrature_points | update_JxW_values);
     values->reinit(cell);
     cell->get_dof_indices(dofs);
     double in_cell = 0.;
@@ -174,8 +173,7 @@ void PointSource<dim>::integrate(const MeshView<dim> &mesh,
       std::abs(found - entries.fraction) > tolerance_of_share * entries.fraction)
     throw InputError(
       "has " + to_string(found, dimension::number) + " of its disc of radius " +
-      to_string(radius, dimension::length) +
-      " in the model, where 'Fraction in model' says " +
+      to_string(radius, dimension::length) + " in the model, where 'Fraction in model' says " +
       to_string(entries.fraction, dimension::number) +
       ": move it away from the boundary, or exactly onto planes of symmetry, or take smaller cells "
       "there or a 'Source radius'");
@@ -232,10 +230,10 @@ SymmetricTensor<2, dim> PointSource<dim>::curvature(const Point<dim> &x) const
   const double mean = std::pow(determinant(permeability), 1. / dim);
   const double density = r < radius ? (1. - s * s) / whole_weight<dim>(radius) : 0.;
   // The share of the fluid that enters within r, over r^dim.
-  const double within = dim == 2 ? (2. - s * s) * s * s / (r * r)
-                                 : 0.5 * (5. - 3. * s * s) * s * s * s / (r * r * r);
+  const double within =
+    dim == 2 ? (2. - s * s) * s * s / (r * r) : 0.5 * (5. - 3. * s * s) * s * s * s / (r * r * r);
   const double slope = -within / ((dim == 2 ? 2. : 4.) * numbers::PI * mean); // p'/r
-  const double second = -density / mean - (dim - 1) * slope;                   // p''
+  const double second = -density / mean - (dim - 1) * slope;                  // p''
   const Tensor<1, dim> along = metric * d;
   return slope * metric + ((second - slope) / (r * r)) * symmetrize(outer_product(along, along));
 }

@@ -16,12 +16,11 @@ namespace stockwork
 ///
 /// and the rock's pressure at it is the mean of the pore pressure with the same weight, so that
 /// what couples well and rock is one functional and its transpose. Between the borehole of radius
-/// r_w and R, flow is steady and radial (from a time of R^2/c on), with F(r) the share of the fluid
-/// that enters within r:
+/// r_w and R, flow is steady and radial (from a time of R^2/c on), and with F(r) the share of the
+/// fluid that enters within r
 ///
-///   2-D:  p_b - mean = Q mu/(2 pi k) [ln(R/r_w) - int F^2/r dr]   = Q mu/(2 pi k) [ln(R/r_w) -
-///   11/24] 3-D:  p_b - mean = Q mu/(4 pi k) [1/r_w - 1/R - int F^2/r^2 dr] = Q mu/(4 pi k) [1/r_w -
-///   10/(7R)]
+///   2-D:  p_b - mean = Q mu/(2 pi k) [ln(R/r_w) - int F^2/r dr],       the integral is 11/24
+///   3-D:  p_b - mean = Q mu/(4 pi k) [1/r_w - 1/R - int F^2/r^2 dr],   the integral is 3/(7R)
 ///
 /// The mean that the elements find is less, by the energy of what they cannot follow; for linear
 /// elements of edges h_d along e_d that is, to leading order,
@@ -46,7 +45,7 @@ public:
     dealii::Point<dim> point;
     double fraction = 1.;        ///< share of the disc or ball that is in the model
     double borehole_radius = 0.; ///< r_w; 0: nobody asks for the pressure in the borehole [m]
-    double radius = 0.;          ///< R along the softest direction; 0: two cells [m]
+    double radius = 0.; ///< R, in layered rock of as large a disc or ball; 0: two cells [m]
   };
 
   explicit PointSource(const Entries &entries)

@@ -38,8 +38,7 @@ void Wells<dim>::set_mesh(const MeshView<dim> &mesh,
 
 
 template <int dim>
-void Wells<dim>::locate_in_rock(Well &well,
-                                const std::vector<NetworkSegment<dim>> &segments) const
+void Wells<dim>::locate_in_rock(Well &well, const std::vector<NetworkSegment<dim>> &segments) const
 {
   if (!(well.perforations[0].source->borehole_radius() > 0.))
     return; // a source in pores, whatever there is beside them
@@ -51,8 +50,7 @@ void Wells<dim>::locate_in_rock(Well &well,
         if (!has_started)
           throw perforation_error(
             well, perforation,
-            "is nearer than " +
-              to_string(perforation.source->source_radius(), dimension::length) +
+            "is nearer than " + to_string(perforation.source->source_radius(), dimension::length) +
               " to a fracture, where the pressure in the borehole is not known: let it open into "
               "the fracture, move it, take smaller cells there, or leave 'Borehole radius' empty");
       }
@@ -259,8 +257,8 @@ void Wells<dim>::assemble_perforation(const Well &well,
   const double borehole_pressure =
     well.pressure_control ? well.given(context) : state.current.extra[well.pressure_index()];
   const double resistance = well.resistance(k);
-  local.residual(n) = c * (outside - borehole_pressure + resistance * q +
-                           well.friction * q * std::abs(q));
+  local.residual(n) =
+    c * (outside - borehole_pressure + resistance * q + well.friction * q * std::abs(q));
   local.matrix(n, n) = c * (resistance + 2. * well.friction * std::abs(q)) * well.conductance;
   if (well.pressure_control)
     return;
@@ -448,8 +446,8 @@ std::optional<double> Wells<dim>::greatest_pressure() const
 template <int dim>
 const typename Wells<dim>::Well *Wells<dim>::first_into_fracture() const
 {
-  const auto first = std::find_if(wells.begin(), wells.end(),
-                                  [](const Well &well) { return !well.in_rock; });
+  const auto first =
+    std::find_if(wells.begin(), wells.end(), [](const Well &well) { return !well.in_rock; });
   return first == wells.end() ? nullptr : &*first;
 }
 

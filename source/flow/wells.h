@@ -137,8 +137,8 @@ public:
   /// Index of the first of unknowns().
   void set_offset(unsigned int first_index);
 
-  /// The pressures in fracture or pores that the perforations open into, well by well [Pa]. Collective
-  /// where a well opens into the rock.
+  /// The pressures in fracture or pores that the perforations open into, well by well [Pa].
+  /// Collective where a well opens into the rock.
   /// @param segment_pressures by the same unknowns
   std::vector<double> outside_pressures(const std::vector<double> &segment_pressures,
                                         const Unknowns &unknowns,
@@ -179,8 +179,8 @@ public:
   /// Names of the wells whose pressure is bounded below, and the bounds [Pa].
   std::vector<std::pair<std::string, double>> least_pressures() const;
 
-  /// Rate of the first well into a fracture as the deck gives it, for the whole fracture; zero where
-  /// there is none or its pressure is given.
+  /// Rate of the first well into a fracture as the deck gives it, for the whole fracture; zero
+  /// where there is none or its pressure is given.
   double first_rate(double t) const;
 
   /// "Fraction in model" of that well, and where it opens into fractures.
@@ -335,6 +335,6 @@ private:
   std::vector<Well> wells;
   double compressibility = 0.;
   double pressure_scale = 1.;
-  bool has_started = false;     ///< fractures have been found once
+  bool has_started = false; ///< fractures have been found once
 };
 } // namespace stockwork

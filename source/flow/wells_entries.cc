@@ -83,16 +83,18 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
     prm.declare_entry("Opens into", "fracture", Patterns::Selection("fracture|rock"),
                       "What takes or gives the fluid: fractures, or the pores of the rock around "
                       "each perforation, in 2-D of a line across the plane.");
-    prm.declare_entry("Borehole radius", "", Patterns::Anything(),
-                      "Of a well into the rock, in 3-D of a ball in place of a perforation [m]: the "
-                      "pressure in the borehole is that of steady radial flow around it. May be "
-                      "empty where that pressure decides nothing: one perforation, a given rate "
-                      "that is never negative, no 'Borehole volume' and no 'Minimum pressure'; it "
-                      "is not written then.");
-    prm.declare_entry("Source radius", "", Patterns::Anything(),
-                      "Over which the fluid of a perforation into the rock enters the pores [m]; at "
-                      "least a cell. Empty: two cells as they are there at the start, which is "
-                      "printed.");
+    prm.declare_entry(
+      "Borehole radius", "", Patterns::Anything(),
+      "Of a well into the rock, in 3-D of a ball in place of a perforation [m]: the "
+      "pressure in the borehole is that of steady radial flow around it. May be "
+      "empty where that pressure decides nothing: one perforation, a given rate "
+      "that is never negative, no 'Borehole volume' and no 'Minimum pressure'; it "
+      "is not written then.");
+    prm.declare_entry(
+      "Source radius", "", Patterns::Anything(),
+      "Over which the fluid of a perforation into the rock enters the pores [m]; at "
+      "least a cell. Empty: two cells as they are there at the start, which is "
+      "printed.");
     prm.declare_entry("Perforation friction", "0", Patterns::Anything(),
                       "kappa in the pressure drop kappa q^2 of each perforation [Pa s^2/m^6; "
                       "Pa s^2/m^4 in 2-D], q the rate "
@@ -210,10 +212,10 @@ void Wells<dim>::read_source(dealii::ParameterHandler &prm, const std::string &p
       throw EntryError(path + entry, text, allowed);
     }
   };
-  const double borehole =
-    radius("Borehole radius", well.in_rock && !well.is_direct(),
-           "a radius > 0, such as '10 cm', of a well into the rock whose borehole's pressure counts "
-           "(which is given or bounded, shared by perforations, or stores fluid)");
+  const double borehole = radius(
+    "Borehole radius", well.in_rock && !well.is_direct(),
+    "a radius > 0, such as '10 cm', of a well into the rock whose borehole's pressure counts "
+    "(which is given or bounded, shared by perforations, or stores fluid)");
   const double source = radius("Source radius", false, "a radius > 0, such as '2 m'");
   if (!well.in_rock)
     return;
@@ -307,9 +309,7 @@ void Wells<dim>::check(const std::vector<InitialCrack<dim>> &cracks) const
 
 
 template <int dim>
-void Wells<dim>::check(const double start_time,
-                       const double end_time,
-                       const bool rock_gives) const
+void Wells<dim>::check(const double start_time, const double end_time, const bool rock_gives) const
 {
   for (const Well &well : wells)
     well.value.check(start_time, end_time);
@@ -321,12 +321,12 @@ void Wells<dim>::check(const double start_time,
 }
 
 
-#define INSTANTIATE(dim)                                                                           \
-  template void Wells<dim>::declare_parameters(dealii::ParameterHandler &);                        \
-  template void Wells<dim>::parse_parameters(dealii::ParameterHandler &, double);                  \
-  template EntryError Wells<dim>::perforation_error(const Well &, const Perforation &,             \
-                                                    const std::string &);                          \
-  template void Wells<dim>::check(const std::vector<InitialCrack<dim>> &) const;                   \
+#define INSTANTIATE(dim)                                                               \
+  template void Wells<dim>::declare_parameters(dealii::ParameterHandler &);            \
+  template void Wells<dim>::parse_parameters(dealii::ParameterHandler &, double);      \
+  template EntryError Wells<dim>::perforation_error(const Well &, const Perforation &, \
+                                                    const std::string &);              \
+  template void Wells<dim>::check(const std::vector<InitialCrack<dim>> &) const;       \
   template void Wells<dim>::check(double, double, bool) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -129,8 +129,9 @@ std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
                          "'none' or 'line crack' where stiffness or permeability is another across "
                          "the layers: the solution is of isotropic rock");
       if (!entry.knows_wells_in_rock && !input.sources.empty())
-        throw EntryError("Verification/Reference", name,
-                         "'none', 'line source' or 'point source' where a well opens into the rock");
+        throw EntryError(
+          "Verification/Reference", name,
+          "'none', 'line source' or 'point source' where a well opens into the rock");
       try
       {
         solution = maker<dim>(entry)(prm, input);

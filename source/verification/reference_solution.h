@@ -79,8 +79,8 @@ struct ReferenceSource
 {
   unsigned int number; ///< of the well, from 1
   std::vector<dealii::Point<dim>> points;
-  double fraction;        ///< "Fraction in model"
-  double borehole_radius; ///< 0: not given [m]
+  double fraction;                              ///< "Fraction in model"
+  double borehole_radius;                       ///< 0: not given [m]
   std::vector<std::pair<double, double>> rates; ///< time and the rate from it on [s, m^3/s]
 };
 

@@ -17,7 +17,8 @@ using doctest::Approx;
 
 namespace
 {
-/// A square or cube of ten units, cut into ten cells along each edge, of rock that a deck describes.
+/// A square or cube of ten units, cut into ten cells along each edge, of rock that a deck
+/// describes.
 template <int dim>
 struct Body
 {
@@ -103,9 +104,9 @@ void check_places()
     CHECK(source.in_situ_pressure() == Approx(5. + 3. * x - y).epsilon(1e-3));
     // Steady radial flow from r_w to R; what elements lack is a small part of it.
     const double mobility = 1e-11;
-    const double closed =
-      dim == 2 ? (std::log(200.) - 11. / 24.) / (2. * dealii::numbers::PI * mobility)
-               : (100. - 10. / 14.) / (4. * dealii::numbers::PI * mobility);
+    const double closed = dim == 2
+                            ? (std::log(200.) - 11. / 24.) / (2. * dealii::numbers::PI * mobility)
+                            : (100. - 10. / 14.) / (4. * dealii::numbers::PI * mobility);
     CHECK(source.resistance() > closed);
     CHECK(source.resistance() == Approx(closed).epsilon(0.015));
     CHECK(source.reaches(at<dim>(x, y), 0.));
@@ -114,8 +115,7 @@ void check_places()
   // On planes of symmetry.
   const PointSource<dim> cut = body.source(at<dim>(0., 5.), 0.5);
   CHECK(body.moments(cut, 0).first == Approx(1.).epsilon(1e-12));
-  CHECK(cut.resistance() ==
-        Approx(2. * body.source(at<dim>(5., 5.)).resistance()).epsilon(1e-3));
+  CHECK(cut.resistance() == Approx(2. * body.source(at<dim>(5., 5.)).resistance()).epsilon(1e-3));
   CHECK_THROWS_AS(body.source(at<dim>(0., 5.)), InputError);
   CHECK_THROWS_AS(body.source(at<dim>(5., 5.), 0.5), InputError);
   CHECK_THROWS_AS(body.source(at<dim>(1., 5.)), InputError);

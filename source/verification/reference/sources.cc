@@ -35,7 +35,8 @@ public:
   }
 
   /// At a distance of a well's only point, by all wells [Pa].
-  double pressure_beside(const ReferenceSource<dim> &well, const double radius, const double t) const
+  double
+  pressure_beside(const ReferenceSource<dim> &well, const double radius, const double t) const
   {
     double pressure = 0.;
     for (const ReferenceSource<dim> &other : wells)
