@@ -41,13 +41,19 @@ ElementSettings parse_elements(ParameterHandler &prm,
 {
   ElementSettings elements;
   const bool asked = boundary_conditions.mentions_pore_pressure() ||
-                     network.needs_pore_pressure() || requirements.pore_pressure;
+                     network.needs_pore_pressure() || network.opens_into_rock() ||
+                     requirements.pore_pressure;
   if (rock.bulk_model() == "elastic" &&
       (network.needs_pore_pressure() || requirements.pore_pressure))
     throw EntryError(
       "Rock/Bulk model", "elastic",
       "poroelastic or auto, because the fracture model or its leak-off needs the pore "
       "pressure");
+  if (rock.bulk_model() == "elastic" && network.opens_into_rock())
+    throw EntryError(
+      "Rock/Bulk model", "elastic",
+      "poroelastic or auto, because a well opens into the rock ('Opens into'), whose "
+      "pores take its fluid");
   if (rock.bulk_model() == "elastic" && boundary_conditions.mentions_pore_pressure())
     throw EntryError("Rock/Bulk model", "elastic",
                      "poroelastic or auto, because 'Boundary conditions' gives pore pressures or "
@@ -208,6 +214,28 @@ void set_crack_load(const Scene<dim> &scene, ReferenceInput<dim> &input)
 }
 
 
+/// Wells in the rock and what they pump from when on, as far as that is in pieces.
+template <int dim>
+std::vector<ReferenceSource<dim>> sources_in_rock(const Network<dim> &network,
+                                                  const StepControl &control)
+{
+  std::vector<ReferenceSource<dim>> sources;
+  for (const auto &well : network.sources_in_rock())
+  {
+    ReferenceSource<dim> source{well.number, well.points, well.fraction, well.borehole_radius, {}};
+    const bool is_in_pieces = std::isfinite(well.rate.greatest());
+    for (double t = control.start_time; is_in_pieces && t < control.end_time;)
+    {
+      const double next = std::min(well.rate.next_jump(t), control.end_time);
+      source.rates.emplace_back(t, well.rate(next, next)); // a piece holds until its end
+      t = next;
+    }
+    sources.push_back(source);
+  }
+  return sources;
+}
+
+
 /// What the reference solution is told of the case.
 template <int dim>
 ReferenceInput<dim> reference_input(ParameterHandler &prm, const Case<dim> &the_case)
@@ -225,6 +253,7 @@ ReferenceInput<dim> reference_input(ParameterHandler &prm, const Case<dim> &the_
   input.injection_rate = the_case.network.rate_of_first_well(the_case.control.end_time);
   input.rate_is_constant = std::isinf(the_case.network.next_jump(the_case.control.start_time));
   input.n_wells = the_case.network.n_wells();
+  input.sources = sources_in_rock(the_case.network, the_case.control);
   if (the_case.network.has_wells())
   {
     input.fraction_in_model = the_case.network.fraction_of_first_well();

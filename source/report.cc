@@ -189,15 +189,20 @@ void Report<dim>::observe_fluid(const State &state, Values &values)
   const auto wells = network.wells(stepper.last_context(), state, system.collectives());
   if (!wells.empty())
   {
-    values["inlet_aperture"] = wells[0].inlet_aperture;
     values["inlet_pressure"] = wells[0].inlet_pressure;
     shown.inlet_pressure = wells[0].inlet_pressure;
+  }
+  if (!wells.empty() && !network.segments().empty())
+  {
     const auto pressures = network.pressures(stepper.committed);
-    shown.minimum_pressure = -system.collectives().max(
-      pressures.empty() ? -1e300 : -*std::min_element(pressures.begin(), pressures.end()));
+    shown.minimum_pressure = *std::min_element(pressures.begin(), pressures.end());
     values["minimum_pressure"] = shown.minimum_pressure;
+  }
+  if (!wells.empty() && wells[0].inlet_segment)
+  {
+    values["inlet_aperture"] = wells[0].inlet_aperture;
     // Over the in-situ stress across the fracture, which is what analytical solutions call p.
-    const auto &inlet = network.segments()[wells[0].inlet_segment];
+    const auto &inlet = network.segments()[*wells[0].inlet_segment];
     values["net_inlet_pressure"] =
       wells[0].inlet_pressure + inlet.normal * (in_situ.stress(inlet.centre) * inlet.normal);
     watch(wells[0], values["net_inlet_pressure"]);
@@ -214,7 +219,8 @@ void Report<dim>::observe_well(const unsigned int w,
                                Values &values)
 {
   const std::string well = "well_" + std::to_string(w + 1);
-  values[well + "_borehole_pressure"] = report.borehole_pressure;
+  if (!std::isnan(report.borehole_pressure))
+    values[well + "_borehole_pressure"] = report.borehole_pressure;
   values[well + "_rate"] = report.rate;
   values[well + "_wanted_rate"] = report.wanted_rate;
   // How the fluid is shared.
@@ -222,6 +228,14 @@ void Report<dim>::observe_well(const unsigned int w,
     for (unsigned int i = 0; i < report.perforation_rates.size(); ++i)
       values[well + "_perforation_" + std::to_string(i + 1) + "_rate"] =
         report.perforation_rates[i];
+  if (report.is_reached && reached_wells.insert(w).second)
+  {
+    std::ostringstream text;
+    text << "From t = " << stepper.last_context().time
+         << " s on, a fracture has come into the rock about the well '" << report.name
+         << "' that its fluid is spread over: the pressure in its borehole is that in intact rock.";
+    run.warn(text.str());
+  }
   if (report.rate > report.wanted_rate && dry_wells.insert(w).second)
   {
     std::ostringstream text;
@@ -319,20 +333,45 @@ void Report<dim>::watch(const WellReport &well, const double net_pressure)
 
 
 template <int dim>
+double Report<dim>::pore_balance_error(const typename CoupledSystem<dim>::PoreFluid &pores) const
+{
+  if (!network.opens_into_rock())
+    return 0.;
+  // What pores gain and lose is over the time of the scheme.
+  const StepContext &context = stepper.last_context();
+  const FluidVolumes &step = stepper.fluid_balance().step;
+  const FluidVolumes &total = stepper.fluid_balance().total;
+  const double from_fractures = network.leaks_into_pores() ? step.leaked : 0.;
+  const double scheme = context.effective_dt() / context.dt;
+  const double entered = scheme * (step.in_rock + from_fractures);
+  const double moved =
+    std::max({std::abs(step.in_rock), std::abs(from_fractures), std::abs(pores.stored),
+              std::abs(pores.outflow),
+              context.time > control.start_time ? (total.injected + total.outflow) * context.dt /
+                                                    (context.time - control.start_time)
+                                                : 0.});
+  return moved > 0. ? std::abs(entered - pores.stored - pores.outflow) / moved : 0.;
+}
+
+
+template <int dim>
 void Report<dim>::add_step(const unsigned int step, const StepReport &step_report)
 {
   const auto scope = run.timers.scope("output");
   const double time = stepper.last_context().time;
-  const double balance_error = stepper.fluid_balance().relative_error;
   auto observed = observe();
   const auto pores = system.pore_fluid(stepper.last_context(), stepper.last_state());
+  const double balance_error =
+    std::max(stepper.fluid_balance().relative_error, pore_balance_error(pores));
 
   ++summary.steps;
   summary.rejected_steps += step_report.rejected;
   summary.nonlinear_iterations += step_report.nonlinear_iterations;
   summary.linear_iterations += step_report.linear_iterations;
-  summary.fluid_balance.stored += pores.stored;
-  summary.fluid_balance.outflow += pores.outflow + stepper.fluid_balance().step.outflow;
+  // Pores are balanced over the time of the scheme.
+  const double scheme = stepper.last_context().dt / stepper.last_context().effective_dt();
+  summary.fluid_balance.stored += scheme * pores.stored;
+  summary.fluid_balance.outflow += scheme * pores.outflow + stepper.fluid_balance().step.outflow;
   summary.fluid_balance.relative_error =
     std::max(summary.fluid_balance.relative_error, balance_error);
 
@@ -379,16 +418,14 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
   progress.nonlinear_iterations = step_report.nonlinear_iterations;
   progress.linear_iterations = step_report.linear_iterations;
   progress.rejected = step_report.rejected;
-  if (system.extra_numbering().size() > 0)
-  {
+  if (system.extra_numbering().size() > 0 && !network.segments().empty())
     progress.fracture_length = observed.at("fracture_length");
+  if (system.extra_numbering().size() > 0 || network.has_wells())
     progress.fluid_balance = balance_error;
-  }
   if (observed.count("inlet_aperture"))
-  {
     progress.inlet_aperture = observed.at("inlet_aperture");
+  if (observed.count("inlet_pressure"))
     progress.inlet_pressure = observed.at("inlet_pressure");
-  }
   progress.wall_seconds = run.timers.total();
   progress.fraction_at_start =
     (start_of_run - control.start_time) / (control.end_time - control.start_time);

@@ -67,8 +67,8 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
       .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
-      .fluid_balance
-      .relative_error &external_work &peak_load &greatest_inlet_aperture &shown &dry_wells;
+      .fluid_balance.relative_error &external_work &peak_load &greatest_inlet_aperture &shown
+        &dry_wells &reached_wells;
     if (errors)
       archive &*errors;
   }
@@ -96,6 +96,10 @@ private:
   void observe_fluid(const State &state, Values &values);
   void observe_well(unsigned int number, const WellReport &report, bool is_alone, Values &values);
 
+  /// Of the fluid that entered the pores in the last step, what is missing in them, over what
+  /// moved; where wells open into the rock.
+  double pore_balance_error(const typename CoupledSystem<dim>::PoreFluid &pores) const;
+
   /// At a place, of the last accepted step. Collective.
   dealii::Tensor<1, dim> displacement_at(const dealii::Point<dim> &point) const;
 
@@ -117,7 +121,7 @@ private:
   std::string directory;
   StatisticsTable statistics;
   Outcome shown;
-  std::set<unsigned int> dry_wells; ///< of which this has been said
+  std::set<unsigned int> dry_wells, reached_wells; ///< of which this has been said
   bool warned_of_aperture = false, warned_of_pressure = false;
   RunSummary summary;
   double start_of_run;

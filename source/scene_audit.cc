@@ -405,6 +405,26 @@ void add_diffusion(const Case<dim> &the_case,
 }
 
 
+/// How far wells in the rock spread their fluid, and what that asks of time.
+template <int dim>
+void add_sources(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
+{
+  const double duration = the_case.control.end_time - the_case.control.start_time;
+  for (const auto &source : the_case.network.sources())
+  {
+    const double time = source.radius * source.radius / (4. * pressure_diffusivity(the_case));
+    std::ostringstream text;
+    text << std::setprecision(3) << "its fluid enters the pores over this radius";
+    if (source.has_borehole)
+      text << "; the pressure in the borehole is that of steady radial flow within it, which it is "
+              "after some times "
+           << time << " s";
+    numbers.push_back({"source radius of '" + source.well + "' [m]", source.radius, text.str(),
+                       source.has_borehole && time > 0.1 * duration});
+  }
+}
+
+
 /// Whether the cells resolve what leaks off into the rock. Into a column
 /// (tests/data/porous_column.prm) 1, 11, 32 and 59 % too little leaks with cells of 0.25, 1, 2 and
 /// 4 times this length.
@@ -456,6 +476,8 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   if (the_case.network.needs_pore_pressure())
     add_leak_off(the_case, pumping, mesh, numbers);
 
+  if (the_case.elements.has_pore_pressure)
+    add_sources(the_case, numbers);
   for (const auto &[well, pressure] : the_case.network.least_well_pressures())
     numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,
                        "at it, what the well takes is what flows (Minimum pressure)"});

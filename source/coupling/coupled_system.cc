@@ -25,6 +25,7 @@ CoupledSystem<dim>::CoupledSystem(RunContext &run,
                                   const ElementSettings &elements,
                                   ParameterHandler &prm)
   : run(run)
+  , scene(scene)
   , prescribed_loads(boundary_conditions.loads())
   , model(model)
   , network(network)
@@ -61,6 +62,7 @@ template <int dim>
 void CoupledSystem<dim>::setup_mesh(const double time)
 {
   unknowns.number_bulk(time);
+  network.set_mesh(unknowns.mesh_view(), scene, unknowns.communication);
   assembly.mesh_changed();
   if (!solver)
     make_solver();

@@ -143,6 +143,7 @@ private:
   void make_solver();
 
   RunContext &run;
+  const Scene<dim> &scene;
   const Loads<dim> &prescribed_loads;
   FractureModel<dim> &model;
   Network<dim> &network;

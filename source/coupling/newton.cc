@@ -233,10 +233,12 @@ double Newton<dim>::pressure_factor() const
   // drives it later: the limit must let it come, and only keep it from a single leap.
   double greatest_change = network.typical_pressure(), factor = 1.;
   for (unsigned int i = unknowns.n_model_extra(); i < unknowns.n_extra(); ++i)
-    greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
+    if (!network.is_of_rock(i))
+      greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
   const double limit = parameters.pressure_limit.value_or(greatest_change);
   for (unsigned int i = unknowns.n_model_extra(); i < unknowns.n_extra(); ++i)
-    if (const double change = std::abs(dx_extra[i]); factor * change > limit)
+    if (const double change = std::abs(dx_extra[i]);
+        factor * change > limit && !network.is_of_rock(i))
       factor = limit / change;
   return factor;
 }

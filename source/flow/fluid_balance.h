@@ -12,12 +12,13 @@ struct FluidVolumes
   double outflow = 0.;      ///< the same, where it comes out
   double in_fractures = 0.; ///< gained by the fractures, with the compression of their fluid
   double in_boreholes = 0.; ///< gained by the boreholes
-  double leaked = 0.;       ///< into the rock
+  double leaked = 0.;       ///< from fractures into the rock
+  double in_rock = 0.;      ///< what wells in the rock have put into its pores
 
   /// What is missing.
   double defect() const
   {
-    return injected - outflow - in_fractures - in_boreholes - leaked;
+    return injected - outflow - in_fractures - in_boreholes - leaked - in_rock;
   }
 
   FluidVolumes &operator+=(const FluidVolumes &other)
@@ -27,13 +28,14 @@ struct FluidVolumes
     in_fractures += other.in_fractures;
     in_boreholes += other.in_boreholes;
     leaked += other.leaked;
+    in_rock += other.in_rock;
     return *this;
   }
 
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &injected &outflow &in_fractures &in_boreholes &leaked;
+    ar &injected &outflow &in_fractures &in_boreholes &leaked &in_rock;
   }
 };
 

@@ -485,7 +485,7 @@ void Network<dim>::assemble(const StepContext &context,
                             const Collectives &collectives,
                             Sink &sink) const
 {
-  if (network.empty())
+  if (network.empty() && all_wells.empty())
     return;
   const Values values = evaluate(context, state, collectives);
   LocalSystem local;
@@ -494,8 +494,9 @@ void Network<dim>::assemble(const StepContext &context,
     assemble_segment(owned_index[k], owned[k], context, values, local);
     sink.add(local);
   }
-  if (collectives.rank() == 0)
-    all_wells.assemble(context, state, values.pressure, rows, sink);
+  all_wells.assemble(context, state,
+                     all_wells.outside_pressures(values.pressure, state.current, collectives), rows,
+                     collectives.rank() == 0, sink);
 }
 
 
@@ -504,8 +505,9 @@ std::vector<WellReport> Network<dim>::wells(const StepContext &context,
                                             const State &state,
                                             const Collectives &collectives) const
 {
-  return all_wells.report(context, state, apertures(state.current, collectives),
-                          pressures(state.current));
+  return all_wells.report(
+    context, state, apertures(state.current, collectives),
+    all_wells.outside_pressures(pressures(state.current), state.current, collectives));
 }
 
 

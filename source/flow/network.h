@@ -73,6 +73,13 @@ public:
   /// the factors that make all unknowns of the flow pressures and all its equations volumes
   void set_scales(double minimum_aperture, double pressure, double aperture, double length);
 
+  /// The mesh is new; set_segments follows. Collective.
+  /// @throws InputError when a perforation opens into rock that does not suit it
+  void set_mesh(const MeshView<dim> &mesh, const Scene<dim> &scene, const Collectives &collectives)
+  {
+    all_wells.set_mesh(mesh, scene, collectives);
+  }
+
   /// Value of an extra unknown as it was before, by key; nothing if it is new.
   using EarlierValue = std::function<std::optional<double>(std::uint64_t key)>;
 
@@ -163,10 +170,29 @@ public:
     return all_wells.starts_at(t);
   }
 
+  /// Whether a well opens into the rock: it needs the pressure of its pores.
+  bool opens_into_rock() const
+  {
+    return all_wells.any_in_rock();
+  }
+
+  /// Whether an extra unknown belongs to such a well.
+  bool is_of_rock(const unsigned int index) const
+  {
+    return all_wells.is_of_rock(index);
+  }
+
   /// Leak-off into pores that are resolved needs their pressure.
   bool needs_pore_pressure() const
   {
     return leak_off == LeakOff::resolved;
+  }
+
+  /// Whether what leaks off stays in the model.
+  bool leaks_into_pores() const
+  {
+    return std::any_of(network.begin(), network.end(),
+                       [this](const auto &segment) { return leaks_into_pores(segment); });
   }
 
   LeakOff leak_off_law() const
@@ -244,6 +270,16 @@ public:
   std::vector<dealii::Point<dim>> perforations_of_first_well() const
   {
     return all_wells.first_perforations();
+  }
+
+  std::vector<typename Wells<dim>::SourceInRock> sources_in_rock() const
+  {
+    return all_wells.sources_in_rock();
+  }
+
+  std::vector<typename Wells<dim>::SourceSize> sources() const
+  {
+    return all_wells.sources();
   }
 
   void save(boost::archive::binary_oarchive &) const;

@@ -89,6 +89,8 @@ typename Network<dim>::Rounding Network<dim>::rounding(const StepContext &contex
       volume += context.fracture_dt() * transmissibility(i, edge, values).value *
                 (std::abs(values.pressure[i]) + std::abs(values.pressure[edge.other]));
   }
+  volume += all_wells.magnitude_of_terms(
+    context, state, all_wells.outside_pressures(values.pressure, state.current, collectives));
   // A few last digits of each term; and of a closed fracture, whose terms are all zero, what is far
   // below the room that closed faces leave.
   const double last_digits = 4. * std::numeric_limits<double>::epsilon();
@@ -136,6 +138,7 @@ template <int dim>
 void Network<dim>::save(boost::archive::binary_oarchive &archive) const
 {
   archive << history << total;
+  all_wells.save(archive);
 }
 
 
@@ -143,6 +146,7 @@ template <int dim>
 void Network<dim>::load(boost::archive::binary_iarchive &archive)
 {
   archive >> history >> total;
+  all_wells.load(archive);
   rollback();
 }
 

@@ -4,207 +4,56 @@
 #include <limits>
 
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
 
 namespace stockwork
 {
-namespace
+template <int dim>
+void Wells<dim>::set_mesh(const MeshView<dim> &mesh,
+                          const Scene<dim> &scene,
+                          const Collectives &collectives)
 {
-constexpr unsigned int max_wells = 8;
-
-template <int dim>
-constexpr Dimension rate_dimension = dim == 2 ? dimension::rate_per_thickness : dimension::rate;
-
-// kappa in dp = kappa q^2
-template <int dim>
-constexpr Dimension friction_dimension =
-  dim == 2 ? Dimension{-5, 1, 0, 0, "perforation friction", "Pa s^2/m^4", "1e12 Pa s^2/m^4"}
-           : Dimension{-7, 1, 0, 0, "perforation friction", "Pa s^2/m^6", "1e10 Pa s^2/m^6"};
-
-template <int dim>
-constexpr Dimension volume_dimension = dim == 2 ? dimension::area : dimension::volume;
-
-std::string section(const unsigned int number)
-{
-  return "Well " + std::to_string(number);
-}
-
-template <int dim>
-dealii::Point<dim> parse_point(const std::string &text)
-{
-  dealii::Point<dim> point;
-  std::size_t begin = 0;
-  for (unsigned int d = 0; d < dim; ++d)
+  for (Well &well : wells)
   {
-    const std::size_t comma = d + 1 < dim ? text.find(',', begin) : text.size();
-    if (comma == std::string::npos)
-      throw InputError("too few coordinates");
-    point[d] = parse_finite_quantity(text.substr(begin, comma - begin), dimension::length);
-    begin = comma + 1;
+    if (!well.in_rock)
+      continue;
+    for (Perforation &perforation : well.perforations)
+      try
+      {
+        perforation.source->setup(mesh, scene, collectives);
+      }
+      catch (const InputError &error)
+      {
+        throw perforation_error(well, perforation, error.what());
+      }
+    const PointSource<dim> &first = *well.perforations[0].source;
+    well.initial_pressure = first.in_situ_pressure();
+    if (first.resistance() > 0.)
+      well.conductance = 1. / first.resistance();
+    // Where pressures are net ones, zero is nothing special.
+    if (!well.has_own_minimum && well.minimum_pressure == 0. && well.initial_pressure == 0.)
+      well.minimum_pressure = -std::numeric_limits<double>::infinity();
   }
-  return point;
-}
-} // namespace
-
-
-template <int dim>
-void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
-{
-  namespace Patterns = dealii::Patterns;
-  prm.enter_subsection("Wells");
-  for (unsigned int number = 1; number <= max_wells; ++number)
-  {
-    prm.enter_subsection(section(number));
-    prm.declare_entry("Control", "none", Patterns::Selection("none|rate|pressure"),
-                      "What is given: the rate of injection, the pressure in the borehole (of an "
-                      "injector, or of a producer), or nothing: there is no such well.");
-    prm.declare_entry("Name", "", Patterns::Anything(), "Of the well in the output.");
-    const std::string forms = " A value; pieces, each from its time on, as in '0 s: 1e-4; 50 s: "
-                              "0'; or an expression in SI units, as in 'f(t) = 1e-4*min(t/10,1)'.";
-    prm.declare_entry("Rate", "", Patterns::Anything(),
-                      "Of the whole well, both wings [m^3/s; m^2/s in 2-D]; negative: production. "
-                      "With control 'rate'." +
-                        forms);
-    prm.declare_entry("Pressure", "", Patterns::Anything(),
-                      "In the borehole [Pa]. With control 'pressure'." + forms);
-    prm.declare_entry("Minimum pressure", "", Patterns::Anything(),
-                      "In the borehole [Pa]. With control 'rate': a well cannot take what is not "
-                      "there; at this pressure the rate is what flows. Empty: where the rate may "
-                      "be negative, the 'Vapour pressure' of 'Fracture flow' if that is finite, "
-                      "else 0: vacuum, or in unstressed rock, where pressures are net ones, that "
-                      "at which a fracture is closed.");
-    prm.declare_alias("Minimum pressure", "Least pressure", true);
-    prm.declare_entry(
-      "Perforations", "", Patterns::Anything(),
-      "Points where the well is open to a fracture: coordinates separated by "
-      "',', points by ';'. Each must lie on an initial crack (to 2 % of its length), and "
-      "opens into the segment of the fracture that is nearest.");
-    prm.declare_entry("Perforation friction", "0", Patterns::Anything(),
-                      "kappa in the pressure drop kappa q^2 of each perforation [Pa s^2/m^6; "
-                      "Pa s^2/m^4 in 2-D], q the rate "
-                      "through all of it (both wings). Without friction, several perforations "
-                      "are at equal pressure, which lets the longest fracture take everything.");
-    prm.declare_entry("Fraction in model", "1", Patterns::Double(0., 1.),
-                      "Share of the well that lies in the model: 0.5 where a symmetry plane "
-                      "passes through it. Rate, friction and borehole volume are given for the "
-                      "whole well.");
-    prm.declare_entry("Borehole volume", "0", Patterns::Anything(),
-                      "Of the fluid in the borehole [m^3; m^2 in 2-D], which is as compressible as "
-                      "in the fracture.");
-    prm.leave_subsection();
-  }
-  prm.leave_subsection();
 }
 
 
 template <int dim>
-typename Wells<dim>::Well Wells<dim>::read_well(dealii::ParameterHandler &prm,
-                                                const unsigned int number,
-                                                const double boiling_pressure)
+void Wells<dim>::locate_in_rock(Well &well, const std::vector<NetworkSegment<dim>> &segments) const
 {
-  const std::string path = "Wells/" + section(number) + "/";
-  Well well;
-  well.number = number;
-  well.points = prm.get("Perforations");
-  well.name = prm.get("Name").empty() ? section(number) : prm.get("Name");
-  well.pressure_control = (prm.get("Control") == "pressure");
-  well.value = well.pressure_control
-                 ? TimeHistory(prm.get("Pressure"), dimension::pressure, path + "Pressure")
-                 : TimeHistory(prm.get("Rate"), rate_dimension<dim>, path + "Rate");
-
-  if (const std::string text = prm.get("Minimum pressure"); !text.empty())
-  {
-    const std::string allowed = "a pressure such as '5 MPa', of a well with control 'rate'";
-    if (well.pressure_control)
-      throw EntryError(path + "Minimum pressure", text, allowed);
-    try
-    {
-      well.minimum_pressure = parse_finite_quantity(text, dimension::pressure);
-    }
-    catch (const InputError &)
-    {
-      throw EntryError(path + "Minimum pressure", text, allowed);
-    }
-  }
-  else if (!well.pressure_control && well.value.least() < 0.)
-    well.minimum_pressure = std::isfinite(boiling_pressure) ? boiling_pressure : 0.;
-
-  well.fraction = prm.get_double("Fraction in model");
-  if (!(well.fraction > 0.))
-    throw EntryError(path + "Fraction in model", prm.get("Fraction in model"),
-                     "a number > 0, up to 1");
-  const auto non_negative = [&](const std::string &entry, const Dimension &dimension)
-  {
-    const std::string text = prm.get(entry);
-    try
-    {
-      return Quantity(dimension, Range::non_negative()).parse(text);
-    }
-    catch (const InputError &)
-    {
-      throw EntryError(path + entry, text,
-                       "a value >= 0, such as '" + std::string(dimension.example) + "'");
-    }
-  };
-  well.friction =
-    non_negative("Perforation friction", friction_dimension<dim>) / (well.fraction * well.fraction);
-  well.volume = non_negative("Borehole volume", volume_dimension<dim>) * well.fraction;
-
-  try
-  {
-    for (std::size_t begin = 0; begin < well.points.size();)
-    {
-      const std::size_t end = std::min(well.points.find(';', begin), well.points.size());
-      well.perforations.push_back({parse_point<dim>(well.points.substr(begin, end - begin)), {}});
-      begin = end + 1;
-    }
-    if (well.perforations.empty())
-      throw InputError("none");
-  }
-  catch (const InputError &)
-  {
-    throw EntryError(path + "Perforations", well.points,
-                     std::string("one or more points, ") +
-                       (dim == 2 ? "'0, 0; 1 m, 20 cm'" : "'0, 0, 0; 1 m, 20 cm, 0'"));
-  }
-  return well;
-}
-
-
-template <int dim>
-void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double boiling_pressure)
-{
-  wells.clear();
-  prm.enter_subsection("Wells");
-  for (unsigned int number = 1; number <= max_wells; ++number)
-  {
-    prm.enter_subsection(section(number));
-    const std::string path = "Wells/" + section(number) + "/";
-    const std::string control = prm.get("Control"), points = prm.get("Perforations");
-    if (control == "none" && !points.empty())
-      throw EntryError(path + "Control", "none",
-                       "'rate' or 'pressure' for a well that has perforations");
-    for (const auto &[entry, its_control] :
-         {std::make_pair("Rate", "rate"), std::make_pair("Pressure", "pressure")})
-      if (!prm.get(entry).empty() && prm.get(entry) != "0" && control != its_control)
-        throw EntryError(path + "Control", control,
-                         std::string("'") + its_control + "' for a well whose '" + entry +
-                           "' is given");
-    if (control != "none")
-      wells.push_back(read_well(prm, number, boiling_pressure));
-    prm.leave_subsection();
-  }
-  prm.leave_subsection();
-}
-
-
-template <int dim>
-EntryError Wells<dim>::perforation_error(const Well &well,
-                                         const Perforation &perforation,
-                                         const std::string &what)
-{
-  std::ostringstream allowed;
-  allowed << "points on fractures; (" << perforation.point << ") is on " << what;
-  return EntryError("Wells/" + section(well.number) + "/Perforations", well.points, allowed.str());
+  if (!(well.perforations[0].source->borehole_radius() > 0.))
+    return; // a source in pores, whatever there is beside them
+  for (const Perforation &perforation : well.perforations)
+    for (const auto &segment : segments)
+      if (perforation.source->reaches(segment.centre, segment.size()))
+      {
+        well.is_reached = true;
+        if (!has_started)
+          throw perforation_error(
+            well, perforation,
+            "is nearer than " + to_string(perforation.source->source_radius(), dimension::length) +
+              " to a fracture, where the pressure in the borehole is not known: let it open into "
+              "the fracture, move it, take smaller cells there, or leave 'Borehole radius' empty");
+      }
 }
 
 
@@ -213,6 +62,13 @@ void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments,
                         const bool pressure_is_given)
 {
   for (Well &well : wells)
+    if (well.in_rock)
+      locate_in_rock(well, segments);
+  has_started = true;
+  for (Well &well : wells)
+  {
+    if (well.in_rock)
+      continue;
     for (Perforation &perforation : well.perforations)
     {
       double nearest = std::numeric_limits<double>::infinity();
@@ -227,15 +83,27 @@ void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments,
       const auto complain = [&](const std::string &what)
       { throw perforation_error(well, perforation, what); };
       if (segments.empty())
-        complain("none, for there are none at the start. Give an initial crack");
+        complain("is on none, for there are none at the start. Give an initial crack");
       if (nearest > segments[perforation.segments.front()].size())
-        complain("none; the nearest segment of one is at distance " + std::to_string(nearest) +
-                 " m");
+        complain("is on none; the nearest segment of one is at distance " +
+                 std::to_string(nearest) + " m");
       if (pressure_is_given)
-        complain("one whose pressure is given, so the well would have no effect");
+        complain("is on one whose pressure is given, so the well would have no effect");
     }
-  for (Well &well : wells)
     well.initial_pressure = segments[well.perforations[0].segments[0]].initial_pressure;
+  }
+}
+
+
+template <int dim>
+bool Wells<dim>::is_of_rock(const unsigned int index) const
+{
+  return std::any_of(wells.begin(), wells.end(),
+                     [index](const Well &well)
+                     {
+                       return well.in_rock && index >= well.first_index &&
+                              index < well.first_index + well.n_unknowns();
+                     });
 }
 
 
@@ -317,74 +185,155 @@ double Wells<dim>::Well::rate(const StepContext &context,
 
 
 template <int dim>
-void Wells<dim>::assemble(const StepContext &context,
-                          const State &state,
-                          const std::vector<double> &pressures,
-                          const std::vector<unsigned int> &rows,
-                          Sink &sink) const
+std::vector<double> Wells<dim>::outside_pressures(const std::vector<double> &segment_pressures,
+                                                  const Unknowns &unknowns,
+                                                  const Collectives &collectives) const
+{
+  std::vector<double> result;
+  for (const Well &well : wells)
+    for (const Perforation &perforation : well.perforations)
+      result.push_back(well.in_rock ? value(perforation.source->mean_pressure(), unknowns) : 0.);
+  if (any_in_rock())
+    collectives.sum(result);
+  auto outside = result.begin();
+  for (const Well &well : wells)
+    for (const Perforation &perforation : well.perforations)
+    {
+      if (!well.in_rock)
+        *outside = mean(perforation, segment_pressures);
+      ++outside;
+    }
+  return result;
+}
+
+
+template <int dim>
+void Wells<dim>::assemble_perforation(const Well &well,
+                                      const unsigned int k,
+                                      const StepContext &context,
+                                      const State &state,
+                                      const double outside,
+                                      const std::vector<unsigned int> &rows,
+                                      const bool is_first_rank,
+                                      LocalSystem &local) const
 {
   const double dt = context.fracture_dt();
+  const Perforation &perforation = well.perforations[k];
+  const double q = well.perforation_rate(k, context, state);
+
+  // Unknowns: what the perforation opens into, y_k, p_b
+  local.bulk.clear();
+  local.extra.clear();
+  if (well.in_rock)
+    local.bulk = perforation.source->mean_pressure().bulk;
+  else if (is_first_rank)
+    for (const unsigned int i : perforation.segments)
+      local.extra.push_back(rows[i]);
+  const unsigned int n = local.bulk.size() + local.extra.size();
+  if (!well.is_direct())
+    local.extra.push_back(well.first_index + k);
+  if (!well.is_direct() && !well.pressure_control)
+    local.extra.push_back(well.pressure_index());
+  local.reinit();
+
+  // The balance of the rock is over the time of its scheme.
+  const double dt_outside = well.in_rock ? context.effective_dt() : dt;
+  const double c = dt * well.conductance;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const double share =
+      well.in_rock ? perforation.source->mean_pressure().bulk_coefficients[i] : 1. / n;
+    local.residual(i) = dt_outside * q * share;
+    if (!well.is_direct())
+    {
+      local.matrix(i, n) = dt_outside * well.conductance * share;
+      local.matrix(n, i) = c * share;
+    }
+  }
+  if (!is_first_rank || well.is_direct())
+    return;
+
+  const double borehole_pressure =
+    well.pressure_control ? well.given(context) : state.current.extra[well.pressure_index()];
+  const double resistance = well.resistance(k);
+  local.residual(n) =
+    c * (outside - borehole_pressure + resistance * q + well.friction * q * std::abs(q));
+  local.matrix(n, n) = c * (resistance + 2. * well.friction * std::abs(q)) * well.conductance;
+  if (well.pressure_control)
+    return;
+  local.matrix(n, n + 1) = -c;
+  if (!well.is_dry(context, state, compressibility))
+  {
+    local.residual(n + 1) = -dt * q;
+    local.matrix(n + 1, n) = -c;
+  }
+}
+
+
+template <int dim>
+void Wells<dim>::assemble_borehole(const Well &well,
+                                   const StepContext &context,
+                                   const State &state,
+                                   LocalSystem &local) const
+{
+  const double dt = context.fracture_dt();
+  const unsigned int index = well.pressure_index();
+  // The row of the balance, or that of the pressure, as a volume.
+  const bool dry = well.is_dry(context, state, compressibility);
+  const double c = dry ? dt * well.conductance
+                       : well.volume * compressibility * context.fracture_pressure_factor();
+  const double reference =
+    dry ? well.minimum_pressure : state.fracture_reference(context).extra[index];
+  local.bulk.clear();
+  local.extra = {index};
+  local.reinit();
+  local.residual(0) =
+    (dry ? 0. : dt * well.given(context)) - c * (state.current.extra[index] - reference);
+  local.matrix(0, 0) = -c;
+}
+
+
+template <int dim>
+void Wells<dim>::assemble(const StepContext &context,
+                          const State &state,
+                          const std::vector<double> &outside,
+                          const std::vector<unsigned int> &rows,
+                          const bool is_first_rank,
+                          Sink &sink) const
+{
   LocalSystem local;
+  auto pressure = outside.begin();
   for (const Well &well : wells)
   {
-    const bool dry = well.is_dry(context, state, compressibility);
     for (unsigned int k = 0; k < well.perforations.size(); ++k)
     {
-      const Perforation &perforation = well.perforations[k];
-      const unsigned int n = perforation.segments.size();
-      const double q = well.perforation_rate(k, context, state);
-
-      // Unknowns: the segments' pressures, y_k, p_b
-      local.extra.clear();
-      for (const unsigned int i : perforation.segments)
-        local.extra.push_back(rows[i]);
-      if (!well.is_direct())
-        local.extra.push_back(well.first_index + k);
-      if (!well.is_direct() && !well.pressure_control)
-        local.extra.push_back(well.pressure_index());
-      local.reinit();
-
-      for (unsigned int i = 0; i < n; ++i)
-        local.residual(i) = dt * q / n;
-      if (!well.is_direct())
-      {
-        const double borehole_pressure =
-          well.pressure_control ? well.given(context) : state.current.extra[well.pressure_index()];
-        const double c = dt * well.conductance;
-        local.residual(n) =
-          c * (mean(perforation, pressures) - borehole_pressure + well.friction * q * std::abs(q));
-        for (unsigned int i = 0; i < n; ++i)
-          local.matrix(i, n) = local.matrix(n, i) = c / n;
-        local.matrix(n, n) = c * 2. * well.friction * std::abs(q) * well.conductance;
-        if (!well.pressure_control)
-        {
-          local.matrix(n, n + 1) = -c;
-          if (!dry)
-          {
-            local.residual(n + 1) = -dt * q;
-            local.matrix(n + 1, n) = -c;
-          }
-        }
-      }
-      sink.add(local);
+      assemble_perforation(well, k, context, state, *pressure++, rows, is_first_rank, local);
+      if (is_first_rank || !local.bulk.empty())
+        sink.add(local);
     }
-
-    if (!well.is_direct() && !well.pressure_control)
+    if (is_first_rank && !well.is_direct() && !well.pressure_control)
     {
-      const unsigned int index = well.pressure_index();
-      // The row of the balance, or that of the pressure, as a volume.
-      const double c = dry ? dt * well.conductance
-                           : well.volume * compressibility * context.fracture_pressure_factor();
-      const double reference =
-        dry ? well.minimum_pressure : state.fracture_reference(context).extra[index];
-      local.extra = {index};
-      local.reinit();
-      local.residual(0) =
-        (dry ? 0. : dt * well.given(context)) - c * (state.current.extra[index] - reference);
-      local.matrix(0, 0) = -c;
+      assemble_borehole(well, context, state, local);
       sink.add(local);
     }
   }
+}
+
+
+template <int dim>
+double Wells<dim>::magnitude_of_terms(const StepContext &context,
+                                      const State &state,
+                                      const std::vector<double> &outside) const
+{
+  double sum = 0.;
+  auto pressure = outside.begin();
+  for (const Well &well : wells)
+    for (unsigned int k = 0; k < well.perforations.size(); ++k, ++pressure)
+      if (well.in_rock && !well.is_direct())
+        sum += context.fracture_dt() * well.conductance *
+               (2. * std::abs(*pressure) +
+                2. * well.resistance(k) * std::abs(well.perforation_rate(k, context, state)));
+  return sum;
 }
 
 
@@ -396,6 +345,8 @@ FluidVolumes Wells<dim>::volumes(const StepContext &context, const State &state)
   {
     const double rate = well.rate(context, state, compressibility);
     (rate > 0. ? volumes.injected : volumes.outflow) += std::abs(rate) * context.dt;
+    for (unsigned int k = 0; well.in_rock && k < well.perforations.size(); ++k)
+      volumes.in_rock += well.perforation_rate(k, context, state) * context.dt;
     if (!well.is_direct() && !well.pressure_control)
     {
       const unsigned int index = well.pressure_index();
@@ -413,9 +364,10 @@ template <int dim>
 std::vector<WellReport> Wells<dim>::report(const StepContext &context,
                                            const State &state,
                                            const std::vector<double> &apertures,
-                                           const std::vector<double> &pressures) const
+                                           const std::vector<double> &outside) const
 {
   std::vector<WellReport> reports;
+  auto pressure = outside.begin();
   for (const Well &well : wells)
   {
     WellReport report;
@@ -424,49 +376,24 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
     report.wanted_rate = well.pressure_control ? report.rate : well.given(context);
     for (unsigned int k = 0; k < well.perforations.size(); ++k)
       report.perforation_rates.push_back(well.perforation_rate(k, context, state));
-    report.inlet_segment = well.perforations[0].segments[0];
-    report.inlet_pressure = mean(well.perforations[0], pressures);
-    report.inlet_aperture = mean(well.perforations[0], apertures);
+    report.inlet_pressure = *pressure;
+    report.inlet_aperture = std::numeric_limits<double>::quiet_NaN();
+    report.is_reached = well.is_reached;
+    if (!well.in_rock)
+    {
+      report.inlet_segment = well.perforations[0].segments[0];
+      report.inlet_aperture = mean(well.perforations[0], apertures);
+    }
 
     const double q = report.perforation_rates[0];
-    report.borehole_pressure = report.inlet_pressure + well.friction * q * std::abs(q);
+    report.borehole_pressure =
+      well.in_rock && !(well.resistance(0) > 0.)
+        ? std::numeric_limits<double>::quiet_NaN()
+        : report.inlet_pressure + well.resistance(0) * q + well.friction * q * std::abs(q);
     reports.push_back(std::move(report));
+    pressure += well.perforations.size();
   }
   return reports;
-}
-
-
-template <int dim>
-void Wells<dim>::check(const std::vector<InitialCrack<dim>> &cracks) const
-{
-  std::vector<dealii::Point<dim>> earlier;
-  for (const Well &well : wells)
-    for (const Perforation &perforation : well.perforations)
-    {
-      const auto complain = [&](const std::string &what)
-      { throw perforation_error(well, perforation, what); };
-      const InitialCrack<dim> *nearest = nullptr;
-      for (const InitialCrack<dim> &crack : cracks)
-        if (nearest == nullptr ||
-            crack.distance(perforation.point) < nearest->distance(perforation.point))
-          nearest = &crack;
-      if (nearest == nullptr)
-        complain("none. Give an initial crack there");
-      const double distance = nearest->distance(perforation.point), size = nearest->size();
-      if (!(distance <= 0.02 * size))
-        complain("none; '" + nearest->text + "' passes at a distance of " +
-                 to_string(distance, dimension::length) +
-                 ". Give an initial crack there, or move the point onto this one");
-      for (const InitialCrack<dim> &crack : cracks)
-        if (&crack != nearest &&
-            crack.distance(perforation.point) <= distance + 1e-6 * crack.size())
-          complain("two cracks at once, '" + nearest->text + "' and '" + crack.text +
-                   "'; move it onto one of them");
-      for (const auto &other : earlier)
-        if (other.distance(perforation.point) <= 1e-6 * size)
-          complain("one that is perforated at this place already; each perforation is given once");
-      earlier.push_back(perforation.point);
-    }
 }
 
 
@@ -497,7 +424,7 @@ double Wells<dim>::greatest_rate() const
 {
   double greatest = 0.;
   for (const Well &well : wells)
-    if (!well.pressure_control)
+    if (!well.pressure_control && !well.in_rock)
       greatest = std::max(greatest, well.value.magnitude());
   return greatest;
 }
@@ -508,23 +435,34 @@ std::optional<double> Wells<dim>::greatest_pressure() const
 {
   std::optional<double> greatest;
   for (const Well &well : wells)
-    if (well.pressure_control)
+    if (well.pressure_control && !well.in_rock)
       greatest = std::max(greatest.value_or(0.), well.value.magnitude());
   return greatest;
 }
 
 
 template <int dim>
+const typename Wells<dim>::Well *Wells<dim>::first_into_fracture() const
+{
+  const auto first =
+    std::find_if(wells.begin(), wells.end(), [](const Well &well) { return !well.in_rock; });
+  return first == wells.end() ? nullptr : &*first;
+}
+
+
+template <int dim>
 double Wells<dim>::first_rate(const double t) const
 {
-  return wells.empty() || wells[0].pressure_control ? 0. : wells[0].value(t, t);
+  const Well *const first = first_into_fracture();
+  return first == nullptr || first->pressure_control ? 0. : first->value(t, t);
 }
 
 
 template <int dim>
 double Wells<dim>::first_fraction() const
 {
-  return wells.empty() ? 1. : wells[0].fraction;
+  const Well *const first = first_into_fracture();
+  return first == nullptr ? 1. : first->fraction;
 }
 
 
@@ -532,10 +470,66 @@ template <int dim>
 std::vector<dealii::Point<dim>> Wells<dim>::first_perforations() const
 {
   std::vector<dealii::Point<dim>> points;
-  if (!wells.empty())
-    for (const Perforation &perforation : wells[0].perforations)
+  if (const Well *const first = first_into_fracture())
+    for (const Perforation &perforation : first->perforations)
       points.push_back(perforation.point);
   return points;
+}
+
+
+template <int dim>
+std::vector<typename Wells<dim>::SourceInRock> Wells<dim>::sources_in_rock() const
+{
+  std::vector<SourceInRock> sources;
+  for (unsigned int w = 0; w < wells.size(); ++w)
+    if (wells[w].in_rock && !wells[w].pressure_control)
+    {
+      SourceInRock source{w + 1,
+                          {},
+                          wells[w].fraction,
+                          wells[w].perforations[0].source->borehole_radius(),
+                          wells[w].value};
+      for (const Perforation &perforation : wells[w].perforations)
+        source.points.push_back(perforation.point);
+      sources.push_back(source);
+    }
+  return sources;
+}
+
+
+template <int dim>
+std::vector<typename Wells<dim>::SourceSize> Wells<dim>::sources() const
+{
+  std::vector<SourceSize> result;
+  for (const Well &well : wells)
+    for (const Perforation &perforation : well.perforations)
+      if (perforation.source)
+        result.push_back({well.name, perforation.source->source_radius(),
+                          perforation.source->borehole_radius() > 0.});
+  return result;
+}
+
+
+template <int dim>
+void Wells<dim>::save(boost::archive::binary_oarchive &archive) const
+{
+  for (const SourceSize &source : sources())
+    archive << source.radius;
+}
+
+
+template <int dim>
+void Wells<dim>::load(boost::archive::binary_iarchive &archive)
+{
+  has_started = true;
+  for (Well &well : wells)
+    for (Perforation &perforation : well.perforations)
+      if (perforation.source)
+      {
+        double radius;
+        archive >> radius;
+        perforation.source->set_source_radius(radius);
+      }
 }
 
 

@@ -20,6 +20,7 @@ struct Entry
   reference::Made<2> (*make_2d)(const ParameterHandler &, const ReferenceInput<2> &);
   reference::Made<3> (*make_3d)(const ParameterHandler &, const ReferenceInput<3> &);
   bool knows_anisotropic_rock = false;
+  bool knows_wells_in_rock = false;
 };
 
 const Entry table[] = {
@@ -42,6 +43,8 @@ const Entry table[] = {
   {"kgd carter", reference::make_kgd_carter, nullptr},
   {"kgd box", reference::make_kgd_box, nullptr},
   {"radial", nullptr, reference::make_radial},
+  {"line source", reference::make_sources<2>, nullptr, false, true},
+  {"point source", nullptr, reference::make_sources<3>, false, true},
 };
 
 
@@ -78,7 +81,7 @@ void declare_reference_parameters(ParameterHandler &prm)
     "toughness and viscosity; "
     "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
     "the rollers of the domain all round. radial (3-D): circular, at the deck's own toughness and "
-    "viscosity.");
+    "viscosity. line source, point source (3-D): wells into the rock, far from its sides.");
   prm.declare_entry("Wrong factors", "", Patterns::List(Patterns::Double()),
                     "For tests that a comparison can fail: the reference times each of these "
                     "numbers, separated by commas, is compared with as well (summary.json, "
@@ -129,6 +132,10 @@ std::unique_ptr<ReferenceSolution<dim>> make_reference(ParameterHandler &prm,
           "Verification/Reference", name,
           "'none', 'mandel' or 'line crack' where stiffness or permeability is another across "
           "the layers: the solution is of isotropic rock");
+      if (!entry.knows_wells_in_rock && !input.sources.empty())
+        throw EntryError(
+          "Verification/Reference", name,
+          "'none', 'line source' or 'point source' where a well opens into the rock");
       try
       {
         solution = maker<dim>(entry)(prm, input);

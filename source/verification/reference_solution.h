@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stockwork
@@ -72,6 +73,17 @@ public:
   bool compares_every_step = true;
 };
 
+/// A well that opens into the rock.
+template <int dim>
+struct ReferenceSource
+{
+  unsigned int number; ///< of the well, from 1
+  std::vector<dealii::Point<dim>> points;
+  double fraction;                              ///< "Fraction in model"
+  double borehole_radius;                       ///< 0: not given [m]
+  std::vector<std::pair<double, double>> rates; ///< time and the rate from it on [s, m^3/s]
+};
+
 /// What a reference solution may take from the deck besides its own subsection.
 template <int dim>
 struct ReferenceInput
@@ -96,6 +108,9 @@ struct ReferenceInput
 
   /// Where the first well opens into fractures.
   std::vector<dealii::Point<dim>> perforations = {};
+
+  /// Wells into the rock whose rate is given.
+  std::vector<ReferenceSource<dim>> sources = {};
 
   bool leaks = false;               ///< by any law
   bool layered = false;             ///< the mesh has regions

@@ -34,6 +34,8 @@ Made<2> make_kgd_box(const dealii::ParameterHandler &prm, const ReferenceInput<2
 template <int dim>
 Made<dim> make_cavity(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
 Made<2> make_footing(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+template <int dim>
+Made<dim> make_sources(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
 Made<3> make_penny_crack(const dealii::ParameterHandler &prm, const ReferenceInput<3> &input);
 Made<3> make_radial(const dealii::ParameterHandler &prm, const ReferenceInput<3> &input);
 
