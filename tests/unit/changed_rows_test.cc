@@ -68,6 +68,30 @@ double difference(const std::string &deck, std::vector<std::string> settings)
 } // namespace
 
 
+TEST_CASE("changes of rows are known since all rows were assembled, and add up")
+{
+  const auto rows = [](const std::vector<unsigned int> &list)
+  {
+    dealii::IndexSet set(10);
+    set.add_indices(list.begin(), list.end());
+    return set;
+  };
+  RowChanges changes;
+  CHECK_FALSE(changes.since(0)); // nobody has said anything
+  changes.anywhere(3);
+  CHECK_FALSE(changes.since(2));
+  REQUIRE(changes.since(3));
+  CHECK(changes.since(3)->n_elements() == 0);
+  changes.in(rows({1, 4}), 4);
+  changes.in(rows({4, 7}), 6);
+  CHECK(*changes.since(3) == rows({1, 4, 7}));
+  CHECK(*changes.since(4) == rows({4, 7}));
+  CHECK(changes.since(6)->n_elements() == 0);
+  changes.anywhere(7);
+  CHECK_FALSE(changes.since(6));
+}
+
+
 TEST_CASE("where bonds have broken, the matrix is what a new assembly makes it, to the last digit")
 {
   CHECK(difference("peridynamics.prm", {}) == 0.);
