@@ -416,8 +416,8 @@ void add_sources(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
     std::ostringstream text;
     text << std::setprecision(3) << "its fluid enters the pores over this radius";
     if (source.has_borehole)
-      text << "; the pressure in the borehole is that of steady radial flow within it, which it is "
-              "after some times "
+      text << "; the pressure in the borehole is that of steady radial flow within it, which comes "
+              "about in a few times R^2/(4 c) = "
            << time << " s";
     numbers.push_back({"source radius of '" + source.well + "' [m]", source.radius, text.str(),
                        source.has_borehole && time > 0.1 * duration});
