@@ -42,7 +42,8 @@ public:
   void accept(const StepContext &context, const Unknowns &committed, const Unknowns &current);
 
   /// The local error of the step relative to the size of the solution, the greater of displacement
-  /// and pressure, of order order()+1 in dt; negative while there is not enough history.
+  /// and pressure; relative to 1e-4 of the greatest size so far where less is left. Of order
+  /// order()+1 in dt; negative while there is not enough history.
   double error_estimate(const StepContext &context,
                         const Unknowns &committed,
                         const Unknowns &current) const;
@@ -73,7 +74,7 @@ public:
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &previous_dt &earlier_dt &n_accepted;
+    archive &previous_dt &earlier_dt &n_accepted &greatest_size;
   }
 
 private:
@@ -84,6 +85,7 @@ private:
 
   double previous_dt = 0., earlier_dt = 0.;
   unsigned int n_accepted = 0;
+  double greatest_size[2] = {0., 0.}; ///< of displacement and pressure so far, as norms (BDF2)
 
   Unknowns previous;     ///< the state before the committed one (not Newmark)
   Unknowns earlier;      ///< the one before that (BDF2, for the error estimate)

@@ -65,6 +65,11 @@ stockwork_case_test(NAME convergence/column/inertia DECK prm/column/inertia/none
 stockwork_case_test(NAME convergence/mandel/discrete DECK prm/benchmark/mandel_2d.prm LABELS quick
   EXPECT "errors/pore_pressure/final = 6.407281e-3 within 2e-6")
 
+# -- Drained long before the end: what is left of the pressure is rounding, which steps must not follow.
+stockwork_case_test(NAME convergence/column/drained DECK prm/column/plane_strain/none.prm LABELS quick
+  SET "Resolution=coarse" "Rock/Young modulus=20 GPa" "Verification/Reference=none"
+  EXPECT "steps < 1000" "rejected_steps < 50")
+
 # -- Orders. In space without seepage: where the pore fluid diffuses, the displacement follows the
 # pressure and has its order, two.
 stockwork_order_test(NAME convergence/order/space DECK prm/column/inertia/none.prm

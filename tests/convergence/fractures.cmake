@@ -224,3 +224,16 @@ stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics/direction
 if(TEST convergence/kgd/rotated/30/peridynamics/direction)
   set_tests_properties(convergence/kgd/rotated/30/peridynamics/direction PROPERTIES WILL_FAIL TRUE)
 endif()
+
+# In layered rock under unequal stress, fracture, layers and stress turned by 30 degrees against the mesh: along the mesh
+# the half-length is 4.2 m, the aperture 0.28505 mm and the net pressure 453.3 kPa.
+stockwork_case_test(NAME convergence/kgd/rotated/layered DECK prm/kgd/rotated/30/cohesive_xfem.prm
+  SET "Rock/Law=transversely isotropic" "Rock/Young modulus="
+      "Rock/transversely isotropic/Young modulus along=30 GPa"
+      "Rock/transversely isotropic/Young modulus across=12 GPa"
+      "Rock/transversely isotropic/Poisson ratio along=0.2" "Rock/transversely isotropic/Poisson ratio across=0.15"
+      "Rock/transversely isotropic/Shear modulus across=5 GPa" "Rock/Normal of the layers=-0.5, 0.8660254037844386"
+      "In situ/Stress=-21.5 MPa, -18.5 MPa, -2.598076211353316 MPa" "Verification/Reference=none"
+      "Time/End time=5 s" "Output/Fields=false"
+  EXPECT "final/equivalent_length = 4.2 within 0.003" "final/inlet_aperture = 0.28505e-3 within 0.003"
+         "final/net_inlet_pressure = 453.3e3 within 0.004" "rejected_steps < 5")

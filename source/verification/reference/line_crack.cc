@@ -42,6 +42,9 @@ StraightCrack straight_crack(const ReferenceInput<2> &input)
     throw InputError(
       "The reference solution of a pressurised crack is for one straight crack, rock "
       "without regions and in-situ stress without a gradient.");
+  if (input.crack_pressure < 0.)
+    throw InputError("The reference solution of a pressurised crack is for one that is open: "
+                     "'Cracks/Fluid pressure' is below the in-situ compression across the crack.");
   const Point<2> first = input.cracks[0].front(), last = input.cracks[0].back();
   const Tensor<1, 2> along = last - first;
   StraightCrack crack{(first + last) / 2., along.norm() / 2., std::atan2(along[1], along[0]), 2};
