@@ -143,10 +143,10 @@ private:
   /// d(fluid in the pores)/d(unknowns), the pressures' part at the rate of the displacement's.
   dealii::TrilinosWrappers::MPI::BlockVector content;
 
-  /// The matrix of a cut cell, and the cut and the inertia it was made for.
+  /// The matrix of a cut cell, and what it was made for.
   struct CutMatrix
   {
-    CutCell<dim> cut;
+    std::size_t fingerprint = 0; ///< of the functions that jump and their points
     double inertia = 0.;
     dealii::FullMatrix<double> matrix;
   };

@@ -258,10 +258,14 @@ void Newton<dim>::take_increment(const unsigned int iteration)
            (greatest.fracture_fluid > 0. ? n.fracture_fluid / greatest.fracture_fluid : 0.);
   };
   const double before = imbalance(norms);
+  // A tangent that is nearly singular, as where rock yields and does not know yet whether it will
+  // be unloaded, sends it further still.
+  const unsigned int most_halvings = all.nonlinear ? 8 : 4;
   move(factor);
   if ((unknowns.n_model_extra() > 0 || assembly.nonlinear_rock() != nullptr) && iteration > 0)
     for (unsigned int halving = 0;
-         halving < 4 && !(imbalance(norms) < (iteration < 6 ? 3. : 1.) * before); ++halving)
+         halving < most_halvings && !(imbalance(norms) < (iteration < 6 ? 3. : 1.) * before);
+         ++halving)
     {
       n_halved += halving == 0;
       factor *= 0.5;

@@ -5,7 +5,6 @@
 #include <cholmod.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace stockwork
@@ -13,10 +12,10 @@ namespace stockwork
 struct Cholesky::Instance
 {
   cholmod_common common{};
-  cholmod_sparse *matrix = nullptr; ///< by column, what lies above the diagonal
+  cholmod_sparse *matrix = nullptr; ///< pattern by column of what lies above the diagonal
   cholmod_factor *factor = nullptr;
-  cholmod_dense *solution = nullptr, *work_1 = nullptr, *work_2 = nullptr;
-  std::vector<int> places; ///< in the matrix, of the values given
+  cholmod_dense *work_1 = nullptr, *work_2 = nullptr;
+  std::vector<int> places; ///< in the matrix, of the values given; empty: they come in its order
 
   Instance()
   {
@@ -38,7 +37,7 @@ struct Cholesky::Instance
   {
     cholmod_free_sparse(&matrix, &common);
     cholmod_free_factor(&factor, &common);
-    for (cholmod_dense **dense : {&solution, &work_1, &work_2})
+    for (cholmod_dense **dense : {&work_1, &work_2})
       cholmod_free_dense(dense, &common);
   }
 
@@ -56,16 +55,18 @@ struct Cholesky::Instance
     throw SolveError(text);
   }
 
-  /// The solution is in `solution`.
-  void solve(double *const right_hand_sides, const std::size_t n_columns)
+  /// In place: CHOLMOD permutes the right-hand sides into `work_1`, solves there, and permutes back
+  /// into what it is given for the solution, which it takes as it is where the size fits.
+  void solve(double *const x, const std::size_t n_columns)
   {
     cholmod_dense b{};
     b.nrow = b.d = matrix->nrow;
     b.ncol = n_columns;
     b.nzmax = b.nrow * b.ncol;
-    b.x = right_hand_sides;
+    b.x = x;
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense same = b, *solution = &same;
     if (!cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &solution, nullptr, &work_1, &work_2,
                         &common))
       fail("solving");
@@ -84,7 +85,7 @@ void Cholesky::analyse(const int n, std::vector<int> rows, std::vector<int> colu
   instance->free();
   const std::size_t n_entries = rows.size();
   cholmod_sparse *&matrix = instance->matrix;
-  matrix = cholmod_allocate_sparse(n, n, n_entries, 0, 1, 1, CHOLMOD_REAL, &instance->common);
+  matrix = cholmod_allocate_sparse(n, n, n_entries, 0, 1, 1, CHOLMOD_PATTERN, &instance->common);
   if (matrix == nullptr)
     instance->fail("starting");
   // The columns of the upper triangle are the rows of the lower one.
@@ -102,6 +103,8 @@ void Cholesky::analyse(const int n, std::vector<int> rows, std::vector<int> colu
     indices[place] = columns[k] - 1;
     instance->places[k] = place;
   }
+  if (std::is_sorted(rows.begin(), rows.end()))
+    instance->places = {};
   instance->factor = cholmod_analyze(matrix, &instance->common);
   if (instance->factor == nullptr)
     instance->fail("ordering the matrix");
@@ -109,18 +112,23 @@ void Cholesky::analyse(const int n, std::vector<int> rows, std::vector<int> colu
 
 void Cholesky::factorise(std::vector<double> &values)
 {
-  double *const x = static_cast<double *>(instance->matrix->x);
-  for (std::size_t k = 0; k < values.size(); ++k)
-    x[instance->places[k]] = values[k];
-  if (!cholmod_factorize(instance->matrix, instance->factor, &instance->common) ||
-      instance->common.status != CHOLMOD_OK)
+  std::vector<double> in_order(instance->places.size());
+  for (std::size_t k = 0; k < in_order.size(); ++k)
+    in_order[instance->places[k]] = values[k];
+  cholmod_sparse &matrix = *instance->matrix;
+  matrix.x = in_order.empty() ? values.data() : in_order.data();
+  matrix.xtype = CHOLMOD_REAL;
+  const bool done = cholmod_factorize(&matrix, instance->factor, &instance->common) &&
+                    instance->common.status == CHOLMOD_OK;
+  matrix.x = nullptr; // nobody asks for the values again
+  matrix.xtype = CHOLMOD_PATTERN;
+  if (!done)
     instance->fail("factorising");
 }
 
 void Cholesky::solve(std::vector<double> &x, const int n_right_hand_sides)
 {
   instance->solve(x.data(), n_right_hand_sides);
-  std::memcpy(x.data(), instance->solution->x, x.size() * sizeof(double));
 }
 
 void Cholesky::solve_sparse(std::vector<int> &column_starts,
