@@ -77,7 +77,7 @@ ElementSettings parse_elements(ParameterHandler &prm,
 
 /// The greatest of the first well within a run, where pieces or a constant give it.
 template <int dim>
-double greatest_rate(const Network<dim> &network, const StepControl &control)
+double maximum_rate(const Network<dim> &network, const StepControl &control)
 {
   double greatest = network.rate_of_first_well(control.end_time);
   for (double t = control.start_time; t < control.end_time; t = network.next_jump(t))
@@ -223,7 +223,7 @@ std::vector<ReferenceSource<dim>> sources_in_rock(const Network<dim> &network,
   for (const auto &well : network.sources_in_rock())
   {
     ReferenceSource<dim> source{well.number, well.points, well.fraction, well.borehole_radius, {}};
-    const bool is_in_pieces = std::isfinite(well.rate.greatest());
+    const bool is_in_pieces = std::isfinite(well.rate.maximum());
     for (double t = control.start_time; is_in_pieces && t < control.end_time;)
     {
       const double next = std::min(well.rate.next_jump(t), control.end_time);
@@ -275,8 +275,8 @@ ReferenceInput<dim> reference_input(ParameterHandler &prm, const Case<dim> &the_
   };
   input.is_roller = [&the_case](const std::string &side)
   { return the_case.boundary_conditions.is_roller(the_case.geometry.side(side)); };
-  input.greatest_displacement = [&the_case](const double time)
-  { return the_case.boundary_conditions.greatest_displacement(time); };
+  input.maximum_displacement = [&the_case](const double time)
+  { return the_case.boundary_conditions.maximum_displacement(time); };
   const Point<dim> centre =
     the_case.geometry.lower() + 0.5 * (the_case.geometry.upper() - the_case.geometry.lower());
   input.law = &the_case.laws(0);
@@ -294,7 +294,7 @@ bool can_audit_energy(const Case<dim> &the_case)
 {
   bool moved = false; // at some time, for a cycle of load may end where it began
   for (unsigned int i = 0; i <= 100; ++i)
-    moved |= the_case.boundary_conditions.greatest_displacement(
+    moved |= the_case.boundary_conditions.maximum_displacement(
                the_case.control.start_time +
                0.01 * i * (the_case.control.end_time - the_case.control.start_time)) > 0.;
   return !the_case.elements.has_pore_pressure && the_case.in_situ.is_zero() &&
@@ -342,7 +342,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   network.set_pressures(scene.crack_pressure, scene.in_situ_stress);
   control.parse_parameters(prm);
   network.check_wells(control.start_time, control.end_time);
-  scene.injection_rate = greatest_rate(network, control);
+  scene.injection_rate = maximum_rate(network, control);
   in_situ.check(prm, rock.main().density,
                 std::isnan(scene.crack_pressure) ? scene.cracks : std::vector<InitialCrack<dim>>(),
                 warnings);

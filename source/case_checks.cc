@@ -283,7 +283,7 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
     throw EntryError(
       "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
       "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
-  if (the_case.network.may_boil() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
+  if (the_case.network.may_cavitate() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)

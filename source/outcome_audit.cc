@@ -41,7 +41,7 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
 
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
   {
-    const double speed = outcome.greatest_tip_speed / rayleigh_speed(rock);
+    const double speed = outcome.maximum_tip_speed / rayleigh_speed(rock);
     assumptions.push_back({"inertia left out: tip speed / Rayleigh speed", speed, speed < 0.1,
                            speed < 0.1
                              ? "waves settled long before the tips moved on"
@@ -71,9 +71,9 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
                     "describe this fracture"});
   }
 
-  // Where the deck lets the fluid boil, the lag is part of the model; where it gives the pressure,
-  // there is no flow.
-  if (!the_case.network.may_boil() && std::isnan(the_case.scene.crack_pressure))
+  // Where the deck lets the fluid cavitate, the lag is part of the model; where it gives the
+  // pressure, there is no flow.
+  if (!the_case.network.may_cavitate() && std::isnan(the_case.scene.crack_pressure))
   {
     const bool suction = outcome.minimum_pressure < vacuum;
     assumptions.push_back({"no fluid lag: minimum pressure in the fracture [Pa]",

@@ -13,14 +13,14 @@ namespace stockwork
 /// What a run has shown of the assumptions it was made with. Collected step by step.
 struct Outcome
 {
-  double length = 0.;             ///< of all cracks at the end [m]
-  double process_zone = 0.;       ///< part of it that still has strength [m]
-  unsigned int n_tips = 0;        ///< at the end
-  double greatest_tip_speed = 0.; ///< of one tip, averaged over a hundredth of the run [m/s]
-  double injected = 0.;           ///< [m^2]
-  double leaked = 0.;             ///< [m^2]
-  double inlet_pressure = 0.;     ///< total, at the end [Pa]
-  double minimum_pressure = 0.;   ///< total, of all segments at the end [Pa]
+  double length = 0.;            ///< of all cracks at the end [m]
+  double process_zone = 0.;      ///< part of it that still has strength [m]
+  unsigned int n_tips = 0;       ///< at the end
+  double maximum_tip_speed = 0.; ///< of one tip, averaged over a hundredth of the run [m/s]
+  double injected = 0.;          ///< [m^2]
+  double leaked = 0.;            ///< [m^2]
+  double inlet_pressure = 0.;    ///< total, at the end [Pa]
+  double minimum_pressure = 0.;  ///< total, of all segments at the end [Pa]
 
   /// The cracks had this length at this time.
   void grown_to(double new_length, double time, double window)
@@ -28,8 +28,8 @@ struct Outcome
     if (time - last_time < window)
       return;
     if (n_tips > 0 && last_time > 0.)
-      greatest_tip_speed =
-        std::max(greatest_tip_speed, (new_length - last_length) / (time - last_time) / n_tips);
+      maximum_tip_speed =
+        std::max(maximum_tip_speed, (new_length - last_length) / (time - last_time) / n_tips);
     last_length = new_length;
     last_time = time;
   }
@@ -37,7 +37,7 @@ struct Outcome
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &greatest_tip_speed &last_length &last_time;
+    archive &maximum_tip_speed &last_length &last_time;
   }
 
 private:

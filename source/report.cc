@@ -105,7 +105,7 @@ double Report<dim>::observe_rock(Values &values) const
   system.collectives().sum(sums);
   values["yielded_volume"] = sums[0];
   values["rock_dissipated_energy"] = sums[1];
-  const double used = system.collectives().max(mine.greatest_used);
+  const double used = system.collectives().max(mine.maximum_used);
   values["maximum_share_of_strength"] = sums[0] > 0. ? 1. : used;
   return sums[1];
 }
@@ -299,9 +299,9 @@ void Report<dim>::watch(const WellReport &well, const double net_pressure)
 {
   const std::string now = " at t = " + std::to_string(stepper.last_context().time) + " s.";
   // Faces in contact overlap a little, for they touch by a penalty.
-  greatest_inlet_aperture = std::max(greatest_inlet_aperture, well.inlet_aperture);
+  maximum_inlet_aperture = std::max(maximum_inlet_aperture, well.inlet_aperture);
   // While the wells rest, what is left of closed faces is rounding.
-  const double open = std::max(greatest_inlet_aperture, network.smallest_hydraulic_aperture());
+  const double open = std::max(maximum_inlet_aperture, network.smallest_hydraulic_aperture());
   if (well.inlet_aperture < -0.01 * open && !warned_of_aperture)
   {
     warned_of_aperture = true;

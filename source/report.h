@@ -67,7 +67,7 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
       .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
-      .fluid_balance.relative_error &external_work &peak_load &greatest_inlet_aperture &shown
+      .fluid_balance.relative_error &external_work &peak_load &maximum_inlet_aperture &shown
         &dry_wells &reached_wells;
     if (errors)
       archive &*errors;
@@ -111,10 +111,10 @@ private:
   const InSitu<dim> &in_situ;
   const Rock &rock;
   bool audits_energy;
-  double external_work = 0.;           ///< since the start [J/m]
-  double peak_load = 0.;               ///< greatest so far [N/m]
-  double greatest_inlet_aperture = 0.; ///< so far [m]
-  std::string cost_of_fracture;        ///< see FractureSummary
+  double external_work = 0.;          ///< since the start [J/m]
+  double peak_load = 0.;              ///< greatest so far [N/m]
+  double maximum_inlet_aperture = 0.; ///< so far [m]
+  std::string cost_of_fracture;       ///< see FractureSummary
   const dealii::Mapping<dim> &mapping;
   const ReferenceSolution<dim> *reference;
   StepControl control;

@@ -93,9 +93,9 @@ Scales scales_of(const Scene<dim> &scene,
   };
   if (rock.energy_release_rate > 0.)
     consider(rock.toughness() / std::sqrt(numbers::PI * a), "toughness");
-  if (const double rate = network.greatest_rate(); rate > 0. && std::isfinite(viscosity))
+  if (const double rate = network.maximum_rate(); rate > 0. && std::isfinite(viscosity))
     consider(viscous_pressure(dim, a, modulus, viscosity, rate), "viscosity and rate");
-  if (const auto pressure = network.greatest_pressure())
+  if (const auto pressure = network.maximum_pressure())
     consider(std::abs(*pressure - closing), "pressure of a well");
   if (scene.crack_pressure - closing != 0.) // not NaN either
     consider(std::abs(scene.crack_pressure - closing), "pressure in the cracks");

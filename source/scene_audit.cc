@@ -317,7 +317,7 @@ void add_strength(const Case<dim> &the_case,
                      law.used(state), law.describe() + "; from 1 on the rock yields"});
   if (the_case.scene.cracks.empty() || std::isnan(rock.tensile_strength))
     return;
-  const bool is_full = the_case.network.has_wells() && !the_case.network.may_boil();
+  const bool is_full = the_case.network.has_wells() && !the_case.network.may_cavitate();
   const auto principal = eigenvectors(state.in_situ_stress);
   const SymmetricTensor<2, 3> across =
     symmetrize(outer_product(principal[0].second, principal[0].second));
@@ -478,7 +478,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
 
   if (the_case.elements.has_pore_pressure)
     add_sources(the_case, numbers);
-  for (const auto &[well, pressure] : the_case.network.least_well_pressures())
+  for (const auto &[well, pressure] : the_case.network.minimum_well_pressures())
     numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,
                        "at it, what the well takes is what flows (Minimum pressure)"});
 

@@ -335,7 +335,7 @@ void Simulation<dim>::say_how_far_rock_went() const
   if (rock == nullptr || !rock->remembers())
     return;
   const double volume = Utilities::MPI::sum(rock->totals().yielded_volume, run.communicator);
-  const double used = Utilities::MPI::max(rock->totals().greatest_used, run.communicator);
+  const double used = Utilities::MPI::max(rock->totals().maximum_used, run.communicator);
   if (volume > 0.)
     run.out << "The rock has yielded in " << volume << (dim == 2 ? " m^2" : " m^3") << "."
             << std::endl;

@@ -16,7 +16,7 @@
 
 An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
 (`errors/pore_pressure/final`), or is `rates/COLUMN` of statistics.csv, its growth per time in the
-second half of the run, or `least/COLUMN` or `greatest/COLUMN`, of all steps, or
+second half of the run, or `minimum/COLUMN` or `maximum/COLUMN`, of all steps, or
 `closure/QUANTITY` of contrib/closure.py; OP is one of
 < <= > >= ==, or = which needs the relative TOLERANCE;
 VALUE is a number or another path. A list stands for its length (`warnings == 0`), and what is
@@ -200,11 +200,11 @@ def run_case(runner, options):
     summary = runner.run("run", options.deck, settings, options.ranks)
     if any(e.path.startswith("rates/") for e in expectations):
         summary["rates"] = late_rates(read_statistics(runner.output("run")))
-    if any(e.path.startswith(("least/", "greatest/")) for e in expectations):
+    if any(e.path.startswith(("minimum/", "maximum/")) for e in expectations):
         columns = {name: [x for x in column if isinstance(x, float)]
                    for name, column in read_statistics(runner.output("run")).items()}
-        summary["least"] = {name: min(column) for name, column in columns.items() if column}
-        summary["greatest"] = {name: max(column) for name, column in columns.items() if column}
+        summary["minimum"] = {name: min(column) for name, column in columns.items() if column}
+        summary["maximum"] = {name: max(column) for name, column in columns.items() if column}
     if any(e.path.startswith("closure/") for e in expectations):
         summary["closure"] = closure(read_statistics(runner.output("run")))[0]
     failed = check_all(expectations, summary)

@@ -432,7 +432,7 @@ void BoundaryConditions<dim>::set_reference(std::shared_ptr<Function<dim>> solut
 
 
 template <int dim>
-double BoundaryConditions<dim>::greatest_displacement(const double time) const
+double BoundaryConditions<dim>::maximum_displacement(const double time) const
 {
   double greatest = 0.;
   for (const Dirichlet &condition : dirichlet)

@@ -78,7 +78,7 @@ public:
 
   /// The greatest component of displacement prescribed at a time, where it is the same along a side
   /// [m].
-  double greatest_displacement(double time) const;
+  double maximum_displacement(double time) const;
 
   /// Is there any condition on pore pressure or flux?
   bool mentions_pore_pressure() const;

@@ -139,7 +139,7 @@ void InSitu<dim>::check(ParameterHandler &prm,
                         std::vector<std::string> &warnings) const
 {
   // For messages and plausibility only: of water, and a density that no rock has.
-  constexpr double gravity = 9.81, fluid_density = 1000., greatest_density = 2e4;
+  constexpr double gravity = 9.81, fluid_density = 1000., maximum_density = 2e4;
   prm.enter_subsection("In situ");
   const std::string stress_text = prm.get("Stress"), gradient_text = prm.get("Stress gradient"),
                     pressure_text = prm.get("Pore pressure gradient");
@@ -152,11 +152,11 @@ void InSitu<dim>::check(ParameterHandler &prm,
                        "no gradient of a shear component with the vertical: nothing would hold the "
                        "rock sideways");
   const double weight = stress_gradient[dim - 1][dim - 1];
-  if (weight < 0. || weight > greatest_density * gravity)
+  if (weight < 0. || weight > maximum_density * gravity)
     throw EntryError("In situ/Stress gradient", gradient_text,
                      "a vertical component that is in equilibrium with the rock's weight, rho g: "
                      "compression grows downwards");
-  if (pressure_gradient > 0. || pressure_gradient < -greatest_density * gravity)
+  if (pressure_gradient > 0. || pressure_gradient < -maximum_density * gravity)
     throw EntryError("In situ/Pore pressure gradient", pressure_text,
                      "a value in equilibrium with the fluid's weight, -rho g: "
                      "the pressure grows downwards");

@@ -152,8 +152,8 @@ void NonlinearRock<dim>::find_history(const CellIterator &cell)
 namespace
 {
 /// The greatest change of an unknown of a block, ghosts included.
-double greatest_change(const TrilinosWrappers::MPI::Vector &now,
-                       const TrilinosWrappers::MPI::Vector &before)
+double maximum_change(const TrilinosWrappers::MPI::Vector &now,
+                      const TrilinosWrappers::MPI::Vector &before)
 {
   const auto &a = now.trilinos_vector(), &b = before.trilinos_vector();
   double greatest = 0.;
@@ -167,7 +167,7 @@ double greatest_change(const TrilinosWrappers::MPI::Vector &now,
 template <int dim>
 void NonlinearRock<dim>::look_around(const State &state, const Unknowns &unknowns)
 {
-  last_totals.greatest_used = 0.;
+  last_totals.maximum_used = 0.;
   for (Watched &item : watched)
   {
     const RockLaw &law = this->law(item.cell);
@@ -184,7 +184,7 @@ void NonlinearRock<dim>::look_around(const State &state, const Unknowns &unknown
         sum += evaluator->gradient(a * dim, q).norm();
       steepest = std::max(steepest, sum);
       if (committed[q] == nullptr)
-        last_totals.greatest_used = std::max(last_totals.greatest_used, law.used(states[q]));
+        last_totals.maximum_used = std::max(last_totals.maximum_used, law.used(states[q]));
     }
     // |stress| <= max(3 K, 2 G) |strain| with |strain| <= sum_a |grad N_a| |u_a|; in anisotropic
     // rock the norm of the stiffness is no less.
@@ -206,9 +206,8 @@ void NonlinearRock<dim>::visit(const State &state, const Use &use)
   if (!has_looked)
     look_around(state, state.committed);
   const auto &now = state.current.bulk;
-  const double moved = greatest_change(now.block(0), looked_at.block(0)),
-               pressed =
-                 now.n_blocks() > 1 ? greatest_change(now.block(1), looked_at.block(1)) : 0.;
+  const double moved = maximum_change(now.block(0), looked_at.block(0)),
+               pressed = now.n_blocks() > 1 ? maximum_change(now.block(1), looked_at.block(1)) : 0.;
   for (const Watched &item : watched)
   {
     const CellRole<dim> cell_role = role(item.cell);

@@ -76,7 +76,7 @@ public:
     double content = 0.;           ///< the same since in situ
     double outflow = 0.;           ///< of it, where the pore pressure is prescribed
     double yielded_volume = 0.;    ///< of points with a history [m^3 (/m)]
-    double greatest_used = 0.;     ///< of the linear range, by points without
+    double maximum_used = 0.;      ///< of the linear range, by points without
     double dissipated_energy = 0.; ///< in the rock [J (/m)]
 
     std::set<std::string> remarks; ///< of laws on points

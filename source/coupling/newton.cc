@@ -13,9 +13,9 @@ using namespace dealii;
 
 namespace
 {
-/// Residual of the linear system that Newton's method is content with, and at first where the rock
-/// has left its linear range: there each digit is paid for with back-substitutions.
-constexpr double newton_tolerance = 1e-6, first_tolerance = 1e-3;
+/// Residual of the linear system that Newton's method is content with. Looser ones at first save
+/// some back-substitutions where rock yields, and cost steps where it is perfectly plastic.
+constexpr double newton_tolerance = 1e-6;
 } // namespace
 
 
@@ -74,7 +74,7 @@ Newton<dim>::Newton(const NewtonTools<dim> &tools,
 template <int dim>
 ResidualNorms Newton<dim>::allowed()
 {
-  greatest.keep_greatest(norms);
+  greatest.keep_maximum(norms);
   // Forces of the bulk and of the fracture balance one another, so they share a scale: what the
   // rock exerts on the fracture, for a solve may start in equilibrium and with no residual.
   const auto begin = assembly.linear_residual_of_extra().begin();
@@ -124,34 +124,16 @@ LinearReport Newton<dim>::solve_condensed()
 
 
 template <int dim>
-double Newton<dim>::linear_tolerance() const
-{
-  if (linear)
-    return parameters.tolerance;
-  if (assembly.linear_system().rock_change == nullptr)
-    return newton_tolerance;
-  // What an iteration leaves goes with the square of what was left before it: more than two digits
-  // beyond that are of no use (Dembo, Eisenstat and Steihaug 1982).
-  const auto share = [](const double now, const double most)
-  { return most > 0. ? now / most : 0.; };
-  const double left = std::max({share(norms.momentum, force), share(norms.extra, force),
-                                share(norms.mass, greatest.mass),
-                                share(norms.fracture_fluid, greatest.fracture_fluid)});
-  return std::clamp(0.01 * left * left, newton_tolerance, first_tolerance);
-}
-
-
-template <int dim>
 bool Newton<dim>::find_increment(NonlinearReport &report)
 {
   try
   {
     const auto scope = run.timers.scope("solve");
     condense();
-    const LinearReport linear_report = condensed
-                                         ? solve_condensed()
-                                         : solver.solve(assembly.linear_system(), assembly.stamps(),
-                                                        linear_tolerance(), dx_bulk, dx_extra);
+    const LinearReport linear_report =
+      condensed ? solve_condensed()
+                : solver.solve(assembly.linear_system(), assembly.stamps(),
+                               linear ? parameters.tolerance : newton_tolerance, dx_bulk, dx_extra);
     report.linear_iterations += linear_report.iterations;
     run.timers.move("solve", "preconditioner", linear_report.setup_seconds);
     if (linear_report.is_good_enough())
@@ -231,11 +213,11 @@ double Newton<dim>::pressure_factor() const
 {
   // A fracture that is pumped open at once takes, for a moment, many times the pressure that
   // drives it later: the limit must let it come, and only keep it from a single leap.
-  double greatest_change = network.typical_pressure(), factor = 1.;
+  double maximum_change = network.typical_pressure(), factor = 1.;
   for (unsigned int i = unknowns.n_model_extra(); i < unknowns.n_extra(); ++i)
     if (!network.is_of_rock(i))
-      greatest_change = std::max(greatest_change, std::abs(current.extra[i] - extra_at_start[i]));
-  const double limit = parameters.pressure_limit.value_or(greatest_change);
+      maximum_change = std::max(maximum_change, std::abs(current.extra[i] - extra_at_start[i]));
+  const double limit = parameters.pressure_limit.value_or(maximum_change);
   for (unsigned int i = unknowns.n_model_extra(); i < unknowns.n_extra(); ++i)
     if (const double change = std::abs(dx_extra[i]);
         factor * change > limit && !network.is_of_rock(i))
@@ -257,10 +239,11 @@ void Newton<dim>::take_increment(const unsigned int iteration)
     return std::hypot(n.momentum, n.extra) / force +
            (greatest.fracture_fluid > 0. ? n.fracture_fluid / greatest.fracture_fluid : 0.);
   };
-  const double before = imbalance(norms);
+  // What is below the tolerance is none, and may grow.
+  const double before = std::max(imbalance(norms), parameters.tolerance);
   // A tangent that is nearly singular, as where rock yields and does not know yet whether it will
   // be unloaded, sends it further still.
-  const unsigned int most_halvings = all.nonlinear ? 8 : 4;
+  const unsigned int most_halvings = assembly.nonlinear_rock() != nullptr ? 8 : 4;
   move(factor);
   if ((unknowns.n_model_extra() > 0 || assembly.nonlinear_rock() != nullptr) && iteration > 0)
     for (unsigned int halving = 0;

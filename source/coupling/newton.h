@@ -92,9 +92,6 @@ private:
            norms.fracture_fluid <= allowed.fracture_fluid;
   }
 
-  /// Of the linear system.
-  double linear_tolerance() const;
-
   /// Fill `dx_bulk` and `dx_extra`. Returns whether they can be used; else the report says why not.
   bool find_increment(NonlinearReport &report);
 

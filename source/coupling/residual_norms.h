@@ -12,7 +12,7 @@ struct ResidualNorms
   double extra = 0.;          ///< the fracture model's own, such as forces on the faces
   double fracture_fluid = 0.; ///< [m^3 (/m)]
 
-  void keep_greatest(const ResidualNorms &other)
+  void keep_maximum(const ResidualNorms &other)
   {
     momentum = std::max(momentum, other.momentum);
     mass = std::max(mass, other.mass);

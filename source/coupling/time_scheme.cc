@@ -211,7 +211,7 @@ void TimeScheme::accept(const StepContext &context,
     combine(previous, 1., committed, 0., committed);
   if (scheme == Kind::bdf2)
     for (unsigned int k = 0; k < current.bulk.n_blocks(); ++k)
-      greatest_size[k] = std::max(greatest_size[k], owned(current.bulk.block(k)).l2_norm());
+      maximum_size[k] = std::max(maximum_size[k], owned(current.bulk.block(k)).l2_norm());
   earlier_dt = previous_dt;
   previous_dt = context.dt;
   ++n_accepted;
@@ -240,8 +240,8 @@ double TimeScheme::error_estimate(const StepContext &context,
   {
     TrilinosWrappers::MPI::Vector error = owned(current.bulk.block(k)), point(error);
     // Once the pores have drained their pressure is rounding, whose error is as large as itself.
-    constexpr double least_share = 1e-4;
-    const double size = std::max(error.l2_norm(), least_share * greatest_size[k]);
+    constexpr double minimum_share = 1e-4;
+    const double size = std::max(error.l2_norm(), minimum_share * maximum_size[k]);
     const Unknowns *last[] = {&committed, &previous, &earlier};
     error *= weights[0];
     for (unsigned int i = 0; i < 3; ++i)

@@ -74,7 +74,7 @@ public:
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &previous_dt &earlier_dt &n_accepted &greatest_size;
+    archive &previous_dt &earlier_dt &n_accepted &maximum_size;
   }
 
 private:
@@ -85,7 +85,7 @@ private:
 
   double previous_dt = 0., earlier_dt = 0.;
   unsigned int n_accepted = 0;
-  double greatest_size[2] = {0., 0.}; ///< of displacement and pressure so far, as norms (BDF2)
+  double maximum_size[2] = {0., 0.}; ///< of displacement and pressure so far, as norms (BDF2)
 
   Unknowns previous;     ///< the state before the committed one (not Newmark)
   Unknowns earlier;      ///< the one before that (BDF2, for the error estimate)

@@ -45,10 +45,10 @@ typename FaceContact<dim>::Patch FaceContact<dim>::patch(const Discontinuity<dim
   for (unsigned int i = patch.first; i <= patch.last; ++i)
   {
     patch.length += pieces[i].length();
-    if (least_gap)
-      patch.least_gap += pieces[i].length() * least_gap(crack, i);
+    if (minimum_gap)
+      patch.minimum_gap += pieces[i].length() * minimum_gap(crack, i);
   }
-  patch.least_gap /= patch.length;
+  patch.minimum_gap /= patch.length;
   for (unsigned int i = patch.first; i <= patch.last; ++i)
     for (const auto &[unknown, unit] : discontinuity.mean_jumps(crack, i))
     {
@@ -99,7 +99,7 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   const double seam = broken < 1. && closing ? 10. : 1.;
   const double plane_modulus = rock(piece.region).plane_modulus();
   const ContactLaw law{seam * stiffness * plane_modulus / piece.cell_size(), friction};
-  return law.evaluate(jump * piece.normal() - patch.least_gap, jump * piece.along,
+  return law.evaluate(jump * piece.normal() - patch.minimum_gap, jump * piece.along,
                       has_friction() ? slip(piece) : 0., broken, carried_by(piece));
 }
 
@@ -153,7 +153,7 @@ bool FaceContact<dim>::press(const Discontinuity<dim> &discontinuity,
   const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
   const double gap = std::abs(response.gap);
   // Where faces have not parted yet, what is left of a penalty's overlap is the measure.
-  if (response.normal == 0. || gap <= 0.005 * std::max(opening, greatest_opening) ||
+  if (response.normal == 0. || gap <= 0.005 * std::max(opening, maximum_opening) ||
       gap * response.tangent[0][0] <= -0.01 * response.normal)
     return false;
   carried[discontinuity.paths()[crack].pieces[index].key(domain_size)] = response.normal;
@@ -169,7 +169,7 @@ void FaceContact<dim>::commit(const Discontinuity<dim> &discontinuity,
                               const double broken)
 {
   const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
-  greatest_opening = std::max(greatest_opening, response.gap);
+  maximum_opening = std::max(maximum_opening, response.gap);
   touched = touched || (response.normal < 0. && broken >= 1.);
   const Patch patch = this->patch(discontinuity, crack, index);
   if (index != patch.first)

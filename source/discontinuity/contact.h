@@ -44,9 +44,9 @@ public:
   static void declare_parameters(dealii::ParameterHandler &prm);
 
   /// Proppant keeps faces this far apart [m], by crack and piece; null: nothing does.
-  void keep_apart(std::function<double(unsigned int, unsigned int)> least_gap)
+  void keep_apart(std::function<double(unsigned int, unsigned int)> minimum_gap)
   {
-    this->least_gap = std::move(least_gap);
+    this->minimum_gap = std::move(minimum_gap);
   }
 
   bool has_friction() const
@@ -108,7 +108,7 @@ public:
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &slips &pressed &friction_work &greatest_opening &touched &said;
+    archive &slips &pressed &friction_work &maximum_opening &touched &said;
   }
 
 private:
@@ -117,7 +117,7 @@ private:
   {
     unsigned int first = 0, last = 0; ///< pieces
     double length = 0.;               ///< [m]
-    double least_gap = 0.;            ///< mean [m]
+    double minimum_gap = 0.;          ///< mean [m]
     std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> jumps;
   };
   Patch
@@ -129,13 +129,13 @@ private:
   double friction, stiffness;
   const Rock &rock;
   double domain_size;
-  std::function<double(unsigned int, unsigned int)> least_gap;
+  std::function<double(unsigned int, unsigned int)> minimum_gap;
 
   // Committed, the same on all ranks.
   std::unordered_map<std::uint64_t, double> slips;   ///< by key of the first piece [m]
   std::unordered_map<std::uint64_t, double> pressed; ///< likewise, where faces touch [Pa]
   double friction_work = 0.;
-  double greatest_opening = 0.; ///< so far [m]
+  double maximum_opening = 0.; ///< so far [m]
   bool touched = false, said = false;
 
   std::unordered_map<std::uint64_t, double> carried; ///< in this step: see press()

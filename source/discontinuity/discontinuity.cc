@@ -117,7 +117,7 @@ void Discontinuity<dim>::cut(
           tip.along = out / out.norm();
           tip.field = std::make_shared<const NearTipField>(
             rock_of_region(cracks.back().piece_at(end).region), tip.along);
-          tip.radius = greatest_tip_radius(mesh_view->triangulation, polyline, end, collectives);
+          tip.radius = maximum_tip_radius(mesh_view->triangulation, polyline, end, collectives);
           tips.push_back(tip);
         }
   }

@@ -158,10 +158,10 @@ shifted_tip_functions(const CrackTip<dim> &tip,
 }
 
 template <int dim>
-double greatest_tip_radius(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                           const std::vector<Point<dim>> &polyline,
-                           const CrackEnd end,
-                           const Collectives &collectives)
+double maximum_tip_radius(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                          const std::vector<Point<dim>> &polyline,
+                          const CrackEnd end,
+                          const Collectives &collectives)
 {
   const bool first = end == CrackEnd::first;
   const Point<dim> &tip = first ? polyline.front() : polyline.back();
@@ -184,8 +184,8 @@ shifted_tip_functions(const CrackTip<2> &,
                       const std::vector<Point<2>> &,
                       const unsigned int,
                       const CrackPiece<2> *);
-template double greatest_tip_radius(const dealii::parallel::distributed::Triangulation<2> &,
-                                    const std::vector<Point<2>> &,
-                                    const CrackEnd,
-                                    const Collectives &);
+template double maximum_tip_radius(const dealii::parallel::distributed::Triangulation<2> &,
+                                   const std::vector<Point<2>> &,
+                                   const CrackEnd,
+                                   const Collectives &);
 } // namespace stockwork

@@ -70,8 +70,8 @@ shifted_tip_functions(const CrackTip<dim> &tip,
 /// The greatest radius that keeps the functions of an end of a crack on its straight part, inside
 /// the domain and clear of hanging nodes. Collective.
 template <int dim>
-double greatest_tip_radius(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                           const std::vector<dealii::Point<dim>> &polyline,
-                           const CrackEnd end,
-                           const Collectives &collectives);
+double maximum_tip_radius(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                          const std::vector<dealii::Point<dim>> &polyline,
+                          const CrackEnd end,
+                          const Collectives &collectives);
 } // namespace stockwork

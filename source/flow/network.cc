@@ -62,7 +62,7 @@ void Network<dim>::parse_parameters(dealii::ParameterHandler &prm)
   prm.leave_subsection();
   if (leak_off == LeakOff::carter && carter_coefficient == 0.)
     throw EntryError("Fracture flow/Carter coefficient", "0", "a value > 0 with Carter leak-off");
-  if (leak_off == LeakOff::carter && may_boil())
+  if (leak_off == LeakOff::carter && may_cavitate())
     throw EntryError("Fracture flow/Vapour pressure", vapour_text,
                      "-inf with Carter leak-off, which takes fluid that may not be there");
   if (leak_off == LeakOff::filter_cake && filter_cake_coefficient == 0.)
@@ -458,7 +458,7 @@ void Network<dim>::find_vapour(const StepContext &context, Values &values) const
 {
   values.vapour.assign(network.size(), 0.);
   values.cavitates.assign(network.size(), false);
-  if (!may_boil())
+  if (!may_cavitate())
     return;
   const double dt = context.fracture_dt();
   const double c_f = compressibility * context.fracture_pressure_factor();

@@ -39,7 +39,7 @@ namespace stockwork
 /// and part of the segment is vapour, which weighs nothing (after Jakobsson, Floberg and Olsson;
 /// see Elrod 1981). The fluid then lags behind the tip, and none is lost:
 ///
-///   p >= p_least,  A w >= volume of the fluid,  one of the two is an equality.
+///   p >= p_min,  A w >= volume of the fluid,  one of the two is an equality.
 ///
 /// The minimum aperture enters the conductivity only. It should be small beside the aperture near
 /// the tip: in viscous fluid, 2 um runs as well as 10 um.
@@ -219,7 +219,7 @@ public:
   }
 
   /// The fluid may lag behind the tips.
-  bool may_boil() const
+  bool may_cavitate() const
   {
     return std::isfinite(vapour_pressure);
   }
@@ -236,20 +236,20 @@ public:
   }
 
   /// Of wells that may produce, by name [Pa].
-  std::vector<std::pair<std::string, double>> least_well_pressures() const
+  std::vector<std::pair<std::string, double>> minimum_well_pressures() const
   {
-    return all_wells.least_pressures();
+    return all_wells.minimum_pressures();
   }
 
   /// See Wells.
-  double greatest_rate() const
+  double maximum_rate() const
   {
-    return all_wells.greatest_rate();
+    return all_wells.maximum_rate();
   }
 
-  std::optional<double> greatest_pressure() const
+  std::optional<double> maximum_pressure() const
   {
-    return all_wells.greatest_pressure();
+    return all_wells.maximum_pressure();
   }
 
   unsigned int n_wells() const
@@ -347,10 +347,10 @@ private:
   Transmissibility
   transmissibility(unsigned int segment, const Edge &edge, const Values &values) const;
 
-  /// Which segments boil, and how much vapour there is in them.
+  /// Which segments cavitate, and how much vapour there is in them.
   void find_vapour(const StepContext &, Values &) const;
 
-  /// What a segment's row is divided by where it says p = p_least, to be a volume [m^3/Pa].
+  /// What a segment's row is divided by where it says p = p_min, to be a volume [m^3/Pa].
   double vapour_scale(unsigned int segment) const
   {
     return network[segment].area * minimum_aperture / pressure_scale;

@@ -140,13 +140,13 @@ double TimeHistory::magnitude() const
   return largest;
 }
 
-double TimeHistory::least() const
+double TimeHistory::minimum() const
 {
   return expression ? -std::numeric_limits<double>::infinity()
                     : *std::min_element(values.begin(), values.end());
 }
 
-double TimeHistory::greatest() const
+double TimeHistory::maximum() const
 {
   return expression ? std::numeric_limits<double>::infinity()
                     : *std::max_element(values.begin(), values.end());

@@ -40,10 +40,10 @@ public:
   double magnitude() const;
 
   /// The least value; of an expression, unknown: minus infinity.
-  double least() const;
+  double minimum() const;
 
   /// The greatest value; of an expression, unknown: infinity.
-  double greatest() const;
+  double maximum() const;
 
   /// @throws EntryError with what is allowed instead
   [[noreturn]] void refuse(const std::string &allowed) const;

@@ -398,7 +398,7 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
 
 
 template <int dim>
-std::vector<std::pair<std::string, double>> Wells<dim>::least_pressures() const
+std::vector<std::pair<std::string, double>> Wells<dim>::minimum_pressures() const
 {
   std::vector<std::pair<std::string, double>> result;
   for (const Well &well : wells)
@@ -420,7 +420,7 @@ void Wells<dim>::set_scales(const double pressure, const double typical_rate)
 
 
 template <int dim>
-double Wells<dim>::greatest_rate() const
+double Wells<dim>::maximum_rate() const
 {
   double greatest = 0.;
   for (const Well &well : wells)
@@ -431,7 +431,7 @@ double Wells<dim>::greatest_rate() const
 
 
 template <int dim>
-std::optional<double> Wells<dim>::greatest_pressure() const
+std::optional<double> Wells<dim>::maximum_pressure() const
 {
   std::optional<double> greatest;
   for (const Well &well : wells)

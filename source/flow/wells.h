@@ -58,9 +58,9 @@ struct WellReport
 /// A well of given rate with one perforation and no storage needs no unknown.
 ///
 /// A well cannot take what is not there. Where its rate may be negative, its pressure is at least
-/// p_least, and the rate becomes what flows at that pressure:
+/// p_min, and the rate becomes what flows at that pressure:
 ///
-///   p_b >= p_least,  V c_f dp_b/dt + sum_i q_i >= Q,  one of the two is an equality.
+///   p_b >= p_min,  V c_f dp_b/dt + sum_i q_i >= Q,  one of the two is an equality.
 ///
 /// The unknown of a rate is y = q/c, and its equation is multiplied by c, with c the well's
 /// conductance at the scene's pressure, or 1/r: like all others of the flow it then is a pressure,
@@ -72,9 +72,9 @@ public:
   /// Subsection "Wells".
   static void declare_parameters(dealii::ParameterHandler &prm);
 
-  /// @param boiling_pressure of the fluid, -infinity where the deck gives none [Pa]
+  /// @param vapour_pressure of the fluid, -infinity where the deck gives none [Pa]
   /// @throws InputError
-  void parse_parameters(dealii::ParameterHandler &prm, double boiling_pressure);
+  void parse_parameters(dealii::ParameterHandler &prm, double vapour_pressure);
 
   void set_compressibility(const double fluid_compressibility)
   {
@@ -86,10 +86,10 @@ public:
   void set_scales(double pressure, double typical_rate);
 
   /// The greatest rate that is given, of a whole well into a fracture.
-  double greatest_rate() const;
+  double maximum_rate() const;
 
   /// The greatest magnitude of a pressure that is given to a well into a fracture, if one is.
-  std::optional<double> greatest_pressure() const;
+  std::optional<double> maximum_pressure() const;
 
   bool empty() const
   {
@@ -177,7 +177,7 @@ public:
   bool starts_at(double t) const;
 
   /// Names of the wells whose pressure is bounded below, and the bounds [Pa].
-  std::vector<std::pair<std::string, double>> least_pressures() const;
+  std::vector<std::pair<std::string, double>> minimum_pressures() const;
 
   /// Rate of the first well into a fracture as the deck gives it, for the whole fracture; zero
   /// where there is none or its pressure is given.
@@ -298,8 +298,7 @@ private:
   };
 
   /// The well of a subsection that has been entered.
-  static Well
-  read_well(dealii::ParameterHandler &prm, unsigned int number, double boiling_pressure);
+  static Well read_well(dealii::ParameterHandler &prm, unsigned int number, double vapour_pressure);
 
   /// What is wrong with the place of a perforation.
   static EntryError

@@ -116,7 +116,7 @@ void Wells<dim>::declare_parameters(dealii::ParameterHandler &prm)
 template <int dim>
 typename Wells<dim>::Well Wells<dim>::read_well(dealii::ParameterHandler &prm,
                                                 const unsigned int number,
-                                                const double boiling_pressure)
+                                                const double vapour_pressure)
 {
   const std::string path = "Wells/" + section(number) + "/";
   Well well;
@@ -144,8 +144,8 @@ typename Wells<dim>::Well Wells<dim>::read_well(dealii::ParameterHandler &prm,
       throw EntryError(path + "Minimum pressure", text, allowed);
     }
   }
-  else if (!well.pressure_control && well.value.least() < 0.)
-    well.minimum_pressure = std::isfinite(boiling_pressure) ? boiling_pressure : 0.;
+  else if (!well.pressure_control && well.value.minimum() < 0.)
+    well.minimum_pressure = std::isfinite(vapour_pressure) ? vapour_pressure : 0.;
 
   well.fraction = prm.get_double("Fraction in model");
   if (!(well.fraction > 0.))
@@ -226,7 +226,7 @@ void Wells<dim>::read_source(dealii::ParameterHandler &prm, const std::string &p
 
 
 template <int dim>
-void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double boiling_pressure)
+void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double vapour_pressure)
 {
   wells.clear();
   prm.enter_subsection("Wells");
@@ -245,7 +245,7 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double bo
                          std::string("'") + its_control + "' for a well whose '" + entry +
                            "' is given");
     if (control != "none")
-      wells.push_back(read_well(prm, number, boiling_pressure));
+      wells.push_back(read_well(prm, number, vapour_pressure));
     prm.leave_subsection();
   }
   prm.leave_subsection();
@@ -314,7 +314,7 @@ void Wells<dim>::check(const double start_time, const double end_time, const boo
   for (const Well &well : wells)
     well.value.check(start_time, end_time);
   if (!rock_gives && wells.size() == 1 && !wells[0].in_rock && !wells[0].pressure_control &&
-      wells[0].value.least() < 0. && wells[0].value.greatest() <= 0.)
+      wells[0].value.minimum() < 0. && wells[0].value.maximum() <= 0.)
     wells[0].value.refuse("a rate that is positive at some time: in rock whose pores give no fluid "
                           "('Fracture flow/Leak-off' is not 'resolved') a closed crack holds "
                           "nothing that could be produced");

@@ -76,7 +76,7 @@ PlaneElasticity::PlaneElasticity(const SymmetricTensor<4, 2> &stiffness, const T
 }
 
 
-double least_plane_modulus(const SymmetricTensor<4, 2> &stiffness)
+double minimum_plane_modulus(const SymmetricTensor<4, 2> &stiffness)
 {
   // E' changes slowly with direction; a degree is fine enough for what is a scale.
   constexpr unsigned int n = 180;

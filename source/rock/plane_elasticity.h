@@ -55,5 +55,5 @@ struct PlaneElasticity
 };
 
 /// The least E' of a crack in any direction of the plane [Pa].
-double least_plane_modulus(const dealii::SymmetricTensor<4, 2> &stiffness);
+double minimum_plane_modulus(const dealii::SymmetricTensor<4, 2> &stiffness);
 } // namespace stockwork

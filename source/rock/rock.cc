@@ -122,7 +122,7 @@ void parse_stiffness(const ParameterHandler &prm,
   if (anisotropic)
   {
     rock.young_modulus = rock.poisson_ratio = nan;
-    rock.least_plane_modulus = least_plane_modulus(LinearStiffness<2>(rock).tensor());
+    rock.minimum_plane_modulus = minimum_plane_modulus(LinearStiffness<2>(rock).tensor());
     for (const auto &[name, text] :
          {std::make_pair("Young modulus", modulus), std::make_pair("Poisson ratio", ratio)})
       if (!text.empty() && text != "0.25")

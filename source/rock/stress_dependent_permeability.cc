@@ -10,7 +10,7 @@ using namespace dealii;
 namespace
 {
 /// Greatest k/k_0, in tension.
-constexpr double greatest_share = 1e6;
+constexpr double maximum_share = 1e6;
 } // namespace
 
 
@@ -35,7 +35,7 @@ void StressDependentPermeability::evaluate(const ArrayView<const RockState> stat
     RockResponse &response = responses[q];
     const double effective = -trace(state.in_situ_stress + response.stress) / 3. -
                              biot_coefficient * (state.in_situ_pressure + state.pressure);
-    const double exponent = -effective / decay_stress, greatest = std::log(greatest_share);
+    const double exponent = -effective / decay_stress, greatest = std::log(maximum_share);
     response.permeability = std::exp(std::min(exponent, greatest)) * unstressed;
     if (exponent > greatest)
     {

@@ -26,7 +26,7 @@ constexpr unsigned int most_changes = 256;
 /// Entries by which a row differs, over its diagonal entry, that are rounding errors.
 constexpr double same_entry = 1e-14;
 /// Memory for solutions that are kept, at least [numbers].
-constexpr std::size_t least_memory = 1 << 26;
+constexpr std::size_t minimum_memory = 1 << 26;
 
 /// Call use(matrix, row block, column block, local row, entries, their values, local columns) for
 /// this rank's rows of the bulk.
@@ -299,8 +299,9 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
   const Stopwatch stopwatch;
   const bool has_one = has_factor(system, stamps);
   const bool same_bulk = has_one && stamps.bulk_values == values_with_changes;
-  const bool may_keep = has_one && keeps_values &&
-                        solutions.size() <= std::max(most_solutions, least_memory / factor->size());
+  const bool may_keep =
+    has_one && keeps_values &&
+    solutions.size() <= std::max(most_solutions, minimum_memory / factor->size());
   auto op = std::make_unique<SystemOperator>(
     system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);
   LinearReport report;

@@ -18,7 +18,7 @@ using dealii::Vector;
 namespace
 {
 /// Fewer unknowns are not worth keeping a factor for.
-constexpr unsigned int least_kept = 64;
+constexpr unsigned int minimum_kept = 64;
 /// The kept part is chosen anew when so many more unknowns are outside of it.
 constexpr unsigned int most_new = 48;
 
@@ -139,7 +139,7 @@ void DenseSolver::choose_kept(const FullMatrix<double> &matrix,
   for (unsigned int i = 0; i < candidates.size(); ++i)
     if (!changed[i])
       kept.push_back(candidates[i]);
-  if (kept.size() < least_kept)
+  if (kept.size() < minimum_kept)
     kept.clear();
 
   kept_identities.clear();

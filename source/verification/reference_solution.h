@@ -131,7 +131,7 @@ struct ReferenceInput
   std::function<double(const std::string &side, double time)> normal_traction = {};
 
   /// The greatest displacement that the deck prescribes at a time [m]. Empty: not known.
-  std::function<double(double time)> greatest_displacement = {};
+  std::function<double(double time)> maximum_displacement = {};
 
   const RockLaw *law = nullptr;                      ///< of the rock at large
   dealii::SymmetricTensor<2, 3> in_situ_stress = {}; ///< at the centre of the domain, total [Pa]

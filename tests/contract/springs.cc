@@ -26,7 +26,7 @@ public:
 
   std::vector<HistoryField> history() const override
   {
-    return {{"greatest_pressure"}};
+    return {{"maximum_pressure"}};
   }
 
   void evaluate(ArrayView<const RockState> states, ArrayView<RockResponse> responses) const override

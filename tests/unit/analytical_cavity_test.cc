@@ -14,7 +14,7 @@ namespace
 constexpr double degree = 3.14159265358979323846 / 180.;
 
 /// Of plastic radius and wall displacement, relative.
-double greatest_difference(const std::string &name, const double cohesion)
+double maximum_difference(const std::string &name, const double cohesion)
 {
   const test::ReferenceTable table(name);
   REQUIRE(table.rows() > 20);
@@ -38,8 +38,8 @@ TEST_CASE("Mohr-Coulomb cavity: plastic radius and wall displacement as tabled")
 {
   for (const char *name : {"cavity_mc_convergence", "cavity_mc_expansion"})
   {
-    CHECK(greatest_difference(name, 3e6) < 2e-7);
-    CHECK(greatest_difference(name, 3.1e6) > 1e-3);
+    CHECK(maximum_difference(name, 3e6) < 2e-7);
+    CHECK(maximum_difference(name, 3.1e6) > 1e-3);
   }
 }
 

@@ -63,7 +63,7 @@ TEST_CASE("E' of a crack in isotropic rock is E/(1-nu^2) in any direction")
     CHECK(elasticity.plane_modulus() == doctest::Approx(rock.plane_modulus()).epsilon(1e-6));
     CHECK(elasticity.is_degenerate());
   }
-  CHECK(least_plane_modulus(stiffness) == doctest::Approx(rock.plane_modulus()).epsilon(1e-6));
+  CHECK(minimum_plane_modulus(stiffness) == doctest::Approx(rock.plane_modulus()).epsilon(1e-6));
 }
 
 TEST_CASE("along an axis of the layers E' is that of Sih, Paris and Irwin (1965), Eq. 29")

@@ -489,7 +489,7 @@ TEST_CASE("fluid that would have to be pulled cavitates and lags")
     }
   }
 
-  // The matrix, where some segments boil.
+  // The matrix, where some segments cavitate.
   chain.begin_step(0.1);
   for (unsigned int i = 0; i < 8; ++i)
   {

@@ -78,7 +78,7 @@ TEST_CASE(
   {
     Chain chain(1);
     chain.set_up(entries);
-    return chain.network.least_well_pressures();
+    return chain.network.minimum_well_pressures();
   };
   CHECK(bounds(well("1e-4 m^2/s")).empty());
   CHECK(bounds(well("0 s: 1e-4 m^2/s; 5 s: 0")).empty());

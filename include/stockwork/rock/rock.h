@@ -22,7 +22,7 @@ struct RockProperties
   /// Of rock that is not isotropic: the drained stiffness in the axes of the run. What only
   /// isotropic rock has must not be asked for then: InputError.
   std::optional<dealii::SymmetricTensor<4, 3>> stiffness;
-  double least_plane_modulus = 0.; ///< of such rock: E' of the softest direction of a crack [Pa]
+  double minimum_plane_modulus = 0.; ///< of such rock: E' of the softest direction of a crack [Pa]
 
   /// Unit normal of the layers of transversely isotropic rock; zero where the deck gives none.
   dealii::Tensor<1, 3> layer_normal;
@@ -61,7 +61,7 @@ struct RockProperties
   double plane_modulus() const
   {
     if (stiffness)
-      return least_plane_modulus;
+      return minimum_plane_modulus;
     return plane_stress ? young_modulus : young_modulus / (1. - poisson_ratio * poisson_ratio);
   }
 

@@ -146,7 +146,7 @@ private:
   };
 
   /// With a stretch now [-].
-  double greatest_stretch(const SofteningBond &bond, double stretch) const;
+  double maximum_stretch(const SofteningBond &bond, double stretch) const;
 
   /// The bond among `softening_bonds`, or null.
   const SofteningBond *softening_bond(unsigned int site, unsigned int bond) const;

@@ -91,7 +91,7 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
 
 
 template <int dim>
-double Peridynamics<dim>::greatest_stretch(const SofteningBond &bond, const double stretch) const
+double Peridynamics<dim>::maximum_stretch(const SofteningBond &bond, const double stretch) const
 {
   return bond.committed + damage_relaxation * std::max(0., stretch - bond.committed);
 }
@@ -145,7 +145,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     const double total = elongation + softening_bonds[n].offset * coefficients[bond].length;
     const double stretch = equivalent_stretch(site, bond, total);
     const double committed = softening_bonds[n].committed;
-    const double kappa = greatest_stretch(softening_bonds[n], stretch);
+    const double kappa = maximum_stretch(softening_bonds[n], stretch);
     const double damage = softening.damage(kappa);
     // Of damage times elongation by the elongation.
     const double slope = stretch > committed && total != 0.
@@ -207,7 +207,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   };
   for (SofteningBond &bond : softening_bonds)
   {
-    bond.trial = greatest_stretch(bond, stretch_of(bond));
+    bond.trial = maximum_stretch(bond, stretch_of(bond));
     if (lets_fluid_in(bond))
       crack(bond.view);
   }
@@ -236,7 +236,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     bond.view = view;
     bond.offset =
       in_situ_stretch(view.first, view.second) + relief_at(view.first, view.second, relief);
-    bond.trial = greatest_stretch(bond, stretch_of(bond));
+    bond.trial = maximum_stretch(bond, stretch_of(bond));
     if (lets_fluid_in(bond))
       cracked.set_broken(view.first, view.second);
     softening_now.push_back(bond);
@@ -276,7 +276,7 @@ void Peridynamics<dim>::restore_softening()
   template double Peridynamics<dim>::energy_at_unit_stretch(const BondView &) const;               \
   template double Peridynamics<dim>::equivalent_stretch(unsigned int, unsigned int, double) const; \
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \
-  template double Peridynamics<dim>::greatest_stretch(const SofteningBond &, double) const;        \
+  template double Peridynamics<dim>::maximum_stretch(const SofteningBond &, double) const;         \
   template void Peridynamics<dim>::assemble_softening(const State &, Sink &) const;                \
   template bool Peridynamics<dim>::soften_bonds(                                                   \
     const std::vector<double> &, const std::vector<double> &, const std::vector<Candidate> &);     \

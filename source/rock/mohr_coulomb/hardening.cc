@@ -32,7 +32,7 @@ PrincipalVector equivalent_by(const PrincipalVector &strain)
 
 /// The greatest v . n of all directions n in the cone of some flows; 0 where none is positive. That
 /// is the length of v's projection onto the cone, which lies inside of it or on one of its sides.
-double greatest_along(const std::vector<PrincipalVector> &flows, const PrincipalVector &v)
+double maximum_along(const std::vector<PrincipalVector> &flows, const PrincipalVector &v)
 {
   double greatest = 0.;
   for (unsigned int side = 1; side < (1u << flows.size()); ++side)
@@ -116,7 +116,7 @@ double hardening_limit(const PrincipalMatrix &elastic, const Strength &strength,
   const PrincipalMatrix compliance = invert(elastic);
   double rate = 0.;
   for (const FlowCone &cone : flow_cones(elastic, strength))
-    rate = std::max(rate, greatest_along(cone.flows, -sense * (compliance * cone.by_cohesion)));
+    rate = std::max(rate, maximum_along(cone.flows, -sense * (compliance * cone.by_cohesion)));
   return 1. / (std::sqrt(2. / 3.) * rate);
 }
 } // namespace stockwork::mohr_coulomb

@@ -14,7 +14,7 @@ namespace stockwork::analytical
 namespace
 {
 constexpr double grid_step = 0.3;
-constexpr double least_toughness = 0.02;
+constexpr double minimum_toughness = 0.02;
 
 // Leak-off changes as t^(1/6), so long steps do, but its beginning lies many decades back; walls
 // change with the length, and a fracture that is short against them is similar.
@@ -202,7 +202,7 @@ double HydraulicFracture::Steps::toughness(const double t) const
 {
   const double K = 4. * std::sqrt(2. / pi) * fracture_toughness /
                    (modulus * small_number(t) * std::sqrt(length_scale(t)));
-  return std::max(K, least_toughness);
+  return std::max(K, minimum_toughness);
 }
 
 

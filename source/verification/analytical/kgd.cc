@@ -16,7 +16,7 @@ namespace
 constexpr double step = 0.2;
 
 // Below this toughness the solution has not changed to 2e-7 and its tip layer only costs points.
-constexpr double least_kgd_toughness = 0.02;
+constexpr double minimum_kgd_toughness = 0.02;
 
 // The tip layer in which toughness governs, 1 - xi < O(K_m^6), must be resolved.
 double depth_of_kgd_grid(const double toughness)
@@ -55,7 +55,7 @@ struct KgdSimilarity::Profiles
 
 KgdSimilarity::KgdSimilarity(const double dimensionless_toughness)
 {
-  const double toughness = std::max(dimensionless_toughness, least_kgd_toughness);
+  const double toughness = std::max(dimensionless_toughness, minimum_kgd_toughness);
   const HalfCrackGrid grid(CrackShape::line, step, depth_of_kgd_grid(toughness));
   FractureFront front = estimate_front(grid, toughness);
   solve_front(grid, toughness, FrontMemory(), front);

@@ -83,7 +83,7 @@ Made<2> make_double_cantilever(const ParameterHandler &prm, const ReferenceInput
   if (!(rock.tensile_strength > 0.) || !(rock.energy_release_rate > 0.))
     throw InputError("The reference solution of the double cantilever needs the rock's tensile "
                      "strength and critical energy release rate.");
-  if (!(input.greatest_displacement(input.end_time) > 0.))
+  if (!(input.maximum_displacement(input.end_time) > 0.))
     throw InputError("The reference solution of the double cantilever needs ends that are moved "
                      "apart, 'Boundary conditions/Displacement y'.");
   const double share = get_quantity(prm, "Elastic share", dimension::number);
@@ -94,6 +94,6 @@ Made<2> make_double_cantilever(const ParameterHandler &prm, const ReferenceInput
       {rock.plane_modulus(), 0.5 * (input.upper[1] - input.lower[1]), tip - input.lower[0], energy},
       strength,
       strength * strength / (share * 2. * energy)},
-    input.greatest_displacement, input.end_time);
+    input.maximum_displacement, input.end_time);
 }
 } // namespace stockwork::reference
