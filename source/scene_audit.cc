@@ -531,6 +531,10 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
     run.out << "  left out: inertia (Time/Inertia = off)\n";
   if (!the_case.laws.may_yield())
     run.out << "  left out: plasticity (the rock is elastic)\n";
+  if (!the_case.scene.cracks.empty() && !the_case.model->requirements().has_fracture)
+    run.out << "  left out: the " << the_case.scene.cracks.size() << " crack(s) of the deck, and "
+            << "what 'Fracture flow' and 'Cracks' say of them (the fracture model '"
+            << the_case.model_name << "' has none)\n";
   run.out << std::flush;
 }
 

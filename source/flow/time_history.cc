@@ -125,6 +125,16 @@ void TimeHistory::check(const double begin, const double end) const
   }
 }
 
+void TimeHistory::check_starts_by(const double begin) const
+{
+  if (times.empty() || times.front() <= begin)
+    return;
+  std::ostringstream allowed;
+  allowed << "pieces of which the first begins at " << begin
+          << " s, the start of the run: of the time before nothing is said";
+  refuse(allowed.str());
+}
+
 double TimeHistory::magnitude() const
 {
   double largest = 0.;

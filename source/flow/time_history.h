@@ -36,6 +36,10 @@ public:
   /// @throws EntryError where it is not
   void check(double begin, double end) const;
 
+  /// A pressure says nothing of the time before its first piece.
+  /// @throws EntryError where that begins later than @p begin [s]
+  void check_starts_by(double begin) const;
+
   /// The greatest magnitude; of an expression, the greatest found at powers of ten of time.
   double magnitude() const;
 

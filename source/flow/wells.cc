@@ -30,10 +30,43 @@ void Wells<dim>::set_mesh(const MeshView<dim> &mesh,
     well.initial_pressure = first.in_situ_pressure();
     if (first.resistance() > 0.)
       well.conductance = 1. / first.resistance();
+    if (well.has_own_minimum && well.minimum_pressure > well.initial_pressure)
+      throw EntryError("Wells/Well " + std::to_string(well.number) + "/Minimum pressure",
+                       to_string(well.minimum_pressure, dimension::pressure),
+                       "a pressure of at most " +
+                         to_string(well.initial_pressure, dimension::pressure) +
+                         ", that in situ: above it the rock would be injected into");
     // Where pressures are net ones, zero is nothing special.
     if (!well.has_own_minimum && well.minimum_pressure == 0. && well.initial_pressure == 0.)
       well.minimum_pressure = -std::numeric_limits<double>::infinity();
   }
+  check_distances();
+}
+
+
+template <int dim>
+void Wells<dim>::check_distances() const
+{
+  const auto apart = [](const Well &well, const Perforation &one, const Perforation &other)
+  {
+    // Outside of its own disc a source's pressure is that of a point, and its mean over a disc that
+    // does not contain the point is that in the middle.
+    const double reach = std::max(one.source->source_radius(), other.source->source_radius());
+    if (&one != &other && one.point.distance(other.point) < reach &&
+        (one.source->borehole_radius() > 0. || other.source->borehole_radius() > 0.))
+      throw perforation_error(
+        well, one,
+        "is nearer than " + to_string(reach, dimension::length) +
+          " to another that opens into the rock, which lies within its source, so that the "
+          "pressure in the boreholes is not known: smaller cells there, or a smaller 'Source "
+          "radius'");
+  };
+  for (const Well &well : wells)
+    for (const Well &other_well : wells)
+      if (well.in_rock && other_well.in_rock)
+        for (const Perforation &one : well.perforations)
+          for (const Perforation &other : other_well.perforations)
+            apart(well, one, other);
 }
 
 

@@ -312,7 +312,11 @@ template <int dim>
 void Wells<dim>::check(const double start_time, const double end_time, const bool rock_gives) const
 {
   for (const Well &well : wells)
+  {
     well.value.check(start_time, end_time);
+    if (well.pressure_control)
+      well.value.check_starts_by(start_time);
+  }
   if (!rock_gives && wells.size() == 1 && !wells[0].in_rock && !wells[0].pressure_control &&
       wells[0].value.minimum() < 0. && wells[0].value.maximum() <= 0.)
     wells[0].value.refuse("a rate that is positive at some time: in rock whose pores give no fluid "

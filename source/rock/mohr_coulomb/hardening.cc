@@ -73,40 +73,35 @@ PrincipalReturn hardening_return(const PrincipalVector &trial,
       return PrincipalReturn{trial, elastic, PrincipalVector(), PrincipalVector(), Place::elastic};
     return principal_return(trial, elastic, strength, cohesion);
   };
-  // dF/dk = -1 - this
-  const auto resistance = [&](const PrincipalReturn &back)
-  {
-    return strength.hardening_modulus *
-           (equivalent_by(back.flow) * (compliance * back.by_cohesion));
-  };
-  const auto lack = [&](const double growth)
-  {
-    const PrincipalReturn back = after(growth);
-    return std::make_pair(equivalent(back.flow) - growth, -1. - resistance(back));
-  };
+  const auto lack = [&](const double growth) { return equivalent(after(growth).flow) - growth; };
 
   // Where it flows at least as far as the final cohesion, that holds for the whole step.
   const double to_final = std::max(
     (strength.final_cohesion - strength.cohesion) / strength.hardening_modulus - before, 0.);
-  if (to_final < std::numeric_limits<double>::infinity() && lack(to_final).first >= 0.)
+  if (to_final < std::numeric_limits<double>::infinity() && lack(to_final) >= 0.)
     return principal_return(trial, elastic, strength, strength.final_cohesion);
 
-  double most = lack(0.).first;
-  while (most < to_final && lack(most).first > 0.)
+  double most = lack(0.);
+  while (most < to_final && lack(most) > 0.)
     most *= 2.;
   most = std::min(most, to_final);
   if (!(most > 0.)) // rounding has put the stress outside
     return after(0.);
-  // Newton's last step is far below what it asks for, for F is nearly linear.
-  constexpr int digits = 40;
-  boost::uintmax_t n_steps = 50;
+  // Nearly linear, with a kink where the growth is so great that nothing flows any more: rock that
+  // hardens steeply has its root next to that.
+  constexpr unsigned int bits = 52;
+  boost::uintmax_t n_steps = 100;
   PrincipalReturn result =
-    after(boost::math::tools::newton_raphson_iterate(lack, 0., 0., most, digits, n_steps));
+    after(boost::math::tools::toms748_solve(
+            lack, 0., most, boost::math::tools::eps_tolerance<double>(bits), n_steps)
+            .first);
   // dF = 0: the plastic strain follows the strain, and the cohesion the plastic strain.
   const PrincipalVector direction = equivalent_by(result.flow),
                         growth = direction - direction * (compliance * result.tangent);
-  result.tangent += strength.hardening_modulus / (1. + resistance(result)) *
-                    outer_product(result.by_cohesion, growth);
+  const double resistance =
+    strength.hardening_modulus * (direction * (compliance * result.by_cohesion));
+  result.tangent +=
+    strength.hardening_modulus / (1. + resistance) * outer_product(result.by_cohesion, growth);
   return result;
 }
 
