@@ -79,4 +79,17 @@ std::string in_time(const double seconds)
          : seconds < 172800. ? two_digits(seconds / 3600., "h")
                              : two_digits(seconds / 86400., "days");
 }
+
+
+std::string
+in_words(const CostEstimate &cost, const double duration, const double dt, const bool longer)
+{
+  const double steps = std::ceil(duration / dt);
+  std::ostringstream text;
+  text << "roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
+       << " per step; " << steps << " steps of " << dt << " s would take "
+       << in_time(steps * cost.step) << " on one core"
+       << (longer ? ", fewer and longer ones less" : "");
+  return text.str();
+}
 } // namespace stockwork

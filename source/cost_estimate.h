@@ -19,6 +19,10 @@ struct CostEstimate
 CostEstimate
 estimate_cost(unsigned int dim, double n_unknowns, bool has_pore_pressure, bool has_fracture);
 
+/// The estimate in words, for a run of this length [s].
+/// @param dt length of the first step, of which others may be @p longer [s]
+std::string in_words(const CostEstimate &cost, double duration, double dt, bool longer);
+
 /// Of the machines that the ranks run on, or less where a limit is set (ulimit -v) [bytes].
 /// Collective.
 double physical_memory(MPI_Comm communicator);

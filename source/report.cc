@@ -241,7 +241,7 @@ void Report<dim>::observe_well(const unsigned int w,
     std::ostringstream text;
     text << "From t = " << stepper.last_context().time << " s on, the well '" << report.name
          << "' gives less than it should, " << -report.rate << " of " << -report.wanted_rate
-         << (dim == 2 ? " m^2/s" : " m^3/s") << ": its pressure is at its least, "
+         << (dim == 2 ? " m^2/s" : " m^3/s") << " in the model: its pressure is at its least, "
          << report.borehole_pressure << " Pa.";
     run.warn(text.str());
   }

@@ -383,10 +383,10 @@ void Simulation<dim>::announce()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   const CostEstimate cost = estimate_cost(
     dim, system.n_unknowns(), the_case.elements.has_pore_pressure, !the_case.scene.cracks.empty());
-  const double steps = std::ceil((the_case.control.end_time - clock.time) / clock.dt);
-  run.out << "  roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
-          << " per step; " << steps << " steps of " << clock.dt << " s would take "
-          << in_time(steps * cost.step) << " on one core" << std::endl;
+  run.out << "  "
+          << in_words(cost, the_case.control.end_time - clock.time, clock.dt,
+                      the_case.control.maximum_step > clock.dt)
+          << std::endl;
 }
 
 
