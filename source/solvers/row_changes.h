@@ -35,7 +35,8 @@ public:
     for (const auto &[at, changed] : changes)
       if (at > stamp)
       {
-        rows.set_size(changed.size());
+        if (rows.size() == 0)
+          rows.set_size(changed.size());
         rows.add_indices(changed);
       }
     rows.compress();
