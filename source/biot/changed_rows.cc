@@ -14,7 +14,7 @@ namespace
 {
 using Dofs = std::vector<types::global_dof_index>;
 
-/// Zero the entries of a row, where this rank has it.
+/// Zero the entries of a row that this rank has.
 void clear_row(TrilinosWrappers::SparseMatrix &matrix, const types::global_dof_index row)
 {
   const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
@@ -102,7 +102,9 @@ bool BulkAssembly<dim>::rows(const StepContext &context,
 
   const types::global_dof_index n_displacement = owned[0].size();
   for (const types::global_dof_index row : rows)
-    if (row >= n_displacement)
+    if (!dof_handler.locally_owned_dofs().is_element(row))
+      continue;
+    else if (row >= n_displacement)
       clear_row(matrix.block(1, 0), row - n_displacement);
     else if (!constraints.is_constrained(row))
     {
