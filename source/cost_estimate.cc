@@ -88,8 +88,7 @@ in_words(const CostEstimate &cost, const double duration, const double dt, const
   std::ostringstream text;
   text << "roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
        << " per step; " << steps << " steps of " << dt << " s would take "
-       << in_time(steps * cost.step) << " on one core"
-       << (longer ? ", fewer and longer ones less" : "");
+       << in_time(steps * cost.step) << " on one core" << (longer ? "; steps may grow" : "");
   return text.str();
 }
 } // namespace stockwork

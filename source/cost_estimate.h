@@ -20,7 +20,7 @@ CostEstimate
 estimate_cost(unsigned int dim, double n_unknowns, bool has_pore_pressure, bool has_fracture);
 
 /// The estimate in words, for a run of this length [s].
-/// @param dt length of the first step, of which others may be @p longer [s]
+/// @param dt length of the first step [s]; others may be @p longer
 std::string in_words(const CostEstimate &cost, double duration, double dt, bool longer);
 
 /// Of the machines that the ranks run on, or less where a limit is set (ulimit -v) [bytes].

@@ -177,8 +177,9 @@ void PointSource<dim>::integrate(const MeshView<dim> &mesh,
   if (const double found = share / whole_weight<dim>(radius);
       std::abs(found - entries.fraction) > tolerance_of_share * entries.fraction)
     throw InputError(
-      "has " + to_string(found, dimension::number) + " of its disc of radius " +
-      to_string(radius, dimension::length) + " in the model, where 'Fraction in model' says " +
+      "has " + to_string(found, dimension::number) + " of its " + (dim == 2 ? "disc" : "ball") +
+      " of radius " + to_string(radius, dimension::length) +
+      " in the model, where 'Fraction in model' says " +
       to_string(entries.fraction, dimension::number) +
       ": move it away from the boundary, or exactly onto planes of symmetry, or take smaller cells "
       "there or a 'Source radius'");

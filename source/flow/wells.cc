@@ -47,26 +47,21 @@ void Wells<dim>::set_mesh(const MeshView<dim> &mesh,
 template <int dim>
 void Wells<dim>::check_distances() const
 {
-  const auto apart = [](const Well &well, const Perforation &one, const Perforation &other)
-  {
-    // Outside of its own disc a source's pressure is that of a point, and its mean over a disc that
-    // does not contain the point is that in the middle.
-    const double reach = std::max(one.source->source_radius(), other.source->source_radius());
-    if (&one != &other && one.point.distance(other.point) < reach &&
-        (one.source->borehole_radius() > 0. || other.source->borehole_radius() > 0.))
-      throw perforation_error(
-        well, one,
-        "is nearer than " + to_string(reach, dimension::length) +
-          " to another that opens into the rock, which lies within its source, so that the "
-          "pressure in the boreholes is not known: smaller cells there, or a smaller 'Source "
-          "radius'");
-  };
+  // Outside of its own disc or ball a source's pressure is that of a point, and its mean over
+  // another that does not hold the point is that in the middle.
   for (const Well &well : wells)
     for (const Well &other_well : wells)
       if (well.in_rock && other_well.in_rock)
         for (const Perforation &one : well.perforations)
           for (const Perforation &other : other_well.perforations)
-            apart(well, one, other);
+            if (&one != &other && one.source->reaches(other.point, 0.) &&
+                std::max(one.source->borehole_radius(), other.source->borehole_radius()) > 0.)
+              throw perforation_error(
+                well, one,
+                "is nearer than " + to_string(one.source->source_radius(), dimension::length) +
+                  " to another that opens into the rock, which lies within its source, so that the "
+                  "pressure in the boreholes is not known: smaller cells there, or a smaller "
+                  "'Source radius'");
 }
 
 
