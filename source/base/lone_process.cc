@@ -18,5 +18,7 @@ void start_lone_process_quickly()
   setenv("OMPI_MCA_pml", "ob1", keep);
   // All of them would share one directory for this session, which each removes when it ends.
   setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
+  // This one keeps its file there, and complains for every file of a checkpoint.
+  setenv("OMPI_MCA_sharedfp", "^sm", keep);
 }
 } // namespace stockwork

@@ -12,9 +12,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 
 #include <fcntl.h>
+#include <sc.h>
 #include <unistd.h>
 
 #include "output/directory.h"
@@ -41,6 +43,33 @@ std::string seal(const std::string &bytes)
     result.push_back(static_cast<char>((crc.checksum() >> (8 * i)) & 0xff));
   return result;
 }
+
+/// While it lives, p4est ends the program with a sentence where it cannot write, and not with a
+/// list of functions: its way of giving up must not return.
+class SentenceWhenP4estGivesUp
+{
+public:
+  explicit SentenceWhenP4estGivesUp(const std::string &directory)
+  {
+    message = "stockwork: cannot write a checkpoint in " + directory +
+              ". The previous one, if any, is intact; continue from it with --restart once the "
+              "directory can be written to.\n";
+    sc_set_abort_handler(
+      []()
+      {
+        std::cerr << message << std::flush;
+        MPI_Abort(MPI_COMM_WORLD, 2);
+      });
+  }
+
+  ~SentenceWhenP4estGivesUp()
+  {
+    sc_set_abort_handler(nullptr);
+  }
+
+private:
+  static inline std::string message; // the handler has no arguments
+};
 } // namespace
 
 Checkpoint::Checkpoint(const std::string &directory, MPI_Comm communicator)
@@ -111,7 +140,10 @@ void Checkpoint::save(const parallel::distributed::Triangulation<dim> &triangula
 
   parallel::distributed::SolutionTransfer<dim, Vector> transfer(dof_handler);
   transfer.prepare_for_serialization(vectors);
-  triangulation.save(path("mesh_" + set));
+  {
+    const SentenceWhenP4estGivesUp sentence(directory);
+    triangulation.save(path("mesh_" + set));
+  }
 
   on_root(communicator,
           [&]()
