@@ -64,10 +64,6 @@ ElementSettings parse_elements(ParameterHandler &prm,
   prm.enter_subsection("Discretisation");
   const std::string pair = prm.get("Elements");
   elements.displacement_degree = pair.substr(0, 2) == "Q2" ? 2 : 1;
-  if (requirements.linear_elements && elements.displacement_degree > 1)
-    throw EntryError("Discretisation/Elements", pair,
-                     "Q1-Q1 stabilised or Q1-Q1, because the nodes of the fracture model are the "
-                     "vertices of cells");
   if (pair == "Q1-Q1 stabilised")
     elements.stabilisation = PressureStabilisation::projection;
   prm.leave_subsection();
@@ -118,8 +114,14 @@ make_model(ParameterHandler &prm, const PlugIns &plug_ins, const Scene<dim> &sce
   const std::string name = prm.get("Model");
   const auto &create = create_function<dim>(plug_ins.fracture_models.find(name));
   if (!create)
+  {
+    std::string those;
+    for (const auto &[other, entry] : plug_ins.fracture_models.all())
+      if (create_function<dim>(entry))
+        those += (those.empty() ? "" : ", ") + other;
     throw EntryError("Fracture/Model", name,
-                     "a model that exists in " + std::to_string(dim) + "-D");
+                     "one that exists in " + std::to_string(dim) + "-D: " + those);
+  }
   const bool has_section = prm.subsection_path_exists({name});
   if (has_section)
     prm.enter_subsection(name);
@@ -222,7 +224,8 @@ std::vector<ReferenceSource<dim>> sources_in_rock(const Network<dim> &network,
   std::vector<ReferenceSource<dim>> sources;
   for (const auto &well : network.sources_in_rock())
   {
-    ReferenceSource<dim> source{well.number, well.points, well.fraction, well.borehole_radius, {}};
+    ReferenceSource<dim> source{well.number,          well.points,           well.fraction,
+                                well.borehole_radius, well.minimum_pressure, {}};
     const bool is_in_pieces = std::isfinite(well.rate.maximum());
     for (double t = control.start_time; is_in_pieces && t < control.end_time;)
     {
@@ -368,7 +371,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   if (elements.has_pore_pressure)
     refuse_incompressible(prm, rock, geometry, boundary_conditions);
 
-  scheme.parse_parameters(prm, !has_fracture && elements.has_pore_pressure && laws.are_linear());
+  scheme.parse_parameters(prm, !has_fracture && elements.has_pore_pressure && laws.are_linear() &&
+                                 !network.may_cavitate());
 
   check_history(prm, *this);
   check_permeability(prm, *this);

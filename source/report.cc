@@ -101,20 +101,20 @@ double Report<dim>::observe_rock(Values &values) const
   if (rock_beyond == nullptr || !rock_beyond->remembers())
     return 0.;
   const auto &mine = rock_beyond->totals();
-  std::vector<double> sums{mine.yielded_volume, mine.dissipated_energy};
+  std::vector<double> sums{mine.yielded_volume, mine.dissipated_energy, mine.work_not_stored};
   system.collectives().sum(sums);
   values["yielded_volume"] = sums[0];
   values["rock_dissipated_energy"] = sums[1];
   const double used = system.collectives().max(mine.maximum_used);
   values["maximum_share_of_strength"] = sums[0] > 0. ? 1. : used;
-  return sums[1];
+  return sums[2];
 }
 
 
 template <int dim>
 void Report<dim>::observe_energy(const State &state,
                                  const FractureSummary &summary,
-                                 const double dissipated_in_rock,
+                                 const double not_stored_in_rock,
                                  Values &values)
 {
   const MechanicalEnergy energy = mechanical_energy<dim>(
@@ -135,8 +135,11 @@ void Report<dim>::observe_energy(const State &state,
   if (external_work > 0.)
     values["energy_balance_error"] =
       std::abs(external_work - values["stored_energy"] - energy.kinetic -
-               summary.dissipated_energy - dissipated_in_rock) /
+               summary.dissipated_energy - not_stored_in_rock) /
       external_work;
+  if (external_work > 0. && values.count("rock_dissipated_energy") != 0)
+    values["energy_step_error"] =
+      std::abs(values["rock_dissipated_energy"] - not_stored_in_rock) / external_work;
 }
 
 
@@ -188,10 +191,7 @@ void Report<dim>::observe_fluid(const State &state, Values &values)
   }
   const auto wells = network.wells(stepper.last_context(), state, system.collectives());
   if (!wells.empty())
-  {
-    values["inlet_pressure"] = wells[0].inlet_pressure;
     shown.inlet_pressure = wells[0].inlet_pressure;
-  }
   if (!wells.empty() && !network.segments().empty())
   {
     const auto pressures = network.pressures(stepper.committed);
@@ -200,6 +200,7 @@ void Report<dim>::observe_fluid(const State &state, Values &values)
   }
   if (!wells.empty() && wells[0].inlet_segment)
   {
+    values["inlet_pressure"] = wells[0].inlet_pressure;
     values["inlet_aperture"] = wells[0].inlet_aperture;
     // Over the in-situ stress across the fracture, which is what analytical solutions call p.
     const auto &inlet = network.segments()[*wells[0].inlet_segment];
@@ -221,6 +222,8 @@ void Report<dim>::observe_well(const unsigned int w,
   const std::string well = "well_" + std::to_string(w + 1);
   if (!std::isnan(report.borehole_pressure))
     values[well + "_borehole_pressure"] = report.borehole_pressure;
+  if (!report.inlet_segment)
+    values[well + "_pore_pressure"] = report.inlet_pressure; // mean about its first perforation
   values[well + "_rate"] = report.rate;
   values[well + "_wanted_rate"] = report.wanted_rate;
   // How the fluid is shared.
@@ -234,6 +237,20 @@ void Report<dim>::observe_well(const unsigned int w,
     text << "From t = " << stepper.last_context().time
          << " s on, a fracture has come into the rock about the well '" << report.name
          << "' that its fluid is spread over: the pressure in its borehole is that in intact rock.";
+    run.warn(text.str());
+  }
+  const double highest = std::isnan(report.borehole_pressure)
+                           ? report.inlet_pressure
+                           : std::max(report.borehole_pressure, report.inlet_pressure);
+  if (report.least_stress > 0. && highest > report.least_stress &&
+      fracturing_wells.insert(w).second)
+  {
+    std::ostringstream text;
+    text << "From t = " << stepper.last_context().time << " s on, the pressure at the well '"
+         << report.name << "', " << to_string(highest, dimension::pressure)
+         << ", is above the least compressive stress in situ, "
+         << to_string(report.least_stress, dimension::pressure)
+         << ": it would fracture the rock, which this run does not know.";
     run.warn(text.str());
   }
   if (report.rate > report.wanted_rate && dry_wells.insert(w).second)
@@ -255,9 +272,9 @@ typename Report<dim>::Values Report<dim>::observe()
   const State state = stepper.last_state();
   const FractureSummary summary = model.summary(state, system.collectives());
   observe_fracture(summary, values);
-  const double dissipated_in_rock = observe_rock(values);
+  const double not_stored_in_rock = observe_rock(values);
   if (audits_energy)
-    observe_energy(state, summary, dissipated_in_rock, values);
+    observe_energy(state, summary, not_stored_in_rock, values);
   if (reference && reference->place_of_displacement())
   {
     const auto displacement = displacement_at(*reference->place_of_displacement());
@@ -424,8 +441,7 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     progress.fluid_balance = balance_error;
   if (observed.count("inlet_aperture"))
     progress.inlet_aperture = observed.at("inlet_aperture");
-  if (observed.count("inlet_pressure"))
-    progress.inlet_pressure = observed.at("inlet_pressure");
+  progress.inlet_pressure = shown.inlet_pressure;
   progress.wall_seconds = run.timers.total();
   progress.fraction_at_start =
     (start_of_run - control.start_time) / (control.end_time - control.start_time);

@@ -86,11 +86,11 @@ private:
 
   // Its parts.
   void observe_fracture(const FractureSummary &summary, Values &values);
-  /// Returns the energy that the rock has dissipated [J (/m)].
+  /// Returns the work that the rock has not stored, by the trapezoidal rule [J (/m)].
   double observe_rock(Values &values) const;
   void observe_energy(const State &state,
                       const FractureSummary &summary,
-                      double dissipated_in_rock,
+                      double not_stored_in_rock,
                       Values &values);
   void observe_shape(Values &values) const;
   void observe_fluid(const State &state, Values &values);
@@ -121,7 +121,8 @@ private:
   std::string directory;
   StatisticsTable statistics;
   Outcome shown;
-  std::set<unsigned int> dry_wells, reached_wells; ///< of which this has been said
+  std::set<unsigned int> dry_wells, reached_wells,
+    fracturing_wells; ///< of which this has been said
   bool warned_of_aperture = false, warned_of_pressure = false;
   RunSummary summary;
   double start_of_run;

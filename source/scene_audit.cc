@@ -405,6 +405,25 @@ void add_diffusion(const Case<dim> &the_case,
 }
 
 
+/// The in-situ pore pressure beside the stress that bears it, in the middle of the domain.
+template <int dim>
+void add_pore_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
+{
+  const Point<dim> centre =
+    the_case.geometry.lower() + 0.5 * (the_case.geometry.upper() - the_case.geometry.lower());
+  const double pressure = the_case.scene.in_situ_pore_pressure(centre);
+  const double least = -eigenvalues(the_case.scene.in_situ_stress(centre))[0];
+  if (!(least > 0.) || pressure == 0.)
+    return;
+  const double ratio = pressure / least;
+  numbers.push_back({"pore pressure / least compressive stress", ratio,
+                     ratio > 1.   ? "the pores would open fractures by themselves"
+                     : ratio < 0. ? "below vacuum, where the stress says that pressures are not net"
+                                  : "in the middle of the domain",
+                     ratio > 1. || ratio < 0.});
+}
+
+
 /// How far wells in the rock spread their fluid, and what that asks of time.
 template <int dim>
 void add_sources(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
@@ -467,7 +486,10 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   const RockProperties &rock = the_case.rock.main();
 
   if (the_case.elements.has_pore_pressure)
+  {
+    add_pore_pressure(the_case, numbers);
     add_diffusion(the_case, mesh, numbers);
+  }
   else
     numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});

@@ -468,18 +468,22 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell,
     core[content_beyond] = responses[q].content - linear.content;
     stores_more |= core[content_beyond] != 0.;
     // What the work of stress and pressure leaves beside the stored energy, by the trapezoidal
-    // rule.
+    // rule. It closes the audit, whose work is by the same rule, and knows nothing of what the load
+    // did within the step; the law may know better what is dissipated.
     const auto mean_stress = now[q].in_situ_stress + 0.5 * (before[q].stress + responses[q].stress);
     const double mean_pressure =
       now[q].in_situ_pressure + 0.5 * (states[q].pressure + now[q].pressure);
-    core[dissipated] = (committed[q] != nullptr ? committed[q][dissipated] : 0.) +
-                       mean_stress * (now[q].strain - states[q].strain) +
-                       mean_pressure * (responses[q].content - before[q].content) -
-                       (responses[q].energy - before[q].energy);
+    const double left = mean_stress * (now[q].strain - states[q].strain) +
+                        mean_pressure * (responses[q].content - before[q].content) -
+                        (responses[q].energy - before[q].energy);
+    const auto so_far = [&](const CoreNumber number)
+    { return committed[q] != nullptr ? committed[q][number] : 0.; };
+    core[not_stored] = so_far(not_stored) + left;
+    core[dissipated] =
+      so_far(dissipated) + (std::isnan(responses[q].dissipated) ? left : responses[q].dissipated);
 
     last_totals.content += w * core[content_beyond];
-    const double gained =
-      w * (core[content_beyond] - (committed[q] != nullptr ? committed[q][content_beyond] : 0.));
+    const double gained = w * (core[content_beyond] - so_far(content_beyond));
     last_totals.content_change += gained;
     const Tensor<1, dim> flow =
       flows ? Tensor<1, dim>(context.effective_dt() * w *
@@ -490,6 +494,7 @@ void NonlinearRock<dim>::commit_cell(const CellIterator &cell,
         prescribed_share(mesh_view->constraints, evaluator->dofs()[evaluator->layout.p[a]]) *
         (evaluator->pressure_value(a, q) * gained + evaluator->pressure_gradient(a, q) * flow);
     last_totals.dissipated_energy += w * core[dissipated];
+    last_totals.work_not_stored += w * core[not_stored];
     if (responses[q].remark != nullptr)
       last_totals.remarks.insert(responses[q].remark);
     last_totals.stored_energy_beyond +=

@@ -77,7 +77,8 @@ public:
     double outflow = 0.;           ///< of it, where the pore pressure is prescribed
     double yielded_volume = 0.;    ///< of points with a history [m^3 (/m)]
     double maximum_used = 0.;      ///< of the linear range, by points without
-    double dissipated_energy = 0.; ///< in the rock [J (/m)]
+    double dissipated_energy = 0.; ///< in the rock, by the law [J (/m)]
+    double work_not_stored = 0.;   ///< the same as the trapezoidal rule has it [J (/m)]
 
     std::set<std::string> remarks; ///< of laws on points
 
@@ -141,6 +142,7 @@ private:
   {
     content_beyond, ///< fluid content beyond linear rock's
     dissipated,     ///< energy [J/m^3]
+    not_stored,     ///< work of stress and pressure, by the trapezoidal rule [J/m^3]
     n_core
   };
 

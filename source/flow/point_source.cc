@@ -291,6 +291,11 @@ void PointSource<dim>::find_resistance(const MeshView<dim> &mesh,
 {
   if (entries.borehole_radius == 0.)
     return;
+  if (entries.borehole_radius < 1e-6 * radius)
+    throw InputError("has a borehole of radius " +
+                     to_string(entries.borehole_radius, dimension::length) +
+                     ", less than a millionth of that of its source, " +
+                     to_string(radius, dimension::length) + ": is the unit right?");
   const auto k = eigenvalues(permeability);
   const double mean = std::pow(determinant(permeability), 1. / dim);
   double resistance;

@@ -28,6 +28,10 @@ void Wells<dim>::set_mesh(const MeshView<dim> &mesh,
       }
     const PointSource<dim> &first = *well.perforations[0].source;
     well.initial_pressure = first.in_situ_pressure();
+    well.least_stress = std::numeric_limits<double>::infinity();
+    for (const Perforation &perforation : well.perforations)
+      well.least_stress = std::min(
+        well.least_stress, -dealii::eigenvalues(scene.in_situ_stress(perforation.point))[0]);
     if (first.resistance() > 0.)
       well.conductance = 1. / first.resistance();
     if (well.has_own_minimum && well.minimum_pressure > well.initial_pressure)
@@ -36,6 +40,8 @@ void Wells<dim>::set_mesh(const MeshView<dim> &mesh,
                        "a pressure of at most " +
                          to_string(well.initial_pressure, dimension::pressure) +
                          ", that in situ: above it the rock would be injected into");
+    if (well.pressure_control && well.initial_pressure > 0. && well.value.minimum() < 0.)
+      well.value.refuse("pressures from 0 (vacuum) on, for that in situ is counted from there");
     // Where pressures are net ones, zero is nothing special.
     if (!well.has_own_minimum && well.minimum_pressure == 0. && well.initial_pressure == 0.)
       well.minimum_pressure = -std::numeric_limits<double>::infinity();
@@ -407,6 +413,7 @@ std::vector<WellReport> Wells<dim>::report(const StepContext &context,
     report.inlet_pressure = *pressure;
     report.inlet_aperture = std::numeric_limits<double>::quiet_NaN();
     report.is_reached = well.is_reached;
+    report.least_stress = well.least_stress;
     if (!well.in_rock)
     {
       report.inlet_segment = well.perforations[0].segments[0];
@@ -516,7 +523,8 @@ std::vector<typename Wells<dim>::SourceInRock> Wells<dim>::sources_in_rock() con
                           {},
                           wells[w].fraction,
                           wells[w].perforations[0].source->borehole_radius(),
-                          wells[w].value};
+                          wells[w].value,
+                          wells[w].minimum_pressure};
       for (const Perforation &perforation : wells[w].perforations)
         source.points.push_back(perforation.point);
       sources.push_back(source);

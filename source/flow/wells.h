@@ -39,6 +39,10 @@ struct WellReport
   /// The first perforation opens into it; nothing: into the rock.
   std::optional<unsigned int> inlet_segment;
 
+  /// Of a well in the rock: the least compressive stress in situ, beyond which a pressure fractures
+  /// it; zero or less: none is known [Pa].
+  double least_stress = 0.;
+
   /// Of a well in the rock: a fracture has come so near that the pressure in its borehole is not
   /// known any more.
   bool is_reached = false;
@@ -192,9 +196,10 @@ public:
   {
     unsigned int number; ///< among the wells, from 1
     std::vector<dealii::Point<dim>> points;
-    double fraction;        ///< in the model
-    double borehole_radius; ///< 0: not given [m]
-    TimeHistory rate;       ///< of the whole well [m^3/s]
+    double fraction;         ///< in the model
+    double borehole_radius;  ///< 0: not given [m]
+    TimeHistory rate;        ///< of the whole well [m^3/s]
+    double minimum_pressure; ///< in the borehole; -infinity: no bound [Pa]
   };
   std::vector<SourceInRock> sources_in_rock() const;
 
@@ -240,6 +245,7 @@ private:
     std::vector<Perforation> perforations;
     double conductance = 1.; ///< c [m^3/(Pa s)]
     double initial_pressure = 0.;
+    double least_stress = 0.;     ///< as in WellReport
     unsigned int first_index = 0; ///< of y_0, y_1, ..., and then p_b
 
     bool is_bounded() const

@@ -225,6 +225,25 @@ void Wells<dim>::read_source(dealii::ParameterHandler &prm, const std::string &p
 }
 
 
+/// Of a well that is not there.
+void refuse_entries(const dealii::ParameterHandler &prm, const std::string &path)
+{
+  for (const auto &[entry, otherwise] :
+       std::initializer_list<std::pair<const char *, const char *>>{{"Perforations", ""},
+                                                                    {"Minimum pressure", ""},
+                                                                    {"Opens into", "fracture"},
+                                                                    {"Borehole radius", ""},
+                                                                    {"Source radius", ""},
+                                                                    {"Perforation friction", "0"},
+                                                                    {"Borehole volume", "0"},
+                                                                    {"Fraction in model", "1"}})
+    if (prm.get(entry) != otherwise)
+      throw EntryError(path + "Control", "none",
+                       std::string("'rate' or 'pressure' for a well whose '") + entry +
+                         "' is given");
+}
+
+
 template <int dim>
 void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double vapour_pressure)
 {
@@ -234,10 +253,9 @@ void Wells<dim>::parse_parameters(dealii::ParameterHandler &prm, const double va
   {
     prm.enter_subsection(section(number));
     const std::string path = "Wells/" + section(number) + "/";
-    const std::string control = prm.get("Control"), points = prm.get("Perforations");
-    if (control == "none" && !points.empty())
-      throw EntryError(path + "Control", "none",
-                       "'rate' or 'pressure' for a well that has perforations");
+    const std::string control = prm.get("Control");
+    if (control == "none")
+      refuse_entries(prm, path);
     for (const auto &[entry, its_control] :
          {std::make_pair("Rate", "rate"), std::make_pair("Pressure", "pressure")})
       if (!prm.get(entry).empty() && prm.get(entry) != "0" && control != its_control)
@@ -316,6 +334,13 @@ void Wells<dim>::check(const double start_time, const double end_time, const boo
     well.value.check(start_time, end_time);
     if (well.pressure_control)
       well.value.check_starts_by(start_time);
+    if (well.volume > 0. && (well.pressure_control || !(compressibility > 0.)))
+      throw EntryError("Wells/" + section(well.number) + "/Borehole volume",
+                       to_string(well.volume / well.fraction, volume_dimension<dim>),
+                       well.pressure_control
+                         ? "0 for a well with control 'pressure', whose fluid is not counted"
+                         : "0 with a fluid that is incompressible ('Fluid/Bulk modulus'), which "
+                           "the borehole cannot store");
   }
   if (!rock_gives && wells.size() == 1 && !wells[0].in_rock && !wells[0].pressure_control &&
       wells[0].value.minimum() < 0. && wells[0].value.maximum() <= 0.)

@@ -252,7 +252,7 @@ void Geometry<dim>::parse_sides(ParameterHandler &prm)
                         throw InputError("a box has no name");
                       const auto known = sides.emplace(item.label, next);
                       next = std::max(next, known.first->second + 1);
-                      side_boxes.push_back({item.box, known.first->second});
+                      side_boxes.push_back({item.box, known.first->second, item.label});
                     }
                   });
 }
@@ -352,18 +352,29 @@ void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
       if (item.box.upper_bound(d) <= lower()[d] || item.box.lower_bound(d) >= upper()[d])
         throw EntryError("Mesh/Refinement boxes", text(item.box),
                          "boxes that hold some of the mesh: this one lies beside it");
-  std::vector<unsigned int> n_cells(region_boxes.size(), 0);
+  const std::size_t n_regions = region_boxes.size();
+  std::vector<unsigned int> n_held(n_regions + side_boxes.size(), 0); // cells, then faces
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
-      for (unsigned int i = 0; i < region_boxes.size(); ++i)
-        n_cells[i] += region_boxes[i].box.point_inside(cell->center());
-  Utilities::MPI::sum(n_cells, triangulation.get_communicator(), n_cells);
-  for (unsigned int i = 0; i < region_boxes.size(); ++i)
-    if (n_cells[i] == 0)
-      throw EntryError("Mesh/Region boxes",
-                       region_boxes[i].label + ": " + text(region_boxes[i].box),
-                       "boxes that hold the centre of a cell: this one lies beside the mesh, or is "
-                       "smaller than its cells");
+    {
+      for (unsigned int i = 0; i < n_regions; ++i)
+        n_held[i] += region_boxes[i].box.point_inside(cell->center());
+      for (const unsigned int f : cell->face_indices())
+        for (unsigned int i = 0; i < side_boxes.size() && cell->face(f)->at_boundary(); ++i)
+          n_held[n_regions + i] += side_boxes[i].box.point_inside(cell->face(f)->center());
+    }
+  Utilities::MPI::sum(n_held, triangulation.get_communicator(), n_held);
+  const auto refuse_empty =
+    [&](const auto &boxes, const std::size_t first, const std::string &name, const std::string &of)
+  {
+    for (unsigned int i = 0; i < boxes.size(); ++i)
+      if (n_held[first + i] == 0)
+        throw EntryError("Mesh/" + name, boxes[i].label + ": " + text(boxes[i].box),
+                         "boxes that hold the centre of a " + of +
+                           ": this one lies beside the mesh, or is smaller than its cells");
+  };
+  refuse_empty(region_boxes, 0, "Region boxes", "cell");
+  refuse_empty(side_boxes, n_regions, "Side boxes", "face of the boundary");
 }
 
 

@@ -120,6 +120,7 @@ private:
   {
     dealii::BoundingBox<dim> box;
     dealii::types::boundary_id side;
+    std::string label;
   };
 
   enum class Cells

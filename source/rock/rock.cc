@@ -89,9 +89,13 @@ void parse_layers(const ParameterHandler &prm, const std::string &path, RockProp
     rock.layer_normal = Tensor<1, 3>();
     for (unsigned int d = 0; d < normal.size(); ++d)
       rock.layer_normal[d] = normal[d];
-    if (normal.size() == 1 || rock.layer_normal.norm() == 0.)
+    const double greatest =
+      std::max({std::abs(rock.layer_normal[0]), std::abs(rock.layer_normal[1]),
+                std::abs(rock.layer_normal[2])});
+    if (normal.size() == 1 || greatest == 0.)
       throw EntryError(path + "/Normal of the layers", prm.get("Normal of the layers"),
                        "two or three numbers that are not all zero, such as '0, 1'");
+    rock.layer_normal /= greatest; // whose square may not be finite
     rock.layer_normal /= rock.layer_normal.norm();
   }
   const auto across =

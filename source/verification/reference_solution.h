@@ -81,6 +81,7 @@ struct ReferenceSource
   std::vector<dealii::Point<dim>> points;
   double fraction;                              ///< "Fraction in model"
   double borehole_radius;                       ///< 0: not given [m]
+  double minimum_pressure;                      ///< in the borehole; -infinity: no bound [Pa]
   std::vector<std::pair<double, double>> rates; ///< time and the rate from it on [s, m^3/s]
 };
 

@@ -8,6 +8,11 @@ stockwork_case_test(NAME convergence/drawdown DECK prm/drawdown/none.prm NEGATIV
 stockwork_order_test(NAME convergence/order/drawdown DECK prm/drawdown/none.prm
   SET "Output/Fields=false" SERIES "Resolution=coarse" "Resolution=medium"
   ORDER "errors/displacement/final=2" "errors/pore_pressure/final=1")
+# What the run does not know is said: that the rock would break, in situ or at the well.
+stockwork_case_test(NAME convergence/drawdown/fractures DECK prm/drawdown/none.prm LABELS quick
+  SET "Resolution=coarse" "Output/Fields=false" "Time/End time=10 min" "Wells/Well 1/Rate=5e-4"
+      "In situ/Stress=-12 MPa, -9 MPa"
+  WARNS "least compressive stress = 1.11: the pores would open fractures" "it would fracture the rock")
 # After the pump has stopped (Horner 1951: the sum of two such solutions).
 stockwork_case_test(NAME convergence/drawdown/shut_in DECK tests/data/well_shut_in.prm NEGATIVE
   SET "Resolution=coarse" "Output/Fields=false"

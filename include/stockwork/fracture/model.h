@@ -42,8 +42,7 @@ struct Requirements
   /// Null: there are none. It lives as long as the model.
   const RockLaw *law = nullptr;
 
-  bool linear_elements = false; ///< displacements live at vertices only
-  bool has_fracture = true;     ///< else neither unknowns nor segments, ever
+  bool has_fracture = true; ///< else neither unknowns nor segments, ever
   RegionalRock regional_rock = RegionalRock::any;
 };
 

@@ -3,6 +3,7 @@
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct RockResponse
   dealii::SymmetricTensor<2, 3> stress; ///< total, over in situ [Pa]
   double content = 0.;                  ///< fluid over in situ, per volume of rock
   double energy = 0.; ///< stored over in situ by the skeleton and the fluid in it [J/m^3]
+  /// What the step from the committed history on has dissipated [J/m^3]. NaN, of a law that cannot
+  /// say: the core takes the work of stress and pressure, by the trapezoidal rule, less what is
+  /// stored.
+  double dissipated = std::numeric_limits<double>::quiet_NaN();
 
   dealii::SymmetricTensor<4, 3> stress_by_strain;
   dealii::SymmetricTensor<2, 3> stress_by_pressure; ///< minus alpha times unity where isotropic

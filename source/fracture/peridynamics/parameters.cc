@@ -104,6 +104,17 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
 
 namespace
 {
+void refuse_quadratic_elements(dealii::ParameterHandler &prm)
+{
+  prm.enter_subsection("Discretisation");
+  if (const std::string pair = prm.get("Elements"); pair.rfind("Q2", 0) == 0)
+    throw EntryError("Discretisation/Elements", pair,
+                     "Q1-Q1 stabilised or Q1-Q1, because the nodes of the fracture model are the "
+                     "vertices of cells");
+  prm.leave_subsection();
+}
+
+
 /// What holds for all fluid in fractures, where the elements of the pore pressure carry it.
 /// @return the minimum aperture [m]
 double parse_tensor_fluid(dealii::ParameterHandler &prm)
@@ -175,14 +186,13 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   p.most_advances = prm.get_integer("Most advances per step");
   const std::string written = prm.get("Write bonds");
   p.written = written == "all" ? Bonds::all : written == "broken" ? Bonds::broken : Bonds::none;
+  prm.leave_subsection();
+  prm.leave_subsection();
+  refuse_quadratic_elements(prm);
   if (p.tensor_fluid)
-  {
-    prm.leave_subsection();
-    prm.leave_subsection();
     p.minimum_aperture = parse_tensor_fluid(prm);
-    prm.enter_subsection("Fracture");
-    prm.enter_subsection("peridynamics");
-  }
+  prm.enter_subsection("Fracture");
+  prm.enter_subsection("peridynamics");
   return p;
 }
 

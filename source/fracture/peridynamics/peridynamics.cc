@@ -76,7 +76,6 @@ Requirements Peridynamics<dim>::requirements() const
 {
   Requirements requirements;
   requirements.symmetric = false;
-  requirements.linear_elements = true;
   requirements.pore_pressure = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
   requirements.regional_rock = RegionalRock::none;

@@ -105,6 +105,10 @@ void MohrCoulomb::evaluate(const ArrayView<const RockState> states,
       state.in_situ_stress * elastic +
       state.in_situ_pressure * (alpha * trace(elastic) + inverse_biot_modulus * state.pressure);
 
+    // Work of the total stress on the flow, and of the pressure on the pores that it opens, both at
+    // the end of the step as the flow rule has it: never negative.
+    response.dissipated = back.stress * flow;
+
     // A trial stress C : e + (1 - alpha) p 1: p acts as the strain (1 - alpha) p / (3 K) 1.
     response.stress_by_strain = back.tangent;
     response.stress_by_pressure = (1. - alpha) / (3. * bulk) * (back.tangent * identity) - identity;

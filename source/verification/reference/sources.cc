@@ -2,6 +2,7 @@
 #include "verification/analytical/continuous_source.h"
 
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
 
 #include "verification/reference/problems.h"
 
@@ -115,6 +116,23 @@ public:
     return result;
   }
 
+  /// A well whose pressure comes to its bound has another rate than the deck's.
+  void check_bounds(const double end_time) const
+  {
+    for (const ReferenceSource<dim> &well : wells)
+      for (std::size_t i = 0; i < well.rates.size() && well.borehole_radius > 0.; ++i)
+      {
+        const double end = i + 1 < well.rates.size() ? well.rates[i + 1].first : end_time;
+        const double pressure =
+          in_situ_pressure + solution->pressure_beside(well, well.borehole_radius, end);
+        if (pressure < well.minimum_pressure)
+          throw InputError("It is of wells whose rate is given: that of well " +
+                           std::to_string(well.number) + " would come to " +
+                           to_string(pressure, dimension::pressure) +
+                           ", below its 'Minimum pressure'.");
+      }
+  }
+
 private:
   std::shared_ptr<SourcesField<dim>> solution;
   std::vector<ReferenceSource<dim>> wells;
@@ -129,8 +147,12 @@ Made<dim> make_sources(const ParameterHandler &, const ReferenceInput<dim> &inpu
   if (input.sources.empty() || input.sources.size() != input.n_wells)
     throw InputError("It is of wells that open into the rock and whose rate is given: 'Wells/Well "
                      "1/Opens into = rock', 'Control = rate'.");
+  const double extent = input.lower.distance(input.upper);
   for (const ReferenceSource<dim> &well : input.sources)
   {
+    if (well.borehole_radius > 0. && well.borehole_radius < 1e-9 * extent)
+      throw InputError("It is of boreholes of at least a billionth of the mesh: is the unit of "
+                       "'Borehole radius' right?");
     if (well.rates.empty())
       throw InputError("It is of rates that are constant or in pieces.");
     if (well.points.size() > 1)
@@ -140,7 +162,9 @@ Made<dim> make_sources(const ParameterHandler &, const ReferenceInput<dim> &inpu
   }
   if (input.layered || !input.cracks.empty() || input.rock.main().plane_stress)
     throw InputError("It is of uniform rock without cracks, in two dimensions in plane strain.");
-  return std::make_unique<SourcesReference<dim>>(input);
+  auto reference = std::make_unique<SourcesReference<dim>>(input);
+  reference->check_bounds(input.end_time);
+  return reference;
 }
 
 
