@@ -288,9 +288,12 @@ class Bench:
         first, before, after = run(1, iterative), run(last - 1, iterative), run(last, iterative)
         newton = after["nonlinear_iterations"] - before["nonlinear_iterations"]
         linear = after["linear_iterations"] - before["linear_iterations"]
-        self.row(f"{case}: linear iterations of an iteration, iterative",
-                 f"{linear / newton:.1f}, {linear} of the step", f"elastic step: {first['linear_iterations']}",
-                 linear / newton / first["linear_iterations"], "1.3", "")
+        elastic_step = first["linear_iterations"]
+        self.row(f"{case}: linear iterations of the step, iterative", f"{linear} in {newton} iterations",
+                 f"elastic step: {elastic_step} in {first['nonlinear_iterations']}", linear / elastic_step, "1.3", "")
+        self.row(f"{case}: linear iterations of an iteration, iterative", f"{linear / newton:.1f}",
+                 f"elastic one: {elastic_step / first['nonlinear_iterations']:.1f}",
+                 linear / newton / elastic_step * first["nonlinear_iterations"], "1.3", "")
 
     def measured(self, program, deck, settings):
         """User seconds and peak memory [MB] of a run."""

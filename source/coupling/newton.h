@@ -5,6 +5,7 @@
 #include "stockwork/base/run_context.h"
 #include "stockwork/fracture/model.h"
 
+#include "coupling/forcing_term.h"
 #include "coupling/residual_norms.h"
 #include "coupling/system_assembly.h"
 #include "coupling/unknown_numbering.h"
@@ -93,7 +94,10 @@ private:
   }
 
   /// Fill `dx_bulk` and `dx_extra`. Returns whether they can be used; else the report says why not.
-  bool find_increment(NonlinearReport &report);
+  bool find_increment(NonlinearReport &report, const ResidualNorms &allowed);
+
+  /// The residual that the next linear solve may leave, over what it was.
+  double linear_tolerance(const ResidualNorms &allowed);
 
   /// Eliminate the bulk where that is possible.
   void condense();
@@ -139,6 +143,7 @@ private:
   double force = 0.;          ///< scale of residual forces
   unsigned int n_limited = 0; ///< iterations that 'Maximum pressure change' shortened
   unsigned int n_halved = 0;  ///< iterations that were shortened because the residual grew
+  ForcingTerm forcing_term;   ///< of rock that yields
   BlockVector dx_bulk;
   std::vector<double> dx_extra;
 
