@@ -73,10 +73,6 @@ ResidualNorms Newton<dim>::allowed()
   const double rock_on_fracture =
     std::sqrt(std::inner_product(begin, begin + unknowns.n_model_extra(), begin, 0.));
   force = std::max({greatest.momentum, greatest.extra, rock_on_fracture});
-  // So do linear rock and what the law says beyond it: where all of it flows plastically, a step
-  // may start next to equilibrium, and nothing smaller than these forces' digits can be asked for.
-  if (assembly.linear_system().rock_change != nullptr)
-    force = std::max(force, assembly.force_of_linear_rock());
   const ResidualNorms rounding = assembly.rounding_errors(values, context, state);
   ResidualNorms allowed;
   allowed.momentum = allowed.extra = std::max(parameters.tolerance * force, rounding.momentum);

@@ -66,12 +66,6 @@ public:
     return linear_residual_extra;
   }
 
-  /// Magnitude of the forces by which the linear part alone is out of balance [N]. Collective.
-  double force_of_linear_rock() const
-  {
-    return linear_residual_bulk.block(0).l2_norm();
-  }
-
   /// What that changes by with the extra unknowns while the bulk stays as it is. Collective.
   std::vector<double> linear_change_by_extra(const std::vector<double> &dx_extra) const;
 
