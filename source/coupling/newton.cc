@@ -67,7 +67,7 @@ Newton<dim>::Newton(const NewtonTools<dim> &tools,
   , greatest(norms)
   , dx_bulk(unknowns.owned_vector())
 {
-  values = current.bulk;
+  copy_owned(values, current.bulk);
 }
 
 
@@ -177,7 +177,7 @@ void Newton<dim>::recover_bulk()
   }
   values.add(1., dx_bulk);
   unknowns.constraints().distribute(values);
-  current.bulk = values;
+  unknowns.update_ghosted(current.bulk, values);
   assembly.linear_residual_of_extra() = start_of_condensed;
   evaluate([&]() { assembly.update_linear(1., dx_bulk, behind); });
 }
@@ -202,7 +202,7 @@ void Newton<dim>::move(const double step)
   }
   values.add(step, dx_bulk);
   unknowns.constraints().distribute(values);
-  current.bulk = values;
+  unknowns.update_ghosted(current.bulk, values);
   if (!linear)
     evaluate([&]() { assembly.update_linear(step, dx_bulk, dx_extra); });
 }

@@ -76,6 +76,10 @@ void UnknownNumbering<dim>::number_bulk(const double time)
   if (communication.max(coupled.empty() ? 0. : 1.) > 0.)
     make_visible(of_increments, handler.locally_owned_dofs(), visible,
                  triangulation.get_communicator());
+
+  owned_zero.reinit(own, triangulation.get_communicator());
+  ghosted_zero.reinit(own, seen, triangulation.get_communicator());
+  ghosts.reinit(owned_zero, ghosted_zero);
 }
 
 
@@ -129,24 +133,6 @@ void UnknownNumbering<dim>::adopt_extra(const ExtraNumbering &from,
     if (vector->size() == from.size()) // a quasi-static run has no reference of acceleration
       *vector = now.transfer(from, *vector);
   extra_numbering = std::move(now);
-}
-
-
-template <int dim>
-typename UnknownNumbering<dim>::BlockVector UnknownNumbering<dim>::ghosted_vector() const
-{
-  BlockVector vector;
-  vector.reinit(own, seen, triangulation.get_communicator());
-  return vector;
-}
-
-
-template <int dim>
-typename UnknownNumbering<dim>::BlockVector UnknownNumbering<dim>::owned_vector() const
-{
-  BlockVector vector;
-  vector.reinit(own, triangulation.get_communicator());
-  return vector;
 }
 
 

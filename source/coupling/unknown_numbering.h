@@ -11,6 +11,7 @@
 #include "stockwork/fracture/model.h"
 #include "stockwork/mesh/mesh_view.h"
 
+#include "base/ghost_values.h"
 #include "biot/boundary_conditions.h"
 #include "biot/cell_matrices.h"
 #include "coupling/extra_numbering.h"
@@ -58,8 +59,20 @@ public:
   void couple(dealii::BlockDynamicSparsityPattern &pattern) const;
 
   /// Zero vectors with ghost values / without.
-  BlockVector ghosted_vector() const;
-  BlockVector owned_vector() const;
+  BlockVector ghosted_vector() const
+  {
+    return ghosted_zero;
+  }
+  BlockVector owned_vector() const
+  {
+    return owned_zero;
+  }
+
+  /// Ghosted = owned, of such vectors. Collective.
+  void update_ghosted(BlockVector &ghosted, const BlockVector &owned) const
+  {
+    ghosts.update(ghosted, owned);
+  }
 
   MeshView<dim> mesh_view() const
   {
@@ -129,6 +142,8 @@ private:
   dealii::AffineConstraints<double> with_values, of_increments;
   dealii::IndexSet visible; ///< unknowns of the bulk
   std::vector<dealii::IndexSet> own, seen;
+  BlockVector owned_zero, ghosted_zero; ///< whose copies share their layout
+  GhostValues ghosts;
 
   ExtraNumbering extra_numbering;
   unsigned int n_of_model = 0;

@@ -193,6 +193,9 @@ std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &le
                                              const ExtraSchur::SparseVectors &right)
 {
   const bool keep = keeps_values;
+  if (!keep)
+    if (auto products = factor->products(left, right))
+      return std::move(*products);
   const std::size_t n = factor->size();
   std::vector<double> result(left.size() * right.size());
   const auto multiply_one = [&](const std::size_t j, const double *solution)

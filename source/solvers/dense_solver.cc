@@ -27,6 +27,25 @@ std::string_view bytes_of_row(const FullMatrix<double> &matrix, const unsigned i
 {
   return {reinterpret_cast<const char *>(&matrix(row, 0)), matrix.n() * sizeof(double)};
 }
+/// max |a_i| b_i, several at a time.
+double greatest_product(const double *const a, const std::vector<double> &b)
+{
+  constexpr unsigned int lanes = 8;
+  double greatest[lanes] = {};
+  unsigned int i = 0;
+  for (; i + lanes <= b.size(); i += lanes)
+    for (unsigned int lane = 0; lane < lanes; ++lane)
+      greatest[lane] = std::max(greatest[lane], std::abs(a[i + lane]) * b[i + lane]);
+  for (; i < b.size(); ++i)
+    greatest[0] = std::max(greatest[0], std::abs(a[i]) * b[i]);
+  return *std::max_element(greatest, greatest + lanes);
+}
+
+bool same_bytes(const FullMatrix<double> &a, const FullMatrix<double> &b)
+{
+  return a.m() == b.m() && a.n() == b.n() &&
+         (a.empty() || std::memcmp(&a(0, 0), &b(0, 0), a.n_elements() * sizeof(double)) == 0);
+}
 } // namespace
 
 
@@ -39,12 +58,13 @@ void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
   {
     std::fill(size.begin(), size.end(), 0.);
     for (unsigned int i = 0; i < n; ++i)
+    {
+      const double *const row = &matrix(i, 0);
+      const double greatest = greatest_product(row, scaling);
       for (unsigned int j = 0; j < n; ++j)
-      {
-        const double entry = std::abs(matrix(i, j));
-        size[i] = std::max(size[i], entry * scaling[j]);
-        size[j] = std::max(size[j], entry * scaling[i]);
-      }
+        size[j] = std::max(size[j], std::abs(row[j]) * scaling[i]);
+      size[i] = std::max(size[i], greatest);
+    }
     for (unsigned int i = 0; i < n; ++i)
     {
       if (!(size[i] > 0.) || !std::isfinite(size[i]))
@@ -52,10 +72,11 @@ void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
       scaling[i] = std::sqrt(scaling[i] / size[i]);
     }
   }
+  // LAPACK stores by column: of the transposed matrix.
   lu.reinit(n, n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < n; ++j)
-      lu(i, j) = matrix(i, j) * scaling[i] * scaling[j];
+      lu(j, i) = matrix(i, j) * scaling[i] * scaling[j];
   try
   {
     lu.compute_lu_factorization();
@@ -75,7 +96,7 @@ void DenseSolver::Factor::solve(Vector<double> &x) const
 {
   for (unsigned int i = 0; i < x.size(); ++i)
     x(i) *= scaling[i];
-  lu.solve(x);
+  lu.solve(x, true);
   for (unsigned int i = 0; i < x.size(); ++i)
     x(i) *= scaling[i];
 }
@@ -169,6 +190,8 @@ void DenseSolver::eliminate(const FullMatrix<double> &matrix)
   for (unsigned int i = 0; i < rest.size(); ++i)
     for (unsigned int j = 0; j < kept.size(); ++j)
       wanted(i, j) = matrix(kept[j], rest[i]);
+  if (same_bytes(wanted, columns))
+    return;
 
   // Most columns have been solved for before: they are known by their contents.
   std::unordered_map<std::string_view, unsigned int> known;
@@ -188,17 +211,16 @@ void DenseSolver::eliminate(const FullMatrix<double> &matrix)
   known.clear();
   columns.swap(wanted);
   eliminated.swap(result);
+  eliminated_by_row.reinit(kept.size(), rest.size());
+  eliminated_by_row.copy_transposed(eliminated);
 }
 
 
-void DenseSolver::factorise(const FullMatrix<double> &matrix,
+void DenseSolver::factorise(FullMatrix<double> matrix,
                             const std::vector<unsigned int> &identities)
 {
   if (!find_kept(matrix, identities) || matrix.m() - kept.size() > rest_when_chosen + most_new)
     choose_kept(matrix, identities);
-  last_matrix = matrix;
-  last_identities = identities;
-
   std::vector<bool> is_kept(matrix.m(), false);
   for (const unsigned int i : kept)
     is_kept[i] = true;
@@ -225,12 +247,12 @@ void DenseSolver::factorise(const FullMatrix<double> &matrix,
       if (4 * entries.size() > kept.size())
         full.push_back(i);
       else
-        for (unsigned int j = 0; j < rest.size(); ++j)
+        for (const unsigned int k : entries)
         {
-          double sum = 0.;
-          for (const unsigned int k : entries)
-            sum += rows(i, k) * eliminated(j, k);
-          small(i, j) -= sum;
+          const double entry = rows(i, k), *const from = &eliminated_by_row(k, 0);
+          double *const to = &small(i, 0);
+          for (unsigned int j = 0; j < rest.size(); ++j)
+            to[j] -= entry * from[j];
         }
     }
     if (!full.empty())
@@ -244,6 +266,8 @@ void DenseSolver::factorise(const FullMatrix<double> &matrix,
           small(full[i], j) -= product(i, j);
     }
   }
+  last_matrix = std::move(matrix);
+  last_identities = identities;
   if (!rest.empty())
     try
     {

@@ -22,7 +22,7 @@ public:
 
   /// @param identities of the unknowns, by which those of an earlier matrix are found again
   /// @throws SolveError when the matrix is singular; nothing is kept then
-  void factorise(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
+  void factorise(dealii::FullMatrix<double>, const std::vector<unsigned int> &identities);
 
   /// x := A^-1 x
   void solve(dealii::Vector<double> &x) const;
@@ -74,6 +74,7 @@ private:
   std::vector<unsigned int> kept, rest;  ///< indices
   dealii::FullMatrix<double> rows;       ///< R
   dealii::FullMatrix<double> eliminated; ///< F^-1 C, transposed
+  dealii::FullMatrix<double> eliminated_by_row; ///< F^-1 C
   Factor rest_factor;
 
   dealii::FullMatrix<double> columns; ///< C, transposed, for which `eliminated` has been computed

@@ -40,6 +40,8 @@ public:
                     std::vector<int> &rows,
                     std::vector<double> &values,
                     std::vector<double> &x) override;
+  std::optional<std::vector<double>> products(const SparseVectors &left,
+                                              const SparseVectors &right) override;
   int size() const override;
 
 private:
