@@ -28,9 +28,10 @@ public:
   {
     gather_corner(system.extra_extra);
     dealii::FullMatrix<double> s(op->n_extra(), op->n_extra());
-    s.equ(-1., of_bulk);
+    // In the order of ExtraSchur::update(), to the last digit, by which DenseSolver sees what stays.
     for (const Entry &e : corner)
       s(e.row, e.column) += e.value;
+    s.add(-1., of_bulk);
     solver.schur.factorise(std::move(s));
     dx_extra.assign(op->n_extra(), 0.);
     reaction = dx_extra;

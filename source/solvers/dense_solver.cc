@@ -41,6 +41,29 @@ double greatest_product(const double *const a, const std::vector<double> &b)
   return *std::max_element(greatest, greatest + lanes);
 }
 
+/// Few vertices of a graph of which each edge has one: those with the most edges first. A row of the
+/// fluid changes against several openings, an opening against few rows of the fluid.
+std::vector<bool> cover(const std::vector<std::vector<unsigned int>> &neighbours)
+{
+  std::vector<unsigned int> n_left;
+  for (const auto &list : neighbours)
+    n_left.push_back(list.size());
+  std::vector<bool> taken(n_left.size(), false);
+  while (!n_left.empty())
+  {
+    const auto most = std::max_element(n_left.begin(), n_left.end());
+    if (*most == 0)
+      break;
+    const unsigned int i = most - n_left.begin();
+    taken[i] = true;
+    *most = 0;
+    for (const unsigned int j : neighbours[i])
+      if (!taken[j])
+        --n_left[j];
+  }
+  return taken;
+}
+
 bool same_bytes(const FullMatrix<double> &a, const FullMatrix<double> &b)
 {
   return a.m() == b.m() && a.n() == b.n() &&
@@ -150,15 +173,19 @@ void DenseSolver::choose_kept(const FullMatrix<double> &matrix,
         candidates.push_back(i);
         last.push_back(found->second);
       }
-  std::vector<bool> changed(candidates.size(), false);
+  std::vector<std::vector<unsigned int>> changed(candidates.size());
   for (unsigned int i = 0; i < candidates.size(); ++i)
     for (unsigned int j = 0; j < candidates.size(); ++j)
       if (matrix(candidates[i], candidates[j]) != last_matrix(last[i], last[j]))
-        changed[i] = changed[j] = true;
+      {
+        changed[i].push_back(j);
+        changed[j].push_back(i);
+      }
+  const std::vector<bool> dropped = cover(changed);
 
   kept.clear();
   for (unsigned int i = 0; i < candidates.size(); ++i)
-    if (!changed[i])
+    if (!dropped[i])
       kept.push_back(candidates[i]);
   if (kept.size() < minimum_kept)
     kept.clear();
@@ -184,14 +211,14 @@ void DenseSolver::choose_kept(const FullMatrix<double> &matrix,
 }
 
 
-void DenseSolver::eliminate(const FullMatrix<double> &matrix)
+bool DenseSolver::eliminate(const FullMatrix<double> &matrix)
 {
   FullMatrix<double> wanted(rest.size(), kept.size());
   for (unsigned int i = 0; i < rest.size(); ++i)
     for (unsigned int j = 0; j < kept.size(); ++j)
       wanted(i, j) = matrix(kept[j], rest[i]);
   if (same_bytes(wanted, columns))
-    return;
+    return false;
 
   // Most columns have been solved for before: they are known by their contents.
   std::unordered_map<std::string_view, unsigned int> known;
@@ -213,6 +240,7 @@ void DenseSolver::eliminate(const FullMatrix<double> &matrix)
   eliminated.swap(result);
   eliminated_by_row.reinit(kept.size(), rest.size());
   eliminated_by_row.copy_transposed(eliminated);
+  return true;
 }
 
 
@@ -233,7 +261,7 @@ void DenseSolver::factorise(FullMatrix<double> matrix,
   small.extract_submatrix_from(matrix, rest, rest);
   if (!kept.empty() && !rest.empty())
   {
-    eliminate(matrix);
+    const bool anew = eliminate(matrix);
     rows.reinit(rest.size(), kept.size());
     rows.extract_submatrix_from(matrix, rest, kept);
     // The rows of the fluid have few entries, those of the tips are full.
@@ -257,13 +285,18 @@ void DenseSolver::factorise(FullMatrix<double> matrix,
     }
     if (!full.empty())
     {
-      FullMatrix<double> full_rows(full.size(), kept.size()), product(full.size(), rest.size());
+      FullMatrix<double> now(full.size(), kept.size());
       for (unsigned int i = 0; i < full.size(); ++i)
-        std::copy(&rows(full[i], 0), &rows(full[i], 0) + kept.size(), &full_rows(i, 0));
-      full_rows.mTmult(product, eliminated);
+        std::copy(&rows(full[i], 0), &rows(full[i], 0) + kept.size(), &now(i, 0));
+      if (anew || !same_bytes(now, full_rows))
+      {
+        full_rows.swap(now);
+        full_product.reinit(full.size(), rest.size());
+        full_rows.mTmult(full_product, eliminated);
+      }
       for (unsigned int i = 0; i < full.size(); ++i)
         for (unsigned int j = 0; j < rest.size(); ++j)
-          small(full[i], j) -= product(i, j);
+          small(full[i], j) -= full_product(i, j);
     }
   }
   last_matrix = std::move(matrix);

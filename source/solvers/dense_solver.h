@@ -57,8 +57,8 @@ private:
   /// Keep what has not changed since the last matrix.
   void choose_kept(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
 
-  /// Fill `eliminated`.
-  void eliminate(const dealii::FullMatrix<double> &);
+  /// Fill `eliminated`. Returns whether it has become another.
+  bool eliminate(const dealii::FullMatrix<double> &);
 
   // Kept.
   std::vector<unsigned int> kept_identities;
@@ -76,6 +76,9 @@ private:
   dealii::FullMatrix<double> eliminated; ///< F^-1 C, transposed
   dealii::FullMatrix<double> eliminated_by_row; ///< F^-1 C
   Factor rest_factor;
+
+  dealii::FullMatrix<double> full_rows;    ///< those of R that are full,
+  dealii::FullMatrix<double> full_product; ///< times F^-1 C
 
   dealii::FullMatrix<double> columns; ///< C, transposed, for which `eliminated` has been computed
 };
