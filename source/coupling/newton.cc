@@ -176,8 +176,7 @@ void Newton<dim>::recover_bulk()
     of_bulk->recover_bulk(assembly.linear_system(), behind, dx_bulk);
   }
   values.add(1., dx_bulk);
-  unknowns.constraints().distribute(values);
-  unknowns.update_ghosted(current.bulk, values);
+  unknowns.constrain(values, current.bulk);
   assembly.linear_residual_of_extra() = start_of_condensed;
   evaluate([&]() { assembly.update_linear(1., dx_bulk, behind); });
 }
@@ -201,8 +200,7 @@ void Newton<dim>::move(const double step)
     return;
   }
   values.add(step, dx_bulk);
-  unknowns.constraints().distribute(values);
-  unknowns.update_ghosted(current.bulk, values);
+  unknowns.constrain(values, current.bulk);
   if (!linear)
     evaluate([&]() { assembly.update_linear(step, dx_bulk, dx_extra); });
 }

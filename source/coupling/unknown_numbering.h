@@ -74,6 +74,9 @@ public:
     ghosts.update(ghosted, owned);
   }
 
+  /// Let both satisfy constraints(): the constrained entries of `owned` are not looked at. Collective.
+  void constrain(BlockVector &owned, BlockVector &ghosted) const;
+
   MeshView<dim> mesh_view() const
   {
     return {triangulation, handler, mapping, of_increments, elements.has_pore_pressure};
@@ -144,6 +147,19 @@ private:
   std::vector<dealii::IndexSet> own, seen;
   BlockVector owned_zero, ghosted_zero; ///< whose copies share their layout
   GhostValues ghosts;
+
+  /// A constrained unknown of this rank, and where what it depends on is in a vector with ghost values.
+  struct Line
+  {
+    dealii::types::global_dof_index index;
+    unsigned int block;
+    int place;
+    std::vector<std::pair<int, double>> masters;
+  };
+  std::vector<Line> lines;
+  bool masters_are_visible = false; ///< on all ranks
+
+  void find_lines();
 
   ExtraNumbering extra_numbering;
   unsigned int n_of_model = 0;
