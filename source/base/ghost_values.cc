@@ -12,9 +12,8 @@ void GhostValues::reinit(const BlockVector &owned, const BlockVector &ghosted)
 {
   imports.clear();
   for (unsigned int b = 0; b < owned.n_blocks(); ++b)
-    imports.push_back(
-      std::make_shared<Epetra_Import>(ghosted.block(b).trilinos_vector().Map(),
-                                      owned.block(b).trilinos_vector().Map()));
+    imports.push_back(std::make_shared<Epetra_Import>(ghosted.block(b).trilinos_vector().Map(),
+                                                      owned.block(b).trilinos_vector().Map()));
 }
 
 

@@ -9,8 +9,8 @@ class Epetra_Import;
 
 namespace stockwork
 {
-/// Brings ghost values up to date: ghosted = owned, for vectors of one numbering. deal.II's assignment does
-/// the same, and finds out in each call which rank needs what of which.
+/// Brings ghost values up to date: ghosted = owned, for vectors of one numbering. deal.II's
+/// assignment does the same, and finds out in each call which rank needs what of which.
 class GhostValues
 {
 public:

@@ -107,7 +107,8 @@ void UnknownNumbering<dim>::find_lines()
     lines.push_back({line.index, b, place, {}});
     for (const auto &[master, weight] : line.entries)
     {
-      const int there = static_cast<unsigned int>(block_of(master)) == b ? local(ghosted_map, master) : -1;
+      const int there =
+        static_cast<unsigned int>(block_of(master)) == b ? local(ghosted_map, master) : -1;
       visible_here = visible_here && there >= 0;
       lines.back().masters.emplace_back(there, weight);
     }

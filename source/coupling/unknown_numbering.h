@@ -74,7 +74,8 @@ public:
     ghosts.update(ghosted, owned);
   }
 
-  /// Let both satisfy constraints(): the constrained entries of `owned` are not looked at. Collective.
+  /// Let both satisfy constraints(): the constrained entries of `owned` are not looked at.
+  /// Collective.
   void constrain(BlockVector &owned, BlockVector &ghosted) const;
 
   MeshView<dim> mesh_view() const
@@ -148,7 +149,8 @@ private:
   BlockVector owned_zero, ghosted_zero; ///< whose copies share their layout
   GhostValues ghosts;
 
-  /// A constrained unknown of this rank, and where what it depends on is in a vector with ghost values.
+  /// A constrained unknown of this rank, and where what it depends on is in a vector with ghost
+  /// values.
   struct Line
   {
     dealii::types::global_dof_index index;

@@ -28,7 +28,8 @@ public:
   {
     gather_corner(system.extra_extra);
     dealii::FullMatrix<double> s(op->n_extra(), op->n_extra());
-    // In the order of ExtraSchur::update(), to the last digit, by which DenseSolver sees what stays.
+    // In the order of ExtraSchur::update(), to the last digit, by which DenseSolver sees what
+    // stays.
     for (const Entry &e : corner)
       s(e.row, e.column) += e.value;
     s.add(-1., of_bulk);

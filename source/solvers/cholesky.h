@@ -9,7 +9,8 @@ namespace stockwork
 class CholmodFactor;
 
 /// Cholesky's factor of a symmetric positive definite matrix on one rank: CHOLMOD. In two
-/// dimensions it solves for one right-hand side in a third of MUMPS's time, and orders in a quarter.
+/// dimensions it solves for one right-hand side in a third of MUMPS's time, and orders in a
+/// quarter.
 class Cholesky : public SparseFactor
 {
 public:

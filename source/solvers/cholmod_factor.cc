@@ -96,8 +96,7 @@ void CholmodFactor::factorise(std::vector<double> &values)
     in_order[places[k]] = values[k];
   matrix->x = in_order.empty() ? values.data() : in_order.data();
   matrix->xtype = CHOLMOD_REAL;
-  const bool done =
-    cholmod_factorize(matrix, factor, &common) && common.status == CHOLMOD_OK;
+  const bool done = cholmod_factorize(matrix, factor, &common) && common.status == CHOLMOD_OK;
   matrix->x = nullptr; // nobody asks for the values again
   matrix->xtype = CHOLMOD_PATTERN;
   if (!done)
@@ -107,8 +106,8 @@ void CholmodFactor::factorise(std::vector<double> &values)
 
 void CholmodFactor::solve(double *const x, const std::size_t n_columns, const int system)
 {
-  // CHOLMOD permutes the right-hand sides into `work_1`, solves there, and permutes back into what it
-  // is given for the solution, which it takes as it is where the size fits.
+  // CHOLMOD permutes the right-hand sides into `work_1`, solves there, and permutes back into what
+  // it is given for the solution, which it takes as it is where the size fits.
   cholmod_dense b{};
   b.nrow = b.d = matrix->nrow;
   b.ncol = n_columns;

@@ -29,20 +29,22 @@ public:
   void factorise(std::vector<double> &values);
 
   /// Solve in place for several right-hand sides, one after another.
-  /// @param system CHOLMOD_A: with the matrix; CHOLMOD_L, CHOLMOD_Lt: with L of L L^T = P A P^T or its
-  /// transpose, unknowns in the order of the factor
+  /// @param system CHOLMOD_A: with the matrix; CHOLMOD_L, CHOLMOD_Lt: with L of L L^T = P A P^T or
+  /// its transpose, unknowns in the order of the factor
   void solve(double *x, std::size_t n_columns, int system = CHOLMOD_A);
 
   /// The place of each unknown in the order of the factor.
   std::vector<int> places_in_factor() const;
 
-  /// Call use(row, column, value) for each entry of L, in the order of the factor. After analyse() with
-  /// `last`, which makes the factor supernodal.
+  /// Call use(row, column, value) for each entry of L, in the order of the factor. After analyse()
+  /// with `last`, which makes the factor supernodal.
   template <class Function>
   void for_each_entry(const Function &use) const
   {
-    const int *const super = static_cast<int *>(factor->super), *const pi = static_cast<int *>(factor->pi),
-              *const px = static_cast<int *>(factor->px), *const s = static_cast<int *>(factor->s);
+    const int *const super = static_cast<int *>(factor->super),
+                     *const pi = static_cast<int *>(factor->pi),
+                     *const px = static_cast<int *>(factor->px),
+                     *const s = static_cast<int *>(factor->s);
     const double *const x = static_cast<double *>(factor->x);
     for (std::size_t k = 0; k < factor->nsuper; ++k)
       for (int column = super[k]; column < super[k + 1]; ++column)

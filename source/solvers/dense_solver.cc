@@ -41,8 +41,8 @@ double greatest_product(const double *const a, const std::vector<double> &b)
   return *std::max_element(greatest, greatest + lanes);
 }
 
-/// Few vertices of a graph of which each edge has one: those with the most edges first. A row of the
-/// fluid changes against several openings, an opening against few rows of the fluid.
+/// Few vertices of a graph of which each edge has one: those with the most edges first. A row of
+/// the fluid changes against several openings, an opening against few rows of the fluid.
 std::vector<bool> cover(const std::vector<std::vector<unsigned int>> &neighbours)
 {
   std::vector<unsigned int> n_left;
@@ -244,8 +244,7 @@ bool DenseSolver::eliminate(const FullMatrix<double> &matrix)
 }
 
 
-void DenseSolver::factorise(FullMatrix<double> matrix,
-                            const std::vector<unsigned int> &identities)
+void DenseSolver::factorise(FullMatrix<double> matrix, const std::vector<unsigned int> &identities)
 {
   if (!find_kept(matrix, identities) || matrix.m() - kept.size() > rest_when_chosen + most_new)
     choose_kept(matrix, identities);

@@ -71,9 +71,9 @@ private:
   std::vector<unsigned int> last_identities;
 
   // Of the present matrix.
-  std::vector<unsigned int> kept, rest;  ///< indices
-  dealii::FullMatrix<double> rows;       ///< R
-  dealii::FullMatrix<double> eliminated; ///< F^-1 C, transposed
+  std::vector<unsigned int> kept, rest;         ///< indices
+  dealii::FullMatrix<double> rows;              ///< R
+  dealii::FullMatrix<double> eliminated;        ///< F^-1 C, transposed
   dealii::FullMatrix<double> eliminated_by_row; ///< F^-1 C
   Factor rest_factor;
 

@@ -54,8 +54,8 @@ public:
   /// C A^-1 B of the border of the last update.
   dealii::FullMatrix<double> product() const;
 
-  /// Factorise S = D - C A^-1 B with that border, the same on every rank. Throws SolveError when S is
-  /// singular.
+  /// Factorise S = D - C A^-1 B with that border, the same on every rank. Throws SolveError when S
+  /// is singular.
   void factorise(dealii::FullMatrix<double> s);
 
   /// x <- S^-1 x

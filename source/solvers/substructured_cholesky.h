@@ -8,16 +8,17 @@
 
 namespace stockwork
 {
-/// Cholesky's factor of a symmetric positive definite matrix on a few ranks, by substructures (e.g. Smith,
-/// Bjorstad and Gropp, Domain Decomposition, 1996, ch. 4). An unknown that is coupled to one of a
-/// higher rank belongs to the interface b; what is left of each rank, its interior i, is coupled to
-/// the interface and to nothing else. Each rank factorises its interior with the interface ordered last,
+/// Cholesky's factor of a symmetric positive definite matrix on a few ranks, by substructures (e.g.
+/// Smith, Bjorstad and Gropp, Domain Decomposition, 1996, ch. 4). An unknown that is coupled to one
+/// of a higher rank belongs to the interface b; what is left of each rank, its interior i, is
+/// coupled to the interface and to nothing else. Each rank factorises its interior with the
+/// interface ordered last,
 ///
 ///   [K_ii K_ib; K_bi K_bb] = L L^T,   K_bb - K_bi K_ii^-1 K_ib = L_bb L_bb^T,
 ///
 /// by CHOLMOD, and on every rank the dense S = sum of the ranks' L_bb L_bb^T - (ranks - 1) K_bb is
-/// factorised. A solve is a forward substitution on each rank, a sum over the ranks of vectors as long as
-/// the interface, a dense solve, a backward substitution on each rank.
+/// factorised. A solve is a forward substitution on each rank, a sum over the ranks of vectors as
+/// long as the interface, a dense solve, a backward substitution on each rank.
 ///
 /// The indices of each row are given by one rank, each entry once. All calls are collective.
 class SubstructuredCholesky : public SparseFactor
@@ -26,8 +27,8 @@ public:
   explicit SubstructuredCholesky(MPI_Comm communicator);
   ~SubstructuredCholesky() override;
 
-  /// Whether the interface is so small that the dense work, which every rank repeats and which grows
-  /// with the number of ranks, is little beside a rank's own.
+  /// Whether the interface is so small that the dense work, which every rank repeats and which
+  /// grows with the number of ranks, is little beside a rank's own.
   static bool suits(MPI_Comm communicator,
                     int n,
                     const std::vector<int> &rows,

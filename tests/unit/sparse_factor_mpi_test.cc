@@ -27,8 +27,8 @@ int n_ranks()
   return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(comm));
 }
 
-/// Nine-point stencil on a square of nodes, positive definite, the lower triangle; each rank has the
-/// rows that are its own. Where `cut` says so, nodes of different ranks are not coupled.
+/// Nine-point stencil on a square of nodes, positive definite, the lower triangle; each rank has
+/// the rows that are its own. Where `cut` says so, nodes of different ranks are not coupled.
 struct Grid
 {
   static constexpr int side = 14;
@@ -105,8 +105,8 @@ double error(const std::vector<double> &x)
   double worst = 0.;
   for (std::size_t k = 0; k < x.size(); ++k)
   {
-    const double wrong =
-      std::abs(x[k] - Grid::solution(static_cast<int>(k) % Grid::size(), static_cast<int>(k) / Grid::size()));
+    const double wrong = std::abs(x[k] - Grid::solution(static_cast<int>(k) % Grid::size(),
+                                                        static_cast<int>(k) / Grid::size()));
     worst = wrong <= worst ? worst : wrong; // takes what is not a number
   }
   return dealii::Utilities::MPI::max(worst, comm);
@@ -192,8 +192,8 @@ TEST_CASE("Substructures: columns with few entries, beside MUMPS")
   std::vector<std::vector<double>> solutions;
   SubstructuredCholesky substructured(comm);
   Mumps mumps(comm, Mumps::Kind::definite);
-  for (SparseFactor *factor : {static_cast<SparseFactor *>(&substructured),
-                               static_cast<SparseFactor *>(&mumps)})
+  for (SparseFactor *factor :
+       {static_cast<SparseFactor *>(&substructured), static_cast<SparseFactor *>(&mumps)})
   {
     std::vector<double> values = grid.values(0.);
     factor->analyse(Grid::size(), grid.rows, grid.columns);
