@@ -83,10 +83,14 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
       now = std::make_unique<Mumps>(communicator, Mumps::Kind::unsymmetric);
     else if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
       now = std::make_unique<Cholesky>();
-    else if (SubstructuredCholesky::suits(communicator, n, rows, columns))
-      now = std::make_unique<SubstructuredCholesky>(communicator);
     else
-      now = std::make_unique<Mumps>(communicator, Mumps::Kind::definite);
+    {
+      auto substructured = std::make_unique<SubstructuredCholesky>(communicator);
+      if (substructured->suits(n, rows, columns))
+        now = std::move(substructured);
+      else
+        now = std::make_unique<Mumps>(communicator, Mumps::Kind::definite);
+    }
     now->analyse(n, std::move(rows), std::move(columns));
   }
   std::vector<double> values;

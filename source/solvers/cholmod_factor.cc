@@ -45,17 +45,17 @@ void CholmodFactor::fail(const std::string &doing) const
 }
 
 
-void CholmodFactor::analyse(const int n,
-                            const std::vector<int> &rows,
-                            const std::vector<int> &columns,
-                            const std::vector<int> &last)
+cholmod_sparse *CholmodFactor::upper_triangle(const int n,
+                                              const std::vector<int> &rows,
+                                              const std::vector<int> &columns,
+                                              std::vector<int> &places,
+                                              cholmod_common &common)
 {
-  free();
   const std::size_t n_entries = rows.size();
-  matrix = cholmod_allocate_sparse(n, n, n_entries, 0, 1, 1, CHOLMOD_PATTERN, &common);
+  cholmod_sparse *const matrix =
+    cholmod_allocate_sparse(n, n, n_entries, 0, 1, 1, CHOLMOD_PATTERN, &common);
   if (matrix == nullptr)
-    fail("starting");
-  // By column of the upper triangle, which is by row of the lower one.
+    return nullptr;
   int *const starts = static_cast<int *>(matrix->p), *const indices = static_cast<int *>(matrix->i);
   std::fill(starts, starts + n + 1, 0);
   for (std::size_t k = 0; k < n_entries; ++k)
@@ -69,6 +69,37 @@ void CholmodFactor::analyse(const int n,
     places[k] = next[std::max(rows[k], columns[k]) - 1]++;
     indices[places[k]] = std::min(rows[k], columns[k]) - 1;
   }
+  return matrix;
+}
+
+
+std::vector<int>
+CholmodFactor::bisect(const int n, const std::vector<int> &rows, const std::vector<int> &columns)
+{
+  cholmod_common common;
+  cholmod_start(&common);
+  common.print = 0;
+  std::vector<int> unused, part(n);
+  cholmod_sparse *graph = upper_triangle(n, rows, columns, unused, common);
+  // Unknowns with the same neighbours, as the components of a node, stay together.
+  const int together = 1;
+  if (graph == nullptr || cholmod_bisect(graph, nullptr, 0, together, part.data(), &common) < 0)
+    part.clear();
+  cholmod_free_sparse(&graph, &common);
+  cholmod_finish(&common);
+  return part;
+}
+
+
+void CholmodFactor::analyse(const int n,
+                            const std::vector<int> &rows,
+                            const std::vector<int> &columns,
+                            const std::vector<int> &last)
+{
+  free();
+  matrix = upper_triangle(n, rows, columns, places, common);
+  if (matrix == nullptr)
+    fail("starting");
   if (std::is_sorted(places.begin(), places.end()))
     places = {};
 

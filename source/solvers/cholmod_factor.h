@@ -57,7 +57,19 @@ public:
     return static_cast<int>(matrix->nrow);
   }
 
+  /// Cut the graph of a pattern, as given to analyse(), in two (METIS): 0 and 1 for unknowns that
+  /// are not coupled to one another, 2 for the few between them; nothing: it cannot be done.
+  static std::vector<int>
+  bisect(int n, const std::vector<int> &rows, const std::vector<int> &columns);
+
 private:
+  /// By column of the upper triangle, which is by row of the lower one.
+  static cholmod_sparse *upper_triangle(int n,
+                                        const std::vector<int> &rows,
+                                        const std::vector<int> &columns,
+                                        std::vector<int> &places,
+                                        cholmod_common &common);
+
   void free();
   [[noreturn]] void fail(const std::string &doing) const;
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 namespace stockwork
 {
@@ -23,32 +24,82 @@ constexpr std::size_t columns_at_once = 32;
 /// Each rank repeats the dense work for the interface of all.
 constexpr unsigned int most_ranks = 8;
 
-/// Who is who; indices from zero, on every rank.
-struct Division
+/// Who is who; indices from zero, the same on every rank.
+class Division
 {
-  std::vector<int> owner;     ///< rank that gives the row of an unknown
-  std::vector<int> interface; ///< its unknowns, ascending
+public:
+  /// Nothing is divided yet.
+  Division() = default;
 
   Division(const MPI_Comm communicator,
            const int n,
            const std::vector<int> &rows,
            const std::vector<int> &columns)
-    : owner(n, -1)
+    : owner(n, 0)
+    , numbers(n)
   {
-    const int me = dealii::Utilities::MPI::this_mpi_process(communicator);
-    for (const int row : rows)
-      owner[row - 1] = me;
-    MPI_Allreduce(MPI_IN_PLACE, owner.data(), n, MPI_INT, MPI_MAX, communicator);
-    // With deal.II the lower of two ranks owns what lies between them: that one layer is the
-    // interface.
-    std::vector<int> coupled;
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (const int i = rows[k] - 1, j = columns[k] - 1; owner[i] != owner[j])
-        coupled.push_back(owner[i] < owner[j] ? i : j);
-    interface = all_gather(communicator, coupled);
-    std::sort(interface.begin(), interface.end());
-    interface.erase(std::unique(interface.begin(), interface.end()), interface.end());
+    const int n_ranks = static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(communicator));
+    const std::vector<int> all_rows = all_gather(communicator, rows),
+                           all_columns = all_gather(communicator, columns);
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    {
+      std::vector<int> all(n);
+      std::iota(all.begin(), all.end(), 0);
+      is_possible = share_out(all, all_rows, all_columns, 0, n_ranks);
+    }
+    MPI_Bcast(owner.data(), n, MPI_INT, 0, communicator);
+    is_possible = dealii::Utilities::MPI::max(is_possible ? 1 : 0, communicator) == 1;
+    for (int i = 0; i < n; ++i)
+      if (owner[i] == of_interface)
+        interface.push_back(i);
   }
+
+  std::vector<int> owner;     ///< rank that has an unknown in its interior, or of_interface
+  std::vector<int> interface; ///< its unknowns, ascending
+  bool is_possible = false;
+
+private:
+  static constexpr int of_interface = -1;
+
+  /// Give unknowns, coupled by these entries, to the ranks from `first` on, by halves.
+  bool share_out(const std::vector<int> &unknowns,
+                 const std::vector<int> &rows,
+                 const std::vector<int> &columns,
+                 const int first,
+                 const int n_ranks)
+  {
+    for (const int i : unknowns)
+      owner[i] = first;
+    if (n_ranks == 1 || unknowns.empty())
+      return true;
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      numbers[unknowns[k]] = static_cast<int>(k) + 1;
+    std::vector<int> own_rows(rows), own_columns(columns);
+    for (std::vector<int> *list : {&own_rows, &own_columns})
+      for (int &i : *list)
+        i = numbers[i - 1];
+    const std::vector<int> part =
+      CholmodFactor::bisect(static_cast<int>(unknowns.size()), own_rows, own_columns);
+    if (part.empty())
+      return false;
+    std::vector<int> halves[2], rows_of[2], columns_of[2];
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      if (part[k] < 2)
+        halves[part[k]].push_back(unknowns[k]);
+      else
+        owner[unknowns[k]] = of_interface;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (const int side = part[own_rows[k] - 1]; side < 2 && part[own_columns[k] - 1] == side)
+      {
+        rows_of[side].push_back(rows[k]);
+        columns_of[side].push_back(columns[k]);
+      }
+    const int n_first = n_ranks / 2;
+    return share_out(halves[0], rows_of[0], columns_of[0], first, n_first) &&
+           share_out(halves[1], rows_of[1], columns_of[1], first + n_first, n_ranks - n_first);
+  }
+
+  std::vector<int> numbers; ///< work: of unknowns, from one, among those that are shared out
 };
 
 /// y := A x or A^T x for a square matrix by column and several x.
@@ -79,6 +130,7 @@ struct SubstructuredCholesky::Instance
 {
   MPI_Comm communicator;
   int rank, n_ranks;
+  Division division;
   int n = 0;
   int n_interior = 0; ///< of this rank
   std::vector<int>
@@ -206,7 +258,8 @@ void SubstructuredCholesky::Instance::analyse_entries(const std::vector<int> &ro
                           between ? local[j] - n_interior : -1);
       add(i, j);
     }
-  std::vector<int> last(n_local(), 1);
+  // CAMD wants its sets numbered from zero.
+  std::vector<int> last(n_local(), n_interior > 0 ? 1 : 0);
   std::fill(last.begin(), last.begin() + n_interior, 0);
   on_all(
     [&]()
@@ -375,22 +428,25 @@ SubstructuredCholesky::SubstructuredCholesky(const MPI_Comm communicator)
 SubstructuredCholesky::~SubstructuredCholesky() = default;
 
 
-bool SubstructuredCholesky::suits(const MPI_Comm communicator,
-                                  const int n,
+bool SubstructuredCholesky::suits(const int n,
                                   const std::vector<int> &rows,
                                   const std::vector<int> &columns)
 {
-  return dealii::Utilities::MPI::n_mpi_processes(communicator) <= most_ranks &&
-         Division(communicator, n, rows, columns).interface.size() <= most_of_interface;
+  if (instance->n_ranks > static_cast<int>(most_ranks))
+    return false;
+  instance->division = Division(instance->communicator, n, rows, columns);
+  return instance->division.is_possible && instance->division.interface.size() <= most_of_interface;
 }
 
 
 void SubstructuredCholesky::analyse(const int n, std::vector<int> rows, std::vector<int> columns)
 {
-  const Division division(instance->communicator, n, rows, columns);
+  if (instance->division.owner.empty())
+    instance->division = Division(instance->communicator, n, rows, columns);
   instance->n = n;
-  instance->interface = division.interface;
-  instance->analyse_entries(rows, columns, division.owner);
+  instance->interface = instance->division.interface;
+  instance->analyse_entries(rows, columns, instance->division.owner);
+  instance->division = {};
   if (instance->n_local() > 0)
     instance->places = instance->factor.places_in_factor();
 }

@@ -9,10 +9,11 @@
 namespace stockwork
 {
 /// Cholesky's factor of a symmetric positive definite matrix on a few ranks, by substructures (e.g.
-/// Smith, Bjorstad and Gropp, Domain Decomposition, 1996, ch. 4). An unknown that is coupled to one
-/// of a higher rank belongs to the interface b; what is left of each rank, its interior i, is
-/// coupled to the interface and to nothing else. Each rank factorises its interior with the
-/// interface ordered last,
+/// Smith, Bjorstad and Gropp, Domain Decomposition, 1996, ch. 4). Some unknowns are the interface
+/// b; without them, the rest falls into the interiors i of the ranks, which are not coupled to one
+/// another. The graph of the matrix is cut anew by METIS: between the ranks' parts of the mesh
+/// there are many more unknowns where they meet along a fracture, in the finest cells. Each rank
+/// factorises its interior with the interface ordered last,
 ///
 ///   [K_ii K_ib; K_bi K_bb] = L L^T,   K_bb - K_bi K_ii^-1 K_ib = L_bb L_bb^T,
 ///
@@ -20,19 +21,17 @@ namespace stockwork
 /// factorised. A solve is a forward substitution on each rank, a sum over the ranks of vectors as
 /// long as the interface, a dense solve, a backward substitution on each rank.
 ///
-/// The indices of each row are given by one rank, each entry once. All calls are collective.
+/// Each entry is given once, by any rank. All calls are collective.
 class SubstructuredCholesky : public SparseFactor
 {
 public:
   explicit SubstructuredCholesky(MPI_Comm communicator);
   ~SubstructuredCholesky() override;
 
-  /// Whether the interface is so small that the dense work, which every rank repeats and which
-  /// grows with the number of ranks, is little beside a rank's own.
-  static bool suits(MPI_Comm communicator,
-                    int n,
-                    const std::vector<int> &rows,
-                    const std::vector<int> &columns);
+  /// Divide the unknowns for analyse(), and see whether the interface is so small that the dense
+  /// work, which every rank repeats and which grows with the number of ranks, is little beside a
+  /// rank's own.
+  bool suits(int n, const std::vector<int> &rows, const std::vector<int> &columns);
 
   void analyse(int n, std::vector<int> rows, std::vector<int> columns) override;
   void factorise(std::vector<double> &values) override;

@@ -8,6 +8,7 @@
 #include "solvers/substructured_cholesky.h"
 #include "stockwork/base/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -150,26 +151,26 @@ TEST_CASE("Substructures: strips of nodes")
 }
 
 
-TEST_CASE("Substructures: strips owned from above, so that entries are given by the other rank")
+TEST_CASE("Substructures: strips given from above")
 {
   check(Grid([](const int i) { return n_ranks() - 1 - i * n_ranks() / Grid::size(); }));
 }
 
 
-TEST_CASE("Substructures: neighbours on different ranks leave nearly no interior")
+TEST_CASE("Substructures: neighbours given by different ranks")
 {
   check(Grid([](const int i) { return i % n_ranks(); }));
 }
 
 
-TEST_CASE("Substructures: ranks without unknowns, and one with a few apart from one another")
+TEST_CASE("Substructures: ranks that give nothing, or little")
 {
   check(Grid([](const int) { return n_ranks() - 1; }));
   check(Grid([](const int i) { return i % 37 == 5 ? n_ranks() - 1 : 0; }));
 }
 
 
-TEST_CASE("Substructures: no interface")
+TEST_CASE("Substructures: parts that are not coupled")
 {
   check(Grid([](const int i) { return i * n_ranks() / Grid::size(); }, true));
 }
@@ -226,21 +227,91 @@ TEST_CASE("Substructures: where one rank's part is not definite, all ranks are t
 }
 
 
-TEST_CASE("Substructures: for few ranks and small interfaces")
+TEST_CASE("Substructures: fewer unknowns than ranks")
+{
+  for (const int n : {1, 2, 3})
+  {
+    std::vector<int> rows, columns;
+    std::vector<double> values, x(rank() == 0 ? n : 0, 1.);
+    if (rank() == n_ranks() - 1)
+      for (int i = 1; i <= n; ++i)
+        for (int j = 1; j <= i; ++j)
+        {
+          rows.push_back(i);
+          columns.push_back(j);
+          values.push_back(i == j ? 2. : -0.5);
+        }
+    SubstructuredCholesky factor(comm);
+    factor.analyse(n, rows, columns);
+    factor.factorise(values);
+    factor.solve(x);
+    for (const double value : x)
+      CHECK(value == doctest::Approx(1. / (2. - 0.5 * (n - 1))));
+  }
+}
+
+
+TEST_CASE("Substructures: products of columns with few entries")
+{
+  const Grid grid([](const int i) { return i * n_ranks() / Grid::size(); });
+  SubstructuredCholesky factor(comm);
+  factor.analyse(Grid::size(), grid.rows, grid.columns);
+  std::vector<double> values = grid.values(0.);
+  factor.factorise(values);
+  std::vector<std::vector<std::pair<int, double>>> vectors(70);
+  SparseFactor::SparseVectors left, right;
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+  {
+    for (std::size_t m = 0; m < k % 5; ++m)
+      vectors[k].emplace_back((k * 31 + m * 13) % Grid::size(), 1. + 0.1 * k - m);
+    right.push_back(&vectors[k]);
+    if (k < 9)
+      left.push_back(&vectors[k]);
+  }
+  const auto products = factor.products(left, right);
+  REQUIRE(products);
+  for (std::size_t j = 0; j < right.size(); ++j)
+  {
+    std::vector<double> x(rank() == 0 ? Grid::size() : 0, 0.);
+    if (rank() == 0)
+      for (const auto &[i, value] : vectors[j])
+        x[i] += value;
+    factor.solve(x);
+    x.resize(Grid::size());
+    MPI_Bcast(x.data(), Grid::size(), MPI_DOUBLE, 0, comm);
+    for (std::size_t l = 0; l < left.size(); ++l)
+    {
+      double expected = 0.;
+      for (const auto &[i, value] : vectors[l])
+        expected += value * x[i];
+      CHECK(std::abs((*products)[j * left.size() + l] - expected) < 1e-12);
+    }
+  }
+}
+
+
+TEST_CASE("Substructures: suit what can be cut in two along few unknowns")
 {
   const Grid strips([](const int i) { return i * n_ranks() / Grid::size(); });
-  CHECK(SubstructuredCholesky::suits(comm, Grid::size(), strips.rows, strips.columns));
-  // A chain of neighbours on alternating ranks.
+  CHECK(SubstructuredCholesky(comm).suits(Grid::size(), strips.rows, strips.columns));
+  // Each coupled to some anywhere.
   std::vector<int> rows, columns;
-  constexpr int n = 4000;
-  for (int i = 0; i < n; ++i)
-    if (i % n_ranks() == rank())
-      for (const int j : {i, i - 1})
-        if (j >= 0)
-        {
-          rows.push_back(i + 1);
-          columns.push_back(j + 1);
-        }
-  CHECK(SubstructuredCholesky::suits(comm, n, rows, columns) == (n_ranks() == 1));
+  constexpr unsigned int n = 12000;
+  for (unsigned int i = 0; i < n; ++i)
+    if (static_cast<int>(i) % n_ranks() == rank())
+    {
+      std::vector<int> some = {static_cast<int>(i) + 1};
+      for (unsigned int k = 1; k < 6; ++k)
+        if (const unsigned int j = (i * 7919u + k * 104729u + i * i % 10007u * k) % n; j < i)
+          some.push_back(static_cast<int>(j) + 1);
+      std::sort(some.begin(), some.end());
+      some.erase(std::unique(some.begin(), some.end()), some.end());
+      for (const int j : some)
+      {
+        rows.push_back(static_cast<int>(i) + 1);
+        columns.push_back(j);
+      }
+    }
+  CHECK(SubstructuredCholesky(comm).suits(n, rows, columns) == (n_ranks() == 1));
 }
 } // namespace stockwork::sparse_factor_mpi_test
