@@ -1,5 +1,6 @@
 #include "biot/bulk_assembly.h"
 
+#include "base/ghost_values.h"
 #include "biot/prescribed_part.h"
 #include "biot/row_writer.h"
 
@@ -22,7 +23,7 @@ BlockVector owned_part(const BlockVector &ghosted, const std::vector<IndexSet> &
 {
   BlockVector result;
   result.reinit(owned, ghosted.block(0).get_mpi_communicator());
-  result = ghosted;
+  copy_owned(result, ghosted);
   return result;
 }
 } // namespace
@@ -64,6 +65,18 @@ void BulkAssembly<dim>::set_up()
   DoFTools::extract_locally_relevant_dofs(dof_handler, all_relevant);
   owned = dof_handler.locally_owned_dofs().split_by_block(sizes);
   relevant = all_relevant.split_by_block(sizes);
+  types::global_dof_index offset = 0;
+  for (unsigned int b = 0; b < owned.size(); offset += sizes[b], ++b)
+  {
+    constrained.emplace_back();
+    int local = 0;
+    for (const auto i : owned[b])
+    {
+      if (constraints.is_constrained(offset + i))
+        constrained[b].push_back(local);
+      ++local;
+    }
+  }
 
   if (layout.n_p > 0)
   {
@@ -341,8 +354,9 @@ void BulkAssembly<dim>::residual(const StepContext &context,
       storage.vmult(x.block(1), reference.block(1));
       residual.block(1).add(context.pressure_rate / context.rate, x.block(1));
     }
-    mesh_view.constraints.set_zero(residual);
-    residual.compress(VectorOperation::insert);
+    for (unsigned int b = 0; b < residual.n_blocks(); ++b)
+      for (const int i : constrained[b])
+        residual.block(b).trilinos_vector()[0][i] = 0.;
   }
 
   // What prescribed values and loads do to them.

@@ -130,6 +130,7 @@ private:
   const MeshView<dim> mesh_view;
 
   std::vector<dealii::IndexSet> owned, relevant; ///< by block
+  std::vector<std::vector<int>> constrained;     ///< among the owned ones, by block
   /// Of the pressures, numbered from zero.
   dealii::AffineConstraints<double> pressure_constraints;
   std::vector<CellIterator> edge_cells; ///< with loads or constrained dofs

@@ -113,9 +113,8 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
 {
   // Essential conditions hold from the start, so that increments satisfy them with zero values.
   auto values = unknowns.owned_vector();
-  values = current.bulk;
-  unknowns.constraints().distribute(values);
-  current.bulk = values;
+  copy_owned(values, current.bulk);
+  unknowns.constrain(values, current.bulk);
 
   const State state = this->state(current, committed, rate_reference, acceleration_reference);
   assembly.assemble_linear(context, state);

@@ -59,7 +59,7 @@ Newton<dim>::Newton(const NewtonTools<dim> &tools,
   , greatest(norms)
   , dx_bulk(unknowns.owned_vector())
 {
-  values = current.bulk;
+  copy_owned(values, current.bulk);
 }
 
 
@@ -192,8 +192,7 @@ void Newton<dim>::recover_bulk()
     of_bulk->recover_bulk(assembly.linear_system(), behind, dx_bulk);
   }
   values.add(1., dx_bulk);
-  unknowns.constraints().distribute(values);
-  current.bulk = values;
+  unknowns.constrain(values, current.bulk);
   assembly.linear_residual_of_extra() = start_of_condensed;
   evaluate([&]() { assembly.update_linear(1., dx_bulk, behind); });
 }
@@ -217,8 +216,7 @@ void Newton<dim>::move(const double step)
     return;
   }
   values.add(step, dx_bulk);
-  unknowns.constraints().distribute(values);
-  current.bulk = values;
+  unknowns.constrain(values, current.bulk);
   if (!linear)
     evaluate([&]() { assembly.update_linear(step, dx_bulk, dx_extra); });
 }

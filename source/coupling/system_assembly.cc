@@ -169,6 +169,9 @@ void SystemAssembly<dim>::assemble_linear(const StepContext &context, const Stat
     system.residual_bulk.compress(VectorOperation::add);
     unknowns.communication.sum(linear_residual_extra);
   }
+  all_linear_extra_extra.rows = all_gather(run.communicator, linear_extra_extra.rows);
+  all_linear_extra_extra.columns = all_gather(run.communicator, linear_extra_extra.columns);
+  all_linear_extra_extra.values = all_gather(run.communicator, linear_extra_extra.values);
   linear_residual_bulk = system.residual_bulk;
   n_linear_bulk_extra = system.bulk_extra.values.size();
   n_linear_extra_bulk = system.extra_bulk.values.size();
@@ -195,17 +198,20 @@ void SystemAssembly<dim>::assemble_nonlinear(const StepContext &context, const S
   network.assemble(context, state, unknowns.communication, sink);
   if (nonlinear)
     assemble_rock(context, state);
-  system.residual_bulk.compress(VectorOperation::add);
-  if (n_extra > 0)
-    unknowns.communication.sum(system.residual_extra);
 
+  // One sum over the ranks for the residual and for what has been touched.
   const bool grown_border = system.bulk_extra.values.size() > n_linear_bulk_extra ||
                             system.extra_bulk.values.size() > n_linear_extra_bulk;
-  const double touched = unknowns.communication.max(sink.bulk_touched ? 2.
-                                                    : grown_border    ? 1.
-                                                                      : 0.);
-  bulk_was_touched = touched == 2.;
-  sees_bulk = touched > 0.;
+  std::vector<double> &sums = system.residual_extra;
+  for (const bool here : {sink.bulk_touched, grown_border, sink.residual_touched})
+    sums.push_back(here ? 1. : 0.);
+  unknowns.communication.sum(sums);
+  bulk_was_touched = sums[n_extra] > 0.;
+  sees_bulk = bulk_was_touched || sums[n_extra + 1] > 0.;
+  // In most iterations nobody adds to the bulk's residual.
+  if (sums[n_extra + 2] > 0. || system.rock_change != nullptr)
+    system.residual_bulk.compress(VectorOperation::add);
+  sums.resize(n_extra);
   if (bulk_was_touched)
   {
     system.bulk.compress(VectorOperation::add);
@@ -267,7 +273,7 @@ void SystemAssembly<dim>::update_linear(const double step,
   if (unknowns.n_extra() == 0)
     return;
   auto ghosted = unknowns.ghosted_vector();
-  ghosted = dx_bulk;
+  unknowns.update_ghosted(ghosted, dx_bulk);
   std::vector<double> change(unknowns.n_extra(), 0.);
   for (std::size_t k = 0; k < n_linear_extra_bulk; ++k)
     change[system.extra_bulk.rows[k]] +=
@@ -286,10 +292,9 @@ std::vector<double>
 SystemAssembly<dim>::linear_change_by_extra(const std::vector<double> &dx_extra) const
 {
   std::vector<double> change(dx_extra.size(), 0.);
-  for (std::size_t k = 0; k < linear_extra_extra.values.size(); ++k)
-    change[linear_extra_extra.rows[k]] +=
-      linear_extra_extra.values[k] * dx_extra[linear_extra_extra.columns[k]];
-  unknowns.communication.sum(change);
+  const Triplets &all = all_linear_extra_extra;
+  for (std::size_t k = 0; k < all.values.size(); ++k)
+    change[all.rows[k]] += all.values[k] * dx_extra[all.columns[k]];
   return change;
 }
 

@@ -66,7 +66,7 @@ public:
     return linear_residual_extra;
   }
 
-  /// What that changes by with the extra unknowns while the bulk stays as it is. Collective.
+  /// What that changes by with the extra unknowns while the bulk stays as it is.
   std::vector<double> linear_change_by_extra(const std::vector<double> &dx_extra) const;
 
   /// The kept matrix has terms of the last iteration in it, and they are not linear.
@@ -171,7 +171,7 @@ private:
   // The part of the system that is linear in the unknowns, kept through the iteration.
   BlockVector linear_residual_bulk;
   std::vector<double> linear_residual_extra;
-  Triplets linear_extra_extra;
+  Triplets linear_extra_extra, all_linear_extra_extra; ///< this rank's, all ranks'
   std::size_t n_linear_bulk_extra = 0, n_linear_extra_bulk = 0;
 
   // What of the kept matrix is not what it should be.

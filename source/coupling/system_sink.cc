@@ -43,9 +43,12 @@ void SystemSink::add(const LocalSystem &local)
 
   for (unsigned int i = 0; i < n_bulk; ++i)
     if (local.residual(i) != 0.)
+    {
+      residual_touched = true;
       resolve(constraints, local.bulk[i],
               [&](const auto dof, const double weight)
               { residual_bulk(dof) += weight * local.residual(i); });
+    }
   for (unsigned int i = 0; i < n_extra; ++i)
     residual_extra[local.extra[i]] += local.residual(n_bulk + i);
 

@@ -29,6 +29,9 @@ public:
 
   bool bulk_touched = false;
 
+  /// There were terms of the bulk's residual, which has to be compressed.
+  bool residual_touched = false;
+
   /// Rows of the bulk block that terms are taken for; null: all.
   const dealii::IndexSet *rows = nullptr;
 

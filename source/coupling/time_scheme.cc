@@ -1,5 +1,7 @@
 #include "coupling/time_scheme.h"
 
+#include "base/ghost_values.h"
+
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -185,7 +187,7 @@ TrilinosWrappers::MPI::Vector owned(const TrilinosWrappers::MPI::Vector &vector)
 {
   TrilinosWrappers::MPI::Vector result(vector.locally_owned_elements(),
                                        vector.get_mpi_communicator());
-  result = vector;
+  copy_owned(result, vector);
   return result;
 }
 } // namespace

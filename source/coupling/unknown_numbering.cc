@@ -76,6 +76,65 @@ void UnknownNumbering<dim>::number_bulk(const double time)
   if (communication.max(coupled.empty() ? 0. : 1.) > 0.)
     make_visible(of_increments, handler.locally_owned_dofs(), visible,
                  triangulation.get_communicator());
+
+  owned_zero.reinit(own, triangulation.get_communicator());
+  ghosted_zero.reinit(own, seen, triangulation.get_communicator());
+  ghosts.reinit(owned_zero, ghosted_zero);
+  find_lines();
+}
+
+
+template <int dim>
+void UnknownNumbering<dim>::find_lines()
+{
+  lines.clear();
+  std::vector<types::global_dof_index> offsets{0};
+  for (const IndexSet &set : own)
+    offsets.push_back(offsets.back() + set.size());
+  const auto block_of = [&](const types::global_dof_index i)
+  { return std::upper_bound(offsets.begin(), offsets.end(), i) - offsets.begin() - 1; };
+  bool visible_here = true;
+  for (const auto &line : with_values.get_lines())
+  {
+    const unsigned int b = block_of(line.index);
+    const auto &owned_map = owned_zero.block(b).trilinos_vector().Map(),
+               &ghosted_map = ghosted_zero.block(b).trilinos_vector().Map();
+    const auto local = [&](const auto &map, const types::global_dof_index i)
+    { return map.LID(static_cast<TrilinosWrappers::types::int_type>(i - offsets[b])); };
+    const int place = local(owned_map, line.index);
+    if (place < 0)
+      continue;
+    lines.push_back({line.index, b, place, {}});
+    for (const auto &[master, weight] : line.entries)
+    {
+      const int there =
+        static_cast<unsigned int>(block_of(master)) == b ? local(ghosted_map, master) : -1;
+      visible_here = visible_here && there >= 0;
+      lines.back().masters.emplace_back(there, weight);
+    }
+  }
+  masters_are_visible = communication.min(visible_here ? 1. : 0.) == 1.;
+}
+
+
+template <int dim>
+void UnknownNumbering<dim>::constrain(BlockVector &owned, BlockVector &ghosted) const
+{
+  if (masters_are_visible)
+  {
+    ghosts.update(ghosted, owned);
+    for (const Line &line : lines)
+    {
+      const double *const values = ghosted.block(line.block).trilinos_vector()[0];
+      double sum = with_values.get_inhomogeneity(line.index);
+      for (const auto &[master, weight] : line.masters)
+        sum += weight * values[master];
+      owned.block(line.block).trilinos_vector()[0][line.place] = sum;
+    }
+  }
+  else
+    with_values.distribute(owned);
+  ghosts.update(ghosted, owned);
 }
 
 
@@ -129,24 +188,6 @@ void UnknownNumbering<dim>::adopt_extra(const ExtraNumbering &from,
     if (vector->size() == from.size()) // a quasi-static run has no reference of acceleration
       *vector = now.transfer(from, *vector);
   extra_numbering = std::move(now);
-}
-
-
-template <int dim>
-typename UnknownNumbering<dim>::BlockVector UnknownNumbering<dim>::ghosted_vector() const
-{
-  BlockVector vector;
-  vector.reinit(own, seen, triangulation.get_communicator());
-  return vector;
-}
-
-
-template <int dim>
-typename UnknownNumbering<dim>::BlockVector UnknownNumbering<dim>::owned_vector() const
-{
-  BlockVector vector;
-  vector.reinit(own, triangulation.get_communicator());
-  return vector;
 }
 
 

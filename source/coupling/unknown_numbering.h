@@ -11,6 +11,7 @@
 #include "stockwork/fracture/model.h"
 #include "stockwork/mesh/mesh_view.h"
 
+#include "base/ghost_values.h"
 #include "biot/boundary_conditions.h"
 #include "biot/cell_matrices.h"
 #include "coupling/extra_numbering.h"
@@ -58,8 +59,24 @@ public:
   void couple(dealii::BlockDynamicSparsityPattern &pattern) const;
 
   /// Zero vectors with ghost values / without.
-  BlockVector ghosted_vector() const;
-  BlockVector owned_vector() const;
+  BlockVector ghosted_vector() const
+  {
+    return ghosted_zero;
+  }
+  BlockVector owned_vector() const
+  {
+    return owned_zero;
+  }
+
+  /// Ghosted = owned, of such vectors. Collective.
+  void update_ghosted(BlockVector &ghosted, const BlockVector &owned) const
+  {
+    ghosts.update(ghosted, owned);
+  }
+
+  /// Let both satisfy constraints(): the constrained entries of `owned` are not looked at.
+  /// Collective.
+  void constrain(BlockVector &owned, BlockVector &ghosted) const;
 
   MeshView<dim> mesh_view() const
   {
@@ -129,6 +146,22 @@ private:
   dealii::AffineConstraints<double> with_values, of_increments;
   dealii::IndexSet visible; ///< unknowns of the bulk
   std::vector<dealii::IndexSet> own, seen;
+  BlockVector owned_zero, ghosted_zero; ///< whose copies share their layout
+  GhostValues ghosts;
+
+  /// A constrained unknown of this rank, and where what it depends on is in a vector with ghost
+  /// values.
+  struct Line
+  {
+    dealii::types::global_dof_index index;
+    unsigned int block;
+    int place;
+    std::vector<std::pair<int, double>> masters;
+  };
+  std::vector<Line> lines;
+  bool masters_are_visible = false; ///< on all ranks
+
+  void find_lines();
 
   ExtraNumbering extra_numbering;
   unsigned int n_of_model = 0;

@@ -49,12 +49,18 @@ void agree(MPI_Comm communicator, const std::string &problem)
 }
 } // namespace
 
-void write_file(const std::string &file, const std::string &contents)
+void write_file(const std::string &file, const std::string &contents, const OnDisk on_disk)
 {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   if (descriptor < 0)
     throw OutputError("cannot write " + file + ": " + reason());
   std::string why;
+  if (on_disk == OnDisk::soon && !contents.empty())
+  {
+    errno = posix_fallocate(descriptor, 0, static_cast<off_t>(contents.size()));
+    if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
+      why = reason();
+  }
   for (std::size_t done = 0; done < contents.size() && why.empty();)
   {
     const ssize_t n = write(descriptor, contents.data() + done, contents.size() - done);
@@ -64,7 +70,7 @@ void write_file(const std::string &file, const std::string &contents)
       why = reason();
   }
   // Only when forced to the disk do some file systems say what does not fit.
-  if (why.empty() && fsync(descriptor) != 0 && errno != EINVAL)
+  if (on_disk == OnDisk::now && why.empty() && fsync(descriptor) != 0 && errno != EINVAL)
     why = reason();
   if (close(descriptor) != 0 && why.empty())
     why = reason();
@@ -75,9 +81,9 @@ void write_file(const std::string &file, const std::string &contents)
   }
 }
 
-void replace_file(const std::string &file, const std::string &contents)
+void replace_file(const std::string &file, const std::string &contents, const OnDisk on_disk)
 {
-  write_file(file + ".new", contents);
+  write_file(file + ".new", contents, on_disk);
   if (std::rename((file + ".new").c_str(), file.c_str()) != 0)
     throw OutputError("cannot write " + file + ": " + reason());
 }

@@ -34,10 +34,20 @@ void on_root(MPI_Comm communicator, const std::function<void()> &action);
 /// the first such rank on all. Collective; @p action must not communicate.
 void on_all(MPI_Comm communicator, const std::function<void()> &action);
 
+/// Whether to wait until the disk has a file: for what a restart needs. Else the room for it is
+/// taken at once, so that a full disk is noticed all the same.
+enum class OnDisk
+{
+  now,
+  soon
+};
+
 /// Write a whole file; what could be written before an error is removed. @throws OutputError
-void write_file(const std::string &file, const std::string &contents);
+void write_file(const std::string &file, const std::string &contents, OnDisk on_disk = OnDisk::now);
 
 /// Write a whole file so that there is either the old one or the new one, never half of one: a
 /// killed run or a full disk leaves the old. @throws OutputError
-void replace_file(const std::string &file, const std::string &contents);
+void replace_file(const std::string &file,
+                  const std::string &contents,
+                  OnDisk on_disk = OnDisk::now);
 } // namespace stockwork

@@ -138,7 +138,7 @@ std::string write_bulk(const DataOut<dim> &output,
          {
            std::ostringstream stream;
            output.write_vtu(stream);
-           write_file(directory + "/vtu/" + pieces[rank], stream.str());
+           write_file(directory + "/vtu/" + pieces[rank], stream.str(), OnDisk::soon);
          });
   const std::string whole = "vtu/" + name + (n_ranks > 1 ? ".pvtu" : ".vtu");
   if (n_ranks > 1)
@@ -147,7 +147,7 @@ std::string write_bulk(const DataOut<dim> &output,
             {
               std::ostringstream stream;
               output.write_pvtu_record(stream, pieces);
-              write_file(directory + "/" + whole, stream.str());
+              write_file(directory + "/" + whole, stream.str(), OnDisk::soon);
             });
   return whole;
 }
@@ -203,9 +203,9 @@ void FieldOutput<dim>::write(const double time,
           [&]()
           {
             if (has_fracture)
-              write_file(directory + "/" + fracture_name, fracture);
+              write_file(directory + "/" + fracture_name, fracture, OnDisk::soon);
             if (has_bonds)
-              write_file(directory + "/" + bonds_name, bonds);
+              write_file(directory + "/" + bonds_name, bonds, OnDisk::soon);
           });
 
   // Only what is complete goes into the series.
@@ -231,7 +231,7 @@ void FieldOutput<dim>::write_pvd(const std::string &name, const Records &records
 {
   std::ostringstream stream;
   DataOutBase::write_pvd_record(stream, records);
-  replace_file(directory + "/" + name, stream.str());
+  replace_file(directory + "/" + name, stream.str(), OnDisk::soon);
 }
 
 template class FieldOutput<2>;

@@ -3,9 +3,9 @@
 #include "stockwork/base/all_gather.h"
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_templates.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace stockwork
 {
@@ -17,6 +17,7 @@ public:
   Condensed(BorderedSolver &solver, std::unique_ptr<SystemOperator> op)
     : solver(solver)
     , op(std::move(op))
+    , of_bulk(solver.schur.product())
   {
   }
 
@@ -26,7 +27,13 @@ public:
                std::vector<double> &reaction) override
   {
     gather_corner(system.extra_extra);
-    solver.schur.factorise(corner);
+    dealii::FullMatrix<double> s(op->n_extra(), op->n_extra());
+    // In the order of ExtraSchur::update(), to the last digit, by which DenseSolver sees what
+    // stays.
+    for (const Entry &e : corner)
+      s(e.row, e.column) += e.value;
+    s.add(-1., of_bulk);
+    solver.schur.factorise(std::move(s));
     dx_extra.assign(op->n_extra(), 0.);
     reaction = dx_extra;
     std::vector<double> r = system.residual_extra;
@@ -37,12 +44,11 @@ public:
       solver.schur.solve(r);
       for (unsigned int i = 0; i < r.size(); ++i)
         dx_extra[i] -= r[i];
-      reaction = solver.schur.product(dx_extra);
-      for (double &value : reaction)
-        value = -value;
+      react(dx_extra, reaction);
       for (unsigned int i = 0; i < r.size(); ++i)
-        r[i] = system.residual_extra[i] + reaction[i] +
-               std::inner_product(dx_extra.begin(), dx_extra.end(), &corner(i, 0), 0.);
+        r[i] = system.residual_extra[i] + reaction[i];
+      for (const Entry &e : corner)
+        r[e.row] += e.value * dx_extra[e.column];
       left = norm(r) / size;
     }
     return left;
@@ -76,20 +82,37 @@ private:
     return std::sqrt(sum);
   }
 
+  /// reaction = -C A^-1 B dx, by BLAS: deal.II's product takes five times as long.
+  void react(const std::vector<double> &dx, std::vector<double> &reaction) const
+  {
+    const char by_row = 'T';
+    const int n = static_cast<int>(dx.size()), step = 1;
+    const double minus_one = -1., zero = 0.;
+    if (n > 0)
+      dealii::gemv(&by_row, &n, &n, &minus_one, &of_bulk(0, 0), &n, dx.data(), &step, &zero,
+                   reaction.data(), &step);
+  }
+
+  struct Entry
+  {
+    unsigned int row, column;
+    double value;
+  };
+
   /// D of all ranks.
   void gather_corner(const Triplets &mine)
   {
-    const auto rows = all_gather(solver.communicator, mine.rows),
-               columns = all_gather(solver.communicator, mine.columns);
-    const auto values = all_gather(solver.communicator, mine.values);
-    corner.reinit(op->n_extra(), op->n_extra());
-    for (std::size_t k = 0; k < values.size(); ++k)
-      corner(rows[k], columns[k]) += values[k];
+    corner.clear();
+    for (std::size_t k = 0; k < mine.values.size(); ++k)
+      corner.push_back({static_cast<unsigned int>(mine.rows[k]),
+                        static_cast<unsigned int>(mine.columns[k]), mine.values[k]});
+    corner = all_gather(solver.communicator, corner);
   }
 
   BorderedSolver &solver;
   std::unique_ptr<SystemOperator> op;
-  dealii::FullMatrix<double> corner;
+  const dealii::FullMatrix<double> of_bulk; ///< C A^-1 B
+  std::vector<Entry> corner;                ///< D; repeated entries add up
 };
 
 

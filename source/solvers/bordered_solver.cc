@@ -4,6 +4,7 @@
 #include "solvers/cholesky.h"
 #include "solvers/mumps.h"
 #include "solvers/stopwatch.h"
+#include "solvers/substructured_cholesky.h"
 #include "stockwork/base/all_gather.h"
 #include "stockwork/base/error.h"
 
@@ -75,14 +76,22 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   if (!now || stamps.mesh != factor_stamps.mesh ||
       static_cast<unsigned int>(now->size()) != op.n_bulk())
   {
-    if (definite && dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
-      now = std::make_unique<Cholesky>();
-    else
-      now = std::make_unique<Mumps>(communicator,
-                                    definite ? Mumps::Kind::definite : Mumps::Kind::unsymmetric);
+    const int n = static_cast<int>(op.n_bulk());
     std::vector<int> rows, columns;
     append_bulk_indices(op, definite, rows, columns);
-    now->analyse(static_cast<int>(op.n_bulk()), std::move(rows), std::move(columns));
+    if (!definite)
+      now = std::make_unique<Mumps>(communicator, Mumps::Kind::unsymmetric);
+    else if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+      now = std::make_unique<Cholesky>();
+    else
+    {
+      auto substructured = std::make_unique<SubstructuredCholesky>(communicator);
+      if (substructured->suits(n, rows, columns))
+        now = std::move(substructured);
+      else
+        now = std::make_unique<Mumps>(communicator, Mumps::Kind::definite);
+    }
+    now->analyse(n, std::move(rows), std::move(columns));
   }
   std::vector<double> values;
   append_bulk_values(op, definite, values);
@@ -188,6 +197,9 @@ std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &le
                                              const ExtraSchur::SparseVectors &right)
 {
   const bool keep = keeps_values;
+  if (!keep)
+    if (auto products = factor->products(left, right))
+      return std::move(*products);
   const std::size_t n = factor->size();
   std::vector<double> result(left.size() * right.size());
   const auto multiply_one = [&](const std::size_t j, const double *solution)

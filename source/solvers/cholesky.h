@@ -6,16 +6,16 @@
 
 namespace stockwork
 {
-/// Cholesky's factor of a symmetric positive definite matrix on one rank: CHOLMOD (Chen, Davis,
-/// Hager and Rajamanickam, ACM Trans. Math. Softw. 35, 2008). In two dimensions it solves for one
-/// right-hand side in a third of MUMPS's time, and orders in a quarter.
+class CholmodFactor;
+
+/// Cholesky's factor of a symmetric positive definite matrix on one rank: CHOLMOD. In two
+/// dimensions it solves for one right-hand side in a third of MUMPS's time, and orders in a
+/// quarter.
 class Cholesky : public SparseFactor
 {
 public:
   Cholesky();
   ~Cholesky() override;
-  Cholesky(const Cholesky &) = delete;
-  Cholesky &operator=(const Cholesky &) = delete;
 
   void analyse(int n, std::vector<int> rows, std::vector<int> columns) override;
   void factorise(std::vector<double> &values) override;
@@ -27,7 +27,6 @@ public:
   int size() const override;
 
 private:
-  struct Instance;
-  std::unique_ptr<Instance> instance;
+  std::unique_ptr<CholmodFactor> factor;
 };
 } // namespace stockwork

@@ -27,6 +27,48 @@ std::string_view bytes_of_row(const FullMatrix<double> &matrix, const unsigned i
 {
   return {reinterpret_cast<const char *>(&matrix(row, 0)), matrix.n() * sizeof(double)};
 }
+/// max |a_i| b_i, several at a time.
+double greatest_product(const double *const a, const std::vector<double> &b)
+{
+  constexpr unsigned int lanes = 8;
+  double greatest[lanes] = {};
+  unsigned int i = 0;
+  for (; i + lanes <= b.size(); i += lanes)
+    for (unsigned int lane = 0; lane < lanes; ++lane)
+      greatest[lane] = std::max(greatest[lane], std::abs(a[i + lane]) * b[i + lane]);
+  for (; i < b.size(); ++i)
+    greatest[0] = std::max(greatest[0], std::abs(a[i]) * b[i]);
+  return *std::max_element(greatest, greatest + lanes);
+}
+
+/// Few vertices of a graph of which each edge has one: those with the most edges first. A row of
+/// the fluid changes against several openings, an opening against few rows of the fluid.
+std::vector<bool> cover(const std::vector<std::vector<unsigned int>> &neighbours)
+{
+  std::vector<unsigned int> n_left;
+  for (const auto &list : neighbours)
+    n_left.push_back(list.size());
+  std::vector<bool> taken(n_left.size(), false);
+  while (!n_left.empty())
+  {
+    const auto most = std::max_element(n_left.begin(), n_left.end());
+    if (*most == 0)
+      break;
+    const unsigned int i = most - n_left.begin();
+    taken[i] = true;
+    *most = 0;
+    for (const unsigned int j : neighbours[i])
+      if (!taken[j])
+        --n_left[j];
+  }
+  return taken;
+}
+
+bool same_bytes(const FullMatrix<double> &a, const FullMatrix<double> &b)
+{
+  return a.m() == b.m() && a.n() == b.n() &&
+         (a.empty() || std::memcmp(&a(0, 0), &b(0, 0), a.n_elements() * sizeof(double)) == 0);
+}
 } // namespace
 
 
@@ -39,12 +81,13 @@ void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
   {
     std::fill(size.begin(), size.end(), 0.);
     for (unsigned int i = 0; i < n; ++i)
+    {
+      const double *const row = &matrix(i, 0);
+      const double greatest = greatest_product(row, scaling);
       for (unsigned int j = 0; j < n; ++j)
-      {
-        const double entry = std::abs(matrix(i, j));
-        size[i] = std::max(size[i], entry * scaling[j]);
-        size[j] = std::max(size[j], entry * scaling[i]);
-      }
+        size[j] = std::max(size[j], std::abs(row[j]) * scaling[i]);
+      size[i] = std::max(size[i], greatest);
+    }
     for (unsigned int i = 0; i < n; ++i)
     {
       if (!(size[i] > 0.) || !std::isfinite(size[i]))
@@ -52,10 +95,11 @@ void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
       scaling[i] = std::sqrt(scaling[i] / size[i]);
     }
   }
+  // LAPACK stores by column: of the transposed matrix.
   lu.reinit(n, n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < n; ++j)
-      lu(i, j) = matrix(i, j) * scaling[i] * scaling[j];
+      lu(j, i) = matrix(i, j) * scaling[i] * scaling[j];
   try
   {
     lu.compute_lu_factorization();
@@ -75,7 +119,7 @@ void DenseSolver::Factor::solve(Vector<double> &x) const
 {
   for (unsigned int i = 0; i < x.size(); ++i)
     x(i) *= scaling[i];
-  lu.solve(x);
+  lu.solve(x, true);
   for (unsigned int i = 0; i < x.size(); ++i)
     x(i) *= scaling[i];
 }
@@ -129,15 +173,19 @@ void DenseSolver::choose_kept(const FullMatrix<double> &matrix,
         candidates.push_back(i);
         last.push_back(found->second);
       }
-  std::vector<bool> changed(candidates.size(), false);
+  std::vector<std::vector<unsigned int>> changed(candidates.size());
   for (unsigned int i = 0; i < candidates.size(); ++i)
     for (unsigned int j = 0; j < candidates.size(); ++j)
       if (matrix(candidates[i], candidates[j]) != last_matrix(last[i], last[j]))
-        changed[i] = changed[j] = true;
+      {
+        changed[i].push_back(j);
+        changed[j].push_back(i);
+      }
+  const std::vector<bool> dropped = cover(changed);
 
   kept.clear();
   for (unsigned int i = 0; i < candidates.size(); ++i)
-    if (!changed[i])
+    if (!dropped[i])
       kept.push_back(candidates[i]);
   if (kept.size() < minimum_kept)
     kept.clear();
@@ -163,12 +211,14 @@ void DenseSolver::choose_kept(const FullMatrix<double> &matrix,
 }
 
 
-void DenseSolver::eliminate(const FullMatrix<double> &matrix)
+bool DenseSolver::eliminate(const FullMatrix<double> &matrix)
 {
   FullMatrix<double> wanted(rest.size(), kept.size());
   for (unsigned int i = 0; i < rest.size(); ++i)
     for (unsigned int j = 0; j < kept.size(); ++j)
       wanted(i, j) = matrix(kept[j], rest[i]);
+  if (same_bytes(wanted, columns))
+    return false;
 
   // Most columns have been solved for before: they are known by their contents.
   std::unordered_map<std::string_view, unsigned int> known;
@@ -188,17 +238,16 @@ void DenseSolver::eliminate(const FullMatrix<double> &matrix)
   known.clear();
   columns.swap(wanted);
   eliminated.swap(result);
+  eliminated_by_row.reinit(kept.size(), rest.size());
+  eliminated_by_row.copy_transposed(eliminated);
+  return true;
 }
 
 
-void DenseSolver::factorise(const FullMatrix<double> &matrix,
-                            const std::vector<unsigned int> &identities)
+void DenseSolver::factorise(FullMatrix<double> matrix, const std::vector<unsigned int> &identities)
 {
   if (!find_kept(matrix, identities) || matrix.m() - kept.size() > rest_when_chosen + most_new)
     choose_kept(matrix, identities);
-  last_matrix = matrix;
-  last_identities = identities;
-
   std::vector<bool> is_kept(matrix.m(), false);
   for (const unsigned int i : kept)
     is_kept[i] = true;
@@ -211,7 +260,7 @@ void DenseSolver::factorise(const FullMatrix<double> &matrix,
   small.extract_submatrix_from(matrix, rest, rest);
   if (!kept.empty() && !rest.empty())
   {
-    eliminate(matrix);
+    const bool anew = eliminate(matrix);
     rows.reinit(rest.size(), kept.size());
     rows.extract_submatrix_from(matrix, rest, kept);
     // The rows of the fluid have few entries, those of the tips are full.
@@ -225,25 +274,32 @@ void DenseSolver::factorise(const FullMatrix<double> &matrix,
       if (4 * entries.size() > kept.size())
         full.push_back(i);
       else
-        for (unsigned int j = 0; j < rest.size(); ++j)
+        for (const unsigned int k : entries)
         {
-          double sum = 0.;
-          for (const unsigned int k : entries)
-            sum += rows(i, k) * eliminated(j, k);
-          small(i, j) -= sum;
+          const double entry = rows(i, k), *const from = &eliminated_by_row(k, 0);
+          double *const to = &small(i, 0);
+          for (unsigned int j = 0; j < rest.size(); ++j)
+            to[j] -= entry * from[j];
         }
     }
     if (!full.empty())
     {
-      FullMatrix<double> full_rows(full.size(), kept.size()), product(full.size(), rest.size());
+      FullMatrix<double> now(full.size(), kept.size());
       for (unsigned int i = 0; i < full.size(); ++i)
-        std::copy(&rows(full[i], 0), &rows(full[i], 0) + kept.size(), &full_rows(i, 0));
-      full_rows.mTmult(product, eliminated);
+        std::copy(&rows(full[i], 0), &rows(full[i], 0) + kept.size(), &now(i, 0));
+      if (anew || !same_bytes(now, full_rows))
+      {
+        full_rows.swap(now);
+        full_product.reinit(full.size(), rest.size());
+        full_rows.mTmult(full_product, eliminated);
+      }
       for (unsigned int i = 0; i < full.size(); ++i)
         for (unsigned int j = 0; j < rest.size(); ++j)
-          small(full[i], j) -= product(i, j);
+          small(full[i], j) -= full_product(i, j);
     }
   }
+  last_matrix = std::move(matrix);
+  last_identities = identities;
   if (!rest.empty())
     try
     {

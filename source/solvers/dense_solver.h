@@ -22,7 +22,7 @@ public:
 
   /// @param identities of the unknowns, by which those of an earlier matrix are found again
   /// @throws SolveError when the matrix is singular; nothing is kept then
-  void factorise(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
+  void factorise(dealii::FullMatrix<double>, const std::vector<unsigned int> &identities);
 
   /// x := A^-1 x
   void solve(dealii::Vector<double> &x) const;
@@ -57,8 +57,8 @@ private:
   /// Keep what has not changed since the last matrix.
   void choose_kept(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
 
-  /// Fill `eliminated`.
-  void eliminate(const dealii::FullMatrix<double> &);
+  /// Fill `eliminated`. Returns whether it has become another.
+  bool eliminate(const dealii::FullMatrix<double> &);
 
   // Kept.
   std::vector<unsigned int> kept_identities;
@@ -71,10 +71,14 @@ private:
   std::vector<unsigned int> last_identities;
 
   // Of the present matrix.
-  std::vector<unsigned int> kept, rest;  ///< indices
-  dealii::FullMatrix<double> rows;       ///< R
-  dealii::FullMatrix<double> eliminated; ///< F^-1 C, transposed
+  std::vector<unsigned int> kept, rest;         ///< indices
+  dealii::FullMatrix<double> rows;              ///< R
+  dealii::FullMatrix<double> eliminated;        ///< F^-1 C, transposed
+  dealii::FullMatrix<double> eliminated_by_row; ///< F^-1 C
   Factor rest_factor;
+
+  dealii::FullMatrix<double> full_rows;    ///< those of R that are full,
+  dealii::FullMatrix<double> full_product; ///< times F^-1 C
 
   dealii::FullMatrix<double> columns; ///< C, transposed, for which `eliminated` has been computed
 };

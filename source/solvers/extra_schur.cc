@@ -162,20 +162,24 @@ void ExtraSchur::update_products(const std::vector<Border> &borders, const bool 
     forget_unused();
 }
 
-void ExtraSchur::factorise(const dealii::FullMatrix<double> &corner)
+dealii::FullMatrix<double> ExtraSchur::product() const
 {
-  const unsigned int n = corner.m();
-  has_factor = false;
-  dealii::FullMatrix<double> s(corner);
+  const unsigned int n = place.size();
+  dealii::FullMatrix<double> result(n, n);
   for (unsigned int i = 0; i < n; ++i)
     if (place[i] != no_place)
       for (unsigned int j = 0; j < n; ++j)
         if (place[j] != no_place)
-          s(i, j) -= products[place[i]][place[j]];
+          result(i, j) = products[place[i]][place[j]];
+  return result;
+}
 
+void ExtraSchur::factorise(dealii::FullMatrix<double> s)
+{
+  has_factor = false;
   try
   {
-    schur.factorise(s, place);
+    schur.factorise(std::move(s), place);
   }
   catch (const SolveError &)
   {
@@ -207,10 +211,11 @@ void ExtraSchur::update(const SystemOperator &op,
                { return a.row == b.row && a.column == b.column && a.value == b.value; });
   if (same)
     return;
-  dealii::FullMatrix<double> dense(border.n, border.n);
+  dealii::FullMatrix<double> s = product();
+  s *= -1.;
   for (const auto &e : corner)
-    dense(e.row, e.column) += e.value;
-  factorise(dense);
+    s(e.row, e.column) += e.value;
+  factorise(std::move(s));
   corner_of_factor = corner;
   place_of_factor = place;
   has_factor = true;
@@ -221,16 +226,5 @@ void ExtraSchur::solve(std::vector<double> &x) const
   dealii::Vector<double> right(x.begin(), x.end());
   schur.solve(right);
   std::copy(right.begin(), right.end(), x.begin());
-}
-
-std::vector<double> ExtraSchur::product(const std::vector<double> &x) const
-{
-  std::vector<double> result(x.size(), 0.);
-  for (unsigned int i = 0; i < x.size(); ++i)
-    if (place[i] != no_place)
-      for (unsigned int j = 0; j < x.size(); ++j)
-        if (place[j] != no_place)
-          result[i] += products[place[i]][place[j]] * x[j];
-  return result;
 }
 } // namespace stockwork

@@ -51,15 +51,15 @@ public:
                      bool symmetric_bulk,
                      const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
 
-  /// Factorise S with the border of the last update and another D, the same on every rank.
-  /// Throws SolveError when S is singular.
-  void factorise(const dealii::FullMatrix<double> &corner);
+  /// C A^-1 B of the border of the last update.
+  dealii::FullMatrix<double> product() const;
+
+  /// Factorise S = D - C A^-1 B with that border, the same on every rank. Throws SolveError when S
+  /// is singular.
+  void factorise(dealii::FullMatrix<double> s);
 
   /// x <- S^-1 x
   void solve(std::vector<double> &x) const;
-
-  /// C A^-1 B x
-  std::vector<double> product(const std::vector<double> &x) const;
 
   /// SolveError with the usual causes.
   [[noreturn]] static void throw_singular();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace stockwork
@@ -29,6 +31,16 @@ public:
                             std::vector<int> &rows,
                             std::vector<double> &values,
                             std::vector<double> &x) = 0;
+
+  /// left_i . A^-1 right_j of all pairs, [j * left.size() + i], on every rank, all of which give
+  /// the same vectors: entries as index, from zero here, and value. Nothing: solve_sparse() is as
+  /// good.
+  using SparseVectors = std::vector<const std::vector<std::pair<int, double>> *>;
+  virtual std::optional<std::vector<double>> products(const SparseVectors & /*left*/,
+                                                      const SparseVectors & /*right*/)
+  {
+    return {};
+  }
 
   virtual int size() const = 0;
 };
