@@ -237,8 +237,9 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       throw SolveError("Step " + std::to_string(step) + " was interrupted by a signal.");
     if (dt <= control.minimum_step * (1. + 1e-10))
       throw SolveError("Step " + std::to_string(step) + " at t = " + std::to_string(time) +
-                       " s fails even with the shortest step allowed, " + std::to_string(dt) +
-                       " s: " + reason + (advice.empty() ? "" : ". " + advice));
+                       " s fails even with the shortest step allowed, " +
+                       to_string(dt, dimension::time) + ": " + reason +
+                       (advice.empty() ? "" : ". " + advice));
     run.out << "  step " << step << ": " << reason << "; dt " << dt << " -> "
             << std::max(0.5 * dt, control.minimum_step) << " s" << std::endl;
     dt = std::max(0.5 * dt, control.minimum_step);

@@ -228,15 +228,13 @@ void Wells<dim>::read_source(dealii::ParameterHandler &prm, const std::string &p
 /// Of a well that is not there.
 void refuse_entries(const dealii::ParameterHandler &prm, const std::string &path)
 {
-  for (const auto &[entry, otherwise] :
-       std::initializer_list<std::pair<const char *, const char *>>{{"Perforations", ""},
-                                                                    {"Minimum pressure", ""},
-                                                                    {"Opens into", "fracture"},
-                                                                    {"Borehole radius", ""},
-                                                                    {"Source radius", ""},
-                                                                    {"Perforation friction", "0"},
-                                                                    {"Borehole volume", "0"},
-                                                                    {"Fraction in model", "1"}})
+  constexpr std::pair<const char *, const char *> defaults[] = {
+    {"Perforations", ""},          {"Name", ""},
+    {"Minimum pressure", ""},      {"Opens into", "fracture"},
+    {"Borehole radius", ""},       {"Source radius", ""},
+    {"Perforation friction", "0"}, {"Borehole volume", "0"},
+    {"Fraction in model", "1"}};
+  for (const auto &[entry, otherwise] : defaults)
     if (prm.get(entry) != otherwise)
       throw EntryError(path + "Control", "none",
                        std::string("'rate' or 'pressure' for a well whose '") + entry +

@@ -343,9 +343,14 @@ void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
   const auto text = [](const BoundingBox<dim> &box)
   {
     const auto corners = box.get_boundary_points();
-    std::ostringstream value;
-    value << "(" << corners.first << ") to (" << corners.second << ")";
-    return value.str();
+    const auto coordinates = [](const Point<dim> &point)
+    {
+      std::ostringstream value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value << (d > 0 ? ", " : "(") << point[d];
+      return value.str() + ")";
+    };
+    return coordinates(corners.first) + " to " + coordinates(corners.second);
   };
   for (const RefinementBox &item : refinement_boxes)
     for (unsigned int d = 0; d < dim; ++d)
