@@ -140,12 +140,25 @@ double Newton<dim>::linear_tolerance(const ResidualNorms &allowed)
 
 
 template <int dim>
+void Newton<dim>::stiffen_slow_rock()
+{
+  if (assembly.linear_system().rock_change == nullptr)
+    return;
+  constexpr double too_slow = 0.8, share = 1e-3;
+  if (last_force > 0. && norms.momentum > too_slow * last_force)
+    assembly.stiffen_rock(share);
+  last_force = norms.momentum;
+}
+
+
+template <int dim>
 bool Newton<dim>::find_increment(NonlinearReport &report, const ResidualNorms &allowed)
 {
   try
   {
     const auto scope = run.timers.scope("solve");
     condense();
+    stiffen_slow_rock();
     const LinearReport linear_report =
       condensed ? solve_condensed()
                 : solver.solve(assembly.linear_system(), assembly.stamps(),

@@ -96,6 +96,11 @@ private:
   /// Fill `dx_bulk` and `dx_extra`. Returns whether they can be used; else the report says why not.
   bool find_increment(NonlinearReport &report, const ResidualNorms &allowed);
 
+  /// Where rock flows plastically without hardening, its tangent is singular in many directions,
+  /// and iterations wander along them. One that has gained next to nothing is followed by one with
+  /// a little of the linear rock's stiffness, which bounds them; the residual stays what it is.
+  void stiffen_slow_rock();
+
   /// The residual that the next linear solve may leave, over what it was.
   double linear_tolerance(const ResidualNorms &allowed);
 
@@ -143,6 +148,7 @@ private:
   double force = 0.;          ///< scale of residual forces
   unsigned int n_limited = 0; ///< iterations that 'Maximum pressure change' shortened
   unsigned int n_halved = 0;  ///< iterations that were shortened because the residual grew
+  double last_force = 0.;     ///< residual forces before the last iteration, where rock yields
   ForcingTerm forcing_term;   ///< of rock that yields
   BlockVector dx_bulk;
   std::vector<double> dx_extra;

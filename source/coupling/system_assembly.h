@@ -66,6 +66,12 @@ public:
     return linear_residual_extra;
   }
 
+  /// Put a share of linear rock into the matrix of rock that has left its linear range.
+  void stiffen_rock(const double share)
+  {
+    rock_change *= 1. - share;
+  }
+
   /// What that changes by with the extra unknowns while the bulk stays as it is.
   std::vector<double> linear_change_by_extra(const std::vector<double> &dx_extra) const;
 
