@@ -2,10 +2,10 @@
 
 #include "discontinuity/contact.h"
 #include "discontinuity/discontinuity.h"
+#include "discontinuity/stress_ahead.h"
 #include "fracture/cohesive_xfem/growth_limits.h"
 #include "fracture/cohesive_xfem/law.h"
 #include "fracture/cohesive_xfem/parameters.h"
-#include "fracture/cohesive_xfem/tip_stress.h"
 #include "stockwork/fracture/model.h"
 
 #include <array>

@@ -1,18 +1,18 @@
-#include "fracture/cohesive_xfem/tip_stress.h"
+#include "discontinuity/stress_ahead.h"
 
 #include "stockwork/rock/linear_stiffness.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
-namespace stockwork::cohesive_xfem
+namespace stockwork
 {
 using dealii::SymmetricTensor;
 
 template <int dim>
 std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &discs,
                                           const MeshView<dim> &mesh_view,
-                                          const Discontinuity<dim> &discontinuity,
+                                          const std::function<bool(unsigned int)> &is_cracked,
                                           const Scene<dim> &scene,
                                           const State &state,
                                           const Collectives &collectives)
@@ -34,7 +34,7 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
   std::vector<double> sums(discs.size() * stride, 0.);
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
   {
-    if (!cell->is_locally_owned() || discontinuity.cut_cell(cell->active_cell_index()) != nullptr)
+    if (!cell->is_locally_owned() || is_cracked(cell->active_cell_index()))
       continue;
     const auto &low = cell->vertex(0), &high = cell->vertex((1 << dim) - 1);
     const auto middle = low + 0.5 * (high - low);
@@ -92,8 +92,14 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
 
 template std::vector<RockAhead<2>> average_ahead(const std::vector<HalfDisc<2>> &,
                                                  const MeshView<2> &,
-                                                 const Discontinuity<2> &,
+                                                 const std::function<bool(unsigned int)> &,
                                                  const Scene<2> &,
                                                  const State &,
                                                  const Collectives &);
-} // namespace stockwork::cohesive_xfem
+template std::vector<RockAhead<3>> average_ahead(const std::vector<HalfDisc<3>> &,
+                                                 const MeshView<3> &,
+                                                 const std::function<bool(unsigned int)> &,
+                                                 const Scene<3> &,
+                                                 const State &,
+                                                 const Collectives &);
+} // namespace stockwork

@@ -1,0 +1,270 @@
+#include "fracture/damage/band.h"
+
+#include "stockwork/mesh/key.h"
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::damage
+{
+using dealii::Point;
+using dealii::Tensor;
+
+template <int dim>
+void Band<dim>::setup(const MeshView<dim> &new_mesh_view)
+{
+  mesh_view = std::make_unique<MeshView<dim>>(new_mesh_view);
+  replace(std::vector<CrackCell<dim>>(cells));
+}
+
+
+template <int dim>
+void Band<dim>::add(const std::vector<CrackCell<dim>> &more)
+{
+  const unsigned int first = cells.size();
+  cells.insert(cells.end(), more.begin(), more.end());
+  embed(first);
+}
+
+
+template <int dim>
+void Band<dim>::replace(const std::vector<CrackCell<dim>> &others)
+{
+  cells = others;
+  cuts.clear();
+  by_index.clear();
+  owned_cells.clear();
+  embed(0);
+}
+
+
+template <int dim>
+void Band<dim>::embed(const unsigned int first)
+{
+  if (!mesh_view || first == cells.size())
+    return;
+  std::unordered_map<std::uint64_t, unsigned int> wanted;
+  dealii::BoundingBox<dim> box(std::make_pair(cells[first].centre(), cells[first].centre()));
+  for (unsigned int i = first; i < cells.size(); ++i)
+  {
+    wanted[cells[i].key()] = i;
+    box.merge_with(dealii::BoundingBox<dim>(std::make_pair(cells[i].centre(), cells[i].centre())));
+  }
+  box.extend(1e-6 * cells[first].size());
+
+  const dealii::FE_Q<dim> vertex_functions(1);
+  const dealii::QGauss<dim> quadrature(
+    mesh_view->dof_handler.get_fe().base_element(0).degree + 1);
+  dealii::FEValues<dim> values(mesh_view->mapping, vertex_functions, quadrature,
+                               dealii::update_values | dealii::update_gradients |
+                                 dealii::update_quadrature_points | dealii::update_JxW_values);
+  for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
+  {
+    if (cell->is_artificial() || !box.point_inside(cell->center()))
+      continue;
+    const auto found = wanted.find(Key().add(cell->id()));
+    if (found == wanted.end())
+      continue;
+    by_index[cell->active_cell_index()] = found->second;
+    if (cell->is_locally_owned())
+    {
+      owned_cells.push_back({found->second, cell});
+      make_cut(found->second, cell, values);
+    }
+  }
+  std::sort(owned_cells.begin(), owned_cells.end(),
+            [](const Owned &a, const Owned &b) { return a.number < b.number; });
+}
+
+
+template <int dim>
+void Band<dim>::make_cut(const unsigned int i,
+                         const CellIterator &cell,
+                         dealii::FEValues<dim> &values)
+{
+  const CrackCell<dim> &crack = cells[i];
+  values.reinit(typename dealii::Triangulation<dim>::active_cell_iterator(cell));
+  CutCell<dim> &cut = cuts[cell->active_cell_index()];
+  cut = CutCell<dim>();
+  cut.points = values.get_quadrature().get_points();
+  cut.weights = values.get_JxW_values();
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    cut.extra.push_back(dim * i + d);
+    cut.component.push_back(d);
+  }
+  for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+  {
+    double value = crack.normal * (values.quadrature_point(q) - crack.on_plane) > 0. ? 1. : 0.;
+    Tensor<1, dim> gradient;
+    for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
+      if (crack.is_on_plus_side(v))
+      {
+        value -= values.shape_value(v, q);
+        gradient -= values.shape_grad(v, q);
+      }
+    cut.values.insert(cut.values.end(), dim, value);
+    cut.gradients.insert(cut.gradients.end(), dim, gradient);
+  }
+}
+
+
+template <int dim>
+std::vector<CrackCell<dim>> Band<dim>::passed(const InitialCrack<dim> &crack) const
+{
+  std::vector<CrackCell<dim>> found;
+  for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned() || crack.distance(cell->center()) > cell->diameter())
+      continue;
+    CrackCell<dim> piece = describe<dim>(cell);
+    const auto take_if_cut = [&]
+    {
+      piece.part_by_plane();
+      if (piece.is_cut())
+        found.push_back(piece);
+      return piece.is_cut();
+    };
+    if (crack.disc)
+    {
+      piece.normal = crack.disc->normal;
+      piece.on_plane = crack.disc->centre;
+      const Tensor<1, dim> away = piece.centre() - piece.on_plane;
+      if ((away - (away * piece.normal) * piece.normal).norm() <= crack.disc->radius)
+        take_if_cut();
+    }
+    else if constexpr (dim == 2)
+      for (unsigned int k = 0; k + 1 < crack.points.size(); ++k)
+      {
+        Tensor<1, dim> along = crack.points[k + 1] - crack.points[k];
+        const double length = along.norm();
+        along /= length;
+        const double place = (piece.centre() - crack.points[k]) * along;
+        // At a corner the cells of both legs, so that no gap is left.
+        const double before = k > 0 ? piece.size() : 0.,
+                     after = k + 2 < crack.points.size() ? piece.size() : 0.;
+        if (place < -before || place > length + after)
+          continue;
+        piece.normal = dealii::Tensor<1, dim>({-along[1], along[0]});
+        piece.on_plane = crack.points[k];
+        if (take_if_cut())
+          break;
+      }
+  }
+  return found;
+}
+
+
+template <int dim>
+std::vector<ExtraUnknown> Band<dim>::unknowns() const
+{
+  std::vector<ExtraUnknown> all;
+  all.reserve(dim * cells.size());
+  for (const CrackCell<dim> &crack : cells)
+    for (unsigned int d = 0; d < dim; ++d)
+      all.push_back({crack.key() + 1 + d});
+  return all;
+}
+
+
+template <int dim>
+void Band<dim>::add_neighbours(const Owned &owned, Segment<dim> &segment) const
+{
+  const CrackCell<dim> &crack = cells[owned.number];
+  const Tensor<1, dim> &n = crack.normal;
+  for (const unsigned int f : owned.cell->face_indices())
+  {
+    if (owned.cell->at_boundary(f) || owned.cell->neighbor(f)->has_children())
+      continue;
+    const auto other = number(owned.cell->neighbor(f));
+    if (!other)
+      continue;
+    const unsigned int f_other = owned.cell->neighbor_of_neighbor(f);
+    if (!crack.crosses(f) && !cells[*other].crosses(f_other))
+      continue;
+    // Lengths along the crack and not along the stairs of cells.
+    const Tensor<1, dim> to_face = owned.cell->face(f)->center() - segment.centre;
+    const double along = (to_face - (to_face * n) * n).norm();
+    double width = 1.;
+    if (dim == 3)
+    {
+      // Extent of the face in the direction in which the crack's plane meets it.
+      const Tensor<1, dim> a = to_face / to_face.norm();
+      Tensor<1, dim> edge;
+      for (unsigned int d = 0; d < dim; ++d)
+        edge[d] = n[(d + 1) % 3] * a[(d + 2) % 3] - n[(d + 2) % 3] * a[(d + 1) % 3];
+      double low = 0., high = 0.;
+      if (edge.norm() > 1e-6)
+        edge /= edge.norm();
+      for (unsigned int v = 0; v < owned.cell->face(f)->n_vertices(); ++v)
+      {
+        const double s = edge * (owned.cell->face(f)->vertex(v) - owned.cell->face(f)->center());
+        low = std::min(low, s);
+        high = std::max(high, s);
+      }
+      width = high - low;
+    }
+    segment.neighbours.push_back(
+      {cells[*other].key(), std::max(along, 0.05 * crack.size()), width});
+  }
+}
+
+
+template <int dim>
+void Band<dim>::add_pore_pressure(const Owned &owned, Segment<dim> &segment) const
+{
+  const CrackCell<dim> &crack = cells[owned.number];
+  const auto &fe = owned.cell->get_fe();
+  std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  owned.cell->get_dof_indices(dofs);
+  Point<dim> middle;
+  for (unsigned int d = 0; d < dim; ++d)
+    middle[d] = 0.5;
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    if (fe.system_to_component_index(i).first == dim)
+    {
+      const double share = fe.shape_value(i, middle);
+      const Point<dim> &node = crack.vertices[fe.system_to_component_index(i).second];
+      segment.pore_pressure.bulk.push_back(dofs[i]);
+      segment.pore_pressure.bulk_coefficients.push_back(share);
+      segment.pore_distance += share * std::abs((node - segment.centre) * crack.normal);
+    }
+}
+
+
+template <int dim>
+std::vector<Segment<dim>> Band<dim>::segments(
+  const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
+{
+  std::vector<Segment<dim>> all;
+  for (const Owned &owned : owned_cells)
+  {
+    const CrackCell<dim> &crack = cells[owned.number];
+    Segment<dim> segment;
+    segment.key = crack.key();
+    segment.centre = crack.centre();
+    segment.normal = crack.normal;
+    segment.area = crack.area();
+    add_neighbours(owned, segment);
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      segment.opening.extra.push_back(dim * owned.number + d);
+      segment.opening.extra_coefficients.push_back(crack.normal[d]);
+    }
+    segment.pore_pressure.constant = in_situ_pore_pressure(segment.centre);
+    if (mesh_view->has_pore_pressure)
+      add_pore_pressure(owned, segment);
+    all.push_back(std::move(segment));
+  }
+  return all;
+}
+
+
+template class Band<2>;
+template class Band<3>;
+} // namespace stockwork::damage

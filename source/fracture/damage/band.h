@@ -1,0 +1,113 @@
+#pragma once
+
+#include "fracture/damage/crack_cell.h"
+#include "stockwork/exchange/cell_role.h"
+#include "stockwork/exchange/extra_unknown.h"
+#include "stockwork/exchange/scene.h"
+#include "stockwork/exchange/segment.h"
+#include "stockwork/mesh/mesh_view.h"
+
+#include <deal.II/fe/fe_values.h>
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace stockwork::damage
+{
+/// All cracked cells, and what they are on the mesh: the extra functions of the bulk, one jump for
+/// each cell, and the segments of the fluid. The list is the same on every rank, in the order in
+/// which cells have cracked, so that the jump of cell i is unknowns dim i to dim i + dim - 1.
+template <int dim>
+class Band
+{
+public:
+  using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  std::vector<CrackCell<dim>> cells;
+
+  /// The mesh is new.
+  void setup(const MeshView<dim> &mesh_view);
+
+  /// More cells are cracked.
+  void add(const std::vector<CrackCell<dim>> &more);
+
+  /// Another list in place of this one.
+  void replace(const std::vector<CrackCell<dim>> &others);
+
+  /// The cells that a crack of the scene passes, of those that this rank owns.
+  std::vector<CrackCell<dim>> passed(const InitialCrack<dim> &crack) const;
+
+  std::vector<ExtraUnknown> unknowns() const;
+
+  dealii::Tensor<1, dim> jump(const unsigned int i, const std::vector<double> &extra) const
+  {
+    dealii::Tensor<1, dim> a;
+    for (unsigned int d = 0; d < dim; ++d)
+      a[d] = extra[dim * i + d];
+    return a;
+  }
+
+  /// Null: the cell is whole, or another rank's.
+  const CutCell<dim> *cut_cell(const unsigned int active_cell_index) const
+  {
+    const auto found = cuts.find(active_cell_index);
+    return found == cuts.end() ? nullptr : &found->second;
+  }
+
+  bool is_cracked(const unsigned int active_cell_index) const
+  {
+    return by_index.count(active_cell_index) != 0;
+  }
+
+  /// Number in `cells` of a cell that this rank owns or has as a ghost.
+  std::optional<unsigned int> number(const CellIterator &cell) const
+  {
+    const auto found = by_index.find(cell->active_cell_index());
+    return found == by_index.end() ? std::nullopt : std::make_optional(found->second);
+  }
+
+  struct Owned
+  {
+    unsigned int number;
+    CellIterator cell;
+  };
+
+  /// In the order of `cells`.
+  const std::vector<Owned> &owned() const
+  {
+    return owned_cells;
+  }
+
+  std::vector<Segment<dim>>
+  segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
+
+private:
+  /// Find the cells from this number on.
+  void embed(unsigned int first);
+
+  void make_cut(unsigned int i, const CellIterator &cell, dealii::FEValues<dim> &values);
+
+  void add_neighbours(const Owned &owned, Segment<dim> &segment) const;
+
+  void add_pore_pressure(const Owned &owned, Segment<dim> &segment) const;
+
+  std::unique_ptr<MeshView<dim>> mesh_view;
+  std::unordered_map<unsigned int, CutCell<dim>> cuts;    ///< by active cell index
+  std::unordered_map<unsigned int, unsigned int> by_index; ///< active cell index to number
+  std::vector<Owned> owned_cells;
+};
+
+/// The cell, with the crack's plane given, but not yet parted.
+template <int dim, class CellAccessor>
+CrackCell<dim> describe(const CellAccessor &cell)
+{
+  CrackCell<dim> result;
+  result.id = cell->id();
+  result.region = cell->material_id();
+  for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
+    result.vertices[v] = cell->vertex(v);
+  return result;
+}
+} // namespace stockwork::damage

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/grid/cell_id.h>
+
+#include <boost/serialization/array.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace stockwork::damage
+{
+/// A cell that is cracked: the crack parts its vertices into those on its plus and those on its
+/// minus side. It holds all that is needed to know the crack without access to the mesh, so that
+/// every rank can hold every cracked cell.
+///
+/// With phi = sum of the Q1 functions of the vertices on the plus side, a jump a adds the strain
+/// -sym(a grad phi) to that of the nodes. Two bodies that move apart as they are then leave no
+/// stress in the cells between them, along whatever stairs these lie; a strain -sym(a n)/h, which
+/// is what a damaged stiffness makes of it, would leave some wherever n is not normal to the mesh.
+template <int dim>
+struct CrackCell
+{
+  static constexpr unsigned int n_vertices = 1 << dim;
+
+  dealii::CellId id;
+  dealii::types::material_id region = 0;
+  std::array<dealii::Point<dim>, n_vertices> vertices;
+  dealii::Tensor<1, dim> normal;   ///< unit, to the plus side; fixed once cracked
+  dealii::Point<dim> on_plane;     ///< a point of the crack in or near the cell
+  unsigned int plus = 0;           ///< vertices on the plus side, one bit each
+  double greatest = 0.;            ///< committed: equivalent opening reached [m]
+  double carried = 0.;             ///< committed: normal traction of faces that touch [Pa]
+
+  dealii::Point<dim> centre() const;
+
+  /// Whether the crack passes through a face: it has vertices on either side.
+  bool crosses(unsigned int face) const;
+
+  bool is_on_plus_side(const unsigned int vertex) const
+  {
+    return (plus >> vertex) & 1;
+  }
+
+  /// Whether there are vertices on either side.
+  bool is_cut() const
+  {
+    return plus != 0 && plus != (1u << n_vertices) - 1;
+  }
+
+  /// Put the vertices on the sides of the plane through on_plane; those on it on the minus side.
+  void part_by_plane();
+
+  /// Area of the crack, n . int grad phi [m^2], [m] in 2-D. Summed over the cells that a plane
+  /// passes, the plane's own.
+  double area() const;
+
+  double volume() const;
+
+  /// Size of the cell across the crack [m].
+  double size_across() const
+  {
+    return volume() / area();
+  }
+
+  /// Length of a side [m].
+  double size() const;
+
+  /// Where the plane of the crack meets the edges of a face that it crosses, on average.
+  dealii::Point<dim> crossing(unsigned int face) const;
+
+  std::uint64_t key() const;
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &id &region &vertices &normal &on_plane &plus &greatest &carried;
+  }
+
+private:
+  /// int grad phi over the cell, by the mean Jacobian.
+  dealii::Tensor<1, dim> gradient_integral(double &volume) const;
+};
+} // namespace stockwork::damage

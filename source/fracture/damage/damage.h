@@ -1,0 +1,132 @@
+#pragma once
+
+#include "fracture/damage/band.h"
+#include "fracture/damage/law.h"
+#include "fracture/damage/parameters.h"
+#include "stockwork/fracture/model.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stockwork::damage
+{
+/// Cracks as bands of damaged cells, in two and three dimensions and without a path to follow: a
+/// cell beside the band cracks where the stress across it, with the fluid's pressure, exceeds the
+/// strength. After Zhang et al. (2022) in the form of a crack band; see README.md.
+template <int dim>
+class Damage : public FractureModel<dim>
+{
+public:
+  using typename FractureModel<dim>::CellIterator;
+
+  Damage(const Parameters &parameters, const Scene<dim> &scene);
+
+  void setup(const MeshView<dim> &mesh_view, const Collectives &collectives) override;
+
+  void begin_step(const StepContext &context) override;
+
+  std::vector<ExtraUnknown> extra_unknowns() const override
+  {
+    return band.unknowns();
+  }
+
+  dealii::ArrayView<const Segment<dim>> segments() const override
+  {
+    return dealii::make_array_view(all_segments);
+  }
+
+  CellRole<dim> role(const CellIterator &cell) const override
+  {
+    return {band.cut_cell(cell->active_cell_index())};
+  }
+
+  void assemble(const StepContext &context, const State &state, Sink &sink) const override;
+
+  Verdict
+  advance(const StepContext &context, const State &state, const Collectives &collectives) override;
+
+  bool commit(const StepContext &context, const State &state) override;
+
+  void rollback() override;
+
+  void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                        std::vector<float> &sizes) const override;
+
+  std::vector<std::string> take_messages() override;
+
+  void save(boost::archive::binary_oarchive &archive) const override;
+
+  void load(boost::archive::binary_iarchive &archive) override;
+
+  FractureSummary summary(const State &state, const Collectives &collectives) const override;
+
+  void write_fields(const State &state, FieldSink<dim> &sink) const override;
+
+private:
+  void start(const Collectives &collectives);
+
+  /// The law of a region whose cells along the crack are of this size; says what is coarse.
+  void choose_strength(dealii::types::material_id region, double size);
+
+  SeamLaw law_of(dealii::types::material_id region, double strength) const;
+
+  const SeamLaw &law(const CrackCell<dim> &crack) const
+  {
+    return laws.at(crack.region);
+  }
+
+  /// Modulus of uniaxial strain across the crack over the size of the cell [Pa/m].
+  double rock_stiffness(const CrackCell<dim> &crack) const;
+
+  /// Normal traction of the faces where they touch, never positive, and its slope.
+  struct Touch
+  {
+    double traction = 0., slope = 0.;
+  };
+  Touch touch(const CrackCell<dim> &crack, double opening) const;
+
+  /// Whether faces overlap too much, which then carry more: the step is to be solved again.
+  bool press_faces(const State &);
+
+  /// A whole cell beside the band into which a crack runs.
+  struct Candidate
+  {
+    CrackCell<dim> cell;
+    std::vector<unsigned int> behind;       ///< numbers of cracked cells
+    std::vector<unsigned int> faces_behind; ///< of these, the face to the candidate
+    bool fits = true;                       ///< its size is that of the cells behind
+
+    template <class Archive>
+    void serialize(Archive &ar, const unsigned int)
+    {
+      ar &cell &behind &faces_behind &fits;
+    }
+  };
+
+  /// The same on all ranks, in the same order.
+  std::vector<Candidate> candidates(const Collectives &collectives) const;
+
+  /// Put the crack into a candidate, across this direction of greatest tension.
+  void crack(Candidate &candidate, const dealii::Tensor<1, dim> &across) const;
+
+  Parameters parameters;
+  const Scene<dim> &scene;
+  std::map<dealii::types::material_id, SeamLaw> laws;
+  Band<dim> band;
+  std::unique_ptr<MeshView<dim>> mesh_view;
+  std::vector<Segment<dim>> all_segments;
+  std::vector<std::string> messages;
+
+  // History, the same on all ranks.
+  std::vector<CrackCell<dim>> committed;
+  bool started = false;         ///< a step has been accepted
+  bool waits_for_mesh = false;  ///< cells ahead were of another size
+  double greatest_opening = 0.; ///< of all cells so far [m]
+
+  // Of the current step.
+  unsigned int n_presses = 0, n_advances = 0;
+  bool needs_mesh = false;
+  std::size_t n_messages_before = 0;
+};
+} // namespace stockwork::damage

@@ -1,0 +1,193 @@
+#include "discontinuity/stress_ahead.h"
+#include "fracture/damage/damage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::damage
+{
+using dealii::Point;
+using dealii::Tensor;
+
+template <int dim>
+std::vector<typename Damage<dim>::Candidate>
+Damage<dim>::candidates(const Collectives &collectives) const
+{
+  std::vector<Candidate> mine;
+  for (const auto &owned : band.owned())
+    for (const unsigned int f : owned.cell->face_indices())
+    {
+      if (!band.cells[owned.number].crosses(f) || owned.cell->at_boundary(f))
+        continue;
+      const auto neighbour = owned.cell->neighbor(f);
+      const bool fits = neighbour->is_active() && neighbour->level() == owned.cell->level();
+      if (fits && band.number(neighbour))
+        continue;
+      mine.push_back({describe<dim>(neighbour), {owned.number}, {f}, fits});
+    }
+  std::vector<Candidate> all = collectives.gather(mine);
+  std::sort(all.begin(), all.end(), [](const Candidate &a, const Candidate &b)
+            { return a.cell.id < b.cell.id ||
+                     (a.cell.id == b.cell.id && a.behind[0] < b.behind[0]); });
+  std::vector<Candidate> merged;
+  for (const Candidate &one : all)
+    if (!merged.empty() && merged.back().cell.id == one.cell.id)
+    {
+      merged.back().behind.push_back(one.behind[0]);
+      merged.back().faces_behind.push_back(one.faces_behind[0]);
+    }
+    else
+      merged.push_back(one);
+  return merged;
+}
+
+
+template <int dim>
+void Damage<dim>::crack(Candidate &candidate, const Tensor<1, dim> &across) const
+{
+  CrackCell<dim> &cell = candidate.cell;
+  Tensor<1, dim> of_others;
+  Point<dim> entry;
+  for (unsigned int k = 0; k < candidate.behind.size(); ++k)
+  {
+    const CrackCell<dim> &other = band.cells[candidate.behind[k]];
+    of_others += (other.normal * band.cells[candidate.behind[0]].normal < 0. ? -1. : 1.) *
+                 other.normal;
+    entry += other.crossing(candidate.faces_behind[k]) / double(candidate.behind.size());
+  }
+  cell.normal = across * of_others < 0. ? -across : across;
+  cell.on_plane = entry;
+  cell.part_by_plane();
+  // A vertex is on the side on which the cracked cells behind have it.
+  for (unsigned int k = 0; k < candidate.behind.size(); ++k)
+  {
+    const CrackCell<dim> &other = band.cells[candidate.behind[k]];
+    const bool turned = other.normal * cell.normal < 0.;
+    for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
+      for (unsigned int w = 0; w < CrackCell<dim>::n_vertices; ++w)
+        if (cell.vertices[v].distance(other.vertices[w]) < 1e-6 * other.size())
+        {
+          const bool is_plus = other.is_on_plus_side(w) != turned;
+          cell.plus = is_plus ? cell.plus | (1u << v) : cell.plus & ~(1u << v);
+        }
+  }
+}
+
+
+namespace
+{
+/// Unit vector, its components rounded to 1e-6, so that the noise of a solver neither tilts a crack
+/// nor tells numbers of ranks apart.
+template <int dim>
+Tensor<1, dim> rounded(const Tensor<1, dim> &v)
+{
+  Tensor<1, dim> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    result[d] = 1e-6 * std::round(1e6 * v[d]);
+  return result / result.norm();
+}
+} // namespace
+
+
+template <int dim>
+Verdict
+Damage<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
+{
+  Verdict verdict;
+  verdict.advances = n_advances;
+  if (press_faces(state))
+  {
+    verdict.kind = Verdict::Kind::topology_changed;
+    return verdict;
+  }
+  if (!parameters.growth)
+    return verdict;
+
+  std::vector<Candidate> all = candidates(collectives);
+  std::vector<HalfDisc<dim>> discs; // for whether each cracks, and for the direction
+  for (const Candidate &candidate : all)
+  {
+    Tensor<1, dim> ahead;
+    Point<dim> entry;
+    for (unsigned int k = 0; k < candidate.behind.size(); ++k)
+    {
+      const CrackCell<dim> &behind = band.cells[candidate.behind[k]];
+      const Tensor<1, dim> there = candidate.cell.centre() - behind.centre();
+      ahead += there - (there * behind.normal) * behind.normal;
+      entry += behind.crossing(candidate.faces_behind[k]) / double(candidate.behind.size());
+    }
+    if (ahead.norm() > 0.)
+      ahead /= ahead.norm();
+    const double h = candidate.cell.size();
+    discs.push_back({entry, ahead, parameters.averaging_radius * h});
+    discs.push_back({entry, ahead, parameters.direction_radius * h});
+  }
+  const auto averages = average_ahead<dim>(
+    discs, *mesh_view, [this](const unsigned int cell) { return band.is_cracked(cell); }, scene,
+    state, collectives);
+
+  std::vector<CrackCell<dim>> more;
+  for (unsigned int i = 0; i < all.size(); ++i)
+  {
+    Candidate &candidate = all[i];
+    // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
+    // exceeds the strength there would be no end to it.
+    bool opens = false;
+    double pressure = 0.;
+    for (const unsigned int number : candidate.behind)
+    {
+      const CrackCell<dim> &behind = band.cells[number];
+      opens |= law(behind)
+                 .evaluate(behind.normal, band.jump(number, state.current.extra), behind.greatest)
+                 .greatest > law(behind).start;
+      if (state.segment_pressure)
+        pressure = std::max(pressure, state.segment_pressure(behind.key()));
+    }
+    if (!opens)
+      continue;
+    if (laws.count(candidate.cell.region) == 0)
+      choose_strength(candidate.cell.region, candidate.cell.size());
+    const double drive = dealii::eigenvalues(averages[2 * i].stress)[0] + pressure;
+    if (drive < parameters.growth_threshold * law(candidate.cell).strength * (1. - 1e-6))
+      continue;
+    if (n_advances >= parameters.most_advances)
+    {
+      verdict.held_back = true;
+      continue;
+    }
+    if (!candidate.fits)
+    {
+      needs_mesh = true;
+      verdict.held_back = true;
+      continue;
+    }
+    crack(candidate, rounded(dealii::eigenvectors(averages[2 * i + 1].stress)[0].second));
+    if (candidate.cell.is_cut() && candidate.cell.area() > 0.)
+      more.push_back(candidate.cell);
+  }
+  if (needs_mesh && waits_for_mesh)
+  {
+    verdict.kind = Verdict::Kind::stop;
+    verdict.reason = "the crack has come to cells of another size, and refining the mesh has not "
+                     "changed that. Make the cells alike as far as the fracture shall run.";
+    return verdict;
+  }
+  if (!more.empty())
+  {
+    ++n_advances;
+    band.add(more);
+    all_segments = band.segments(scene.in_situ_pore_pressure);
+    verdict.kind = Verdict::Kind::topology_changed;
+    verdict.advances = n_advances;
+  }
+  return verdict;
+}
+
+
+template std::vector<typename Damage<2>::Candidate>
+Damage<2>::candidates(const Collectives &) const;
+template std::vector<typename Damage<3>::Candidate>
+Damage<3>::candidates(const Collectives &) const;
+template Verdict Damage<2>::advance(const StepContext &, const State &, const Collectives &);
+template Verdict Damage<3>::advance(const StepContext &, const State &, const Collectives &);
+} // namespace stockwork::damage

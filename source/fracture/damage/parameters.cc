@@ -1,0 +1,47 @@
+#include "fracture/damage/parameters.h"
+
+#include "stockwork/base/quantity.h"
+
+namespace stockwork::damage
+{
+void Parameters::declare(dealii::ParameterHandler &prm)
+{
+  const auto number = [&](const char *name, const char *value, const Range &range, const char *text)
+  { prm.declare_entry(name, value, Quantity(dimension::number, range), text); };
+  number("Elastic share", "0.01", Range::open(0., 1.),
+         "Opening at which the strength is reached, as a share of the opening at which no traction "
+         "is left.");
+  number("Growth threshold", "0.7", Range{0., 1., true, false},
+         "A cell ahead of the crack is given one when the averaged stress plus the fluid's "
+         "pressure reaches this share of the strength. It still holds until its own traction "
+         "reaches the strength.");
+  number("Averaging radius", "1.5", Range::closed(1., 6.),
+         "Radius, in cells, over which that stress is averaged.");
+  number("Direction radius", "5", Range::closed(1., 20.),
+         "Radius, in cells, of the stress across which a crack runs. That of one cell would draw "
+         "it to the lines of the mesh.");
+  prm.declare_entry("Most advances per step", "4", dealii::Patterns::Integer(1),
+                    "Cells by which a crack may advance within a time step.");
+  prm.declare_entry(
+    "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
+    "Wanted size of the cells along the crack and ahead of it [m]; zero: that of the given mesh.");
+  prm.declare_entry("Rings ahead", "6", dealii::Patterns::Integer(1),
+                    "Cells of this size kept ready around the crack's front.");
+  prm.declare_entry("Growth", "true", dealii::Patterns::Bool(), "Whether cracks may grow.");
+}
+
+
+Parameters Parameters::parse(dealii::ParameterHandler &prm)
+{
+  Parameters p;
+  p.elastic_share = get_quantity(prm, "Elastic share", dimension::number);
+  p.growth_threshold = get_quantity(prm, "Growth threshold", dimension::number);
+  p.averaging_radius = get_quantity(prm, "Averaging radius", dimension::number);
+  p.direction_radius = get_quantity(prm, "Direction radius", dimension::number);
+  p.most_advances = prm.get_integer("Most advances per step");
+  p.cell_size = get_quantity(prm, "Cell size", dimension::length);
+  p.rings_ahead = prm.get_integer("Rings ahead");
+  p.growth = prm.get_bool("Growth");
+  return p;
+}
+} // namespace stockwork::damage
