@@ -28,6 +28,7 @@ void Band<dim>::add(const std::vector<CrackCell<dim>> &more)
 {
   const unsigned int first = cells.size();
   cells.insert(cells.end(), more.begin(), more.end());
+  link(first);
   embed(first);
 }
 
@@ -39,6 +40,8 @@ void Band<dim>::replace(const std::vector<CrackCell<dim>> &others)
   cuts.clear();
   by_index.clear();
   owned_cells.clear();
+  open_faces.clear();
+  link(0);
   embed(0);
 }
 
@@ -173,45 +176,82 @@ std::vector<ExtraUnknown> Band<dim>::unknowns() const
 
 
 template <int dim>
-void Band<dim>::add_neighbours(const Owned &owned, Segment<dim> &segment) const
+void Band<dim>::link(const unsigned int first)
 {
-  const CrackCell<dim> &crack = cells[owned.number];
-  const Tensor<1, dim> &n = crack.normal;
-  for (const unsigned int f : owned.cell->face_indices())
+  links.resize(cells.size());
+  for (unsigned int i = first; i < cells.size(); ++i)
   {
-    if (owned.cell->at_boundary(f) || owned.cell->neighbor(f)->has_children())
-      continue;
-    const auto other = number(owned.cell->neighbor(f));
-    if (!other)
-      continue;
-    const unsigned int f_other = owned.cell->neighbor_of_neighbor(f);
-    if (!crack.crosses(f) && !cells[*other].crosses(f_other))
-      continue;
-    // Lengths along the crack and not along the stairs of cells.
-    const Tensor<1, dim> to_face = owned.cell->face(f)->center() - segment.centre;
-    const double along = (to_face - (to_face * n) * n).norm();
-    double width = 1.;
-    if (dim == 3)
+    links[i].fill(none);
+    for (unsigned int f = 0; f < n_faces; ++f)
     {
-      // Extent of the face in the direction in which the crack's plane meets it.
-      const Tensor<1, dim> a = to_face / to_face.norm();
-      Tensor<1, dim> edge;
-      for (unsigned int d = 0; d < dim; ++d)
-        edge[d] = n[(d + 1) % 3] * a[(d + 2) % 3] - n[(d + 2) % 3] * a[(d + 1) % 3];
-      double low = 0., high = 0.;
-      if (edge.norm() > 1e-6)
-        edge /= edge.norm();
-      for (unsigned int v = 0; v < owned.cell->face(f)->n_vertices(); ++v)
-      {
-        const double s = edge * (owned.cell->face(f)->vertex(v) - owned.cell->face(f)->center());
-        low = std::min(low, s);
-        high = std::max(high, s);
-      }
-      width = high - low;
+      const std::uint64_t place =
+        Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
+      const auto [other, is_new] = open_faces.emplace(place, std::make_pair(i, f));
+      if (is_new)
+        continue;
+      const auto [j, g] = other->second;
+      if (!cells[i].crosses(f) && !cells[j].crosses(g))
+        continue;
+      links[i][f] = j;
+      links[j][g] = i;
     }
-    segment.neighbours.push_back(
-      {cells[*other].key(), std::max(along, 0.05 * crack.size()), width});
   }
+}
+
+
+template <int dim>
+bool Band<dim>::is_front(const unsigned int i) const
+{
+  for (unsigned int f = 0; f < n_faces; ++f)
+    if (cells[i].crosses(f) && links[i][f] == none && !cells[i].is_at_boundary(f))
+      return true;
+  return false;
+}
+
+
+namespace
+{
+/// Extent of a face in the direction in which a crack meets it [m].
+double edge_length(const CrackCell<3> &crack, const unsigned int face)
+{
+  const Point<3> centre = crack.face_centre(face);
+  Tensor<1, 3> edge =
+    dealii::cross_product_3d(crack.normal, Tensor<1, 3>(centre - crack.centre()));
+  edge /= edge.norm();
+  double low = 0., high = 0.;
+  for (unsigned int v = 0; v < dealii::GeometryInfo<3>::vertices_per_face; ++v)
+  {
+    const double place =
+      edge *
+      (crack.vertices[dealii::GeometryInfo<3>::face_to_cell_vertices(face, v)] - centre);
+    low = std::min(low, place);
+    high = std::max(high, place);
+  }
+  return high - low;
+}
+
+
+double edge_length(const CrackCell<2> &, const unsigned int)
+{
+  return 1.;
+}
+} // namespace
+
+
+template <int dim>
+void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) const
+{
+  const CrackCell<dim> &crack = cells[i];
+  for (unsigned int f = 0; f < n_faces; ++f)
+    if (links[i][f] != none)
+    {
+      // Lengths along the crack and not along the stairs of cells.
+      const Tensor<1, dim> to_face = crack.face_centre(f) - segment.centre;
+      const double along = (to_face - (to_face * crack.normal) * crack.normal).norm();
+      segment.neighbours.push_back({cells[links[i][f]].key(),
+                                    std::max(along, 0.05 * crack.size()),
+                                    edge_length(crack, f)});
+    }
 }
 
 
@@ -250,7 +290,8 @@ std::vector<Segment<dim>> Band<dim>::segments(
     segment.centre = crack.centre();
     segment.normal = crack.normal;
     segment.area = crack.area();
-    add_neighbours(owned, segment);
+    segment.at_tip = crack.bare && is_front(owned.number);
+    add_neighbours(owned.number, segment);
     for (unsigned int d = 0; d < dim; ++d)
     {
       segment.opening.extra.push_back(dim * owned.number + d);

@@ -25,7 +25,19 @@ class Band
 public:
   using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
+  static constexpr unsigned int n_faces = dealii::GeometryInfo<dim>::faces_per_cell;
+  static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
   std::vector<CrackCell<dim>> cells;
+
+  /// Number of the cracked cell beyond a face, where the crack of one of the two passes it.
+  unsigned int neighbour(const unsigned int i, const unsigned int face) const
+  {
+    return links[i][face];
+  }
+
+  /// Whether the crack of a cell runs into a whole one.
+  bool is_front(unsigned int i) const;
 
   /// The mesh is new.
   void setup(const MeshView<dim> &mesh_view);
@@ -87,9 +99,12 @@ private:
   /// Find the cells from this number on.
   void embed(unsigned int first);
 
+  /// Find neighbours of the cells from this number on.
+  void link(unsigned int first);
+
   void make_cut(unsigned int i, const CellIterator &cell, dealii::FEValues<dim> &values);
 
-  void add_neighbours(const Owned &owned, Segment<dim> &segment) const;
+  void add_neighbours(unsigned int i, Segment<dim> &segment) const;
 
   void add_pore_pressure(const Owned &owned, Segment<dim> &segment) const;
 
@@ -97,6 +112,8 @@ private:
   std::unordered_map<unsigned int, CutCell<dim>> cuts;    ///< by active cell index
   std::unordered_map<unsigned int, unsigned int> by_index; ///< active cell index to number
   std::vector<Owned> owned_cells;
+  std::vector<std::array<unsigned int, n_faces>> links;
+  std::unordered_map<std::uint64_t, std::pair<unsigned int, unsigned int>> open_faces; ///< by place
 };
 
 /// The cell, with the crack's plane given, but not yet parted.
@@ -106,6 +123,9 @@ CrackCell<dim> describe(const CellAccessor &cell)
   CrackCell<dim> result;
   result.id = cell->id();
   result.region = cell->material_id();
+  for (const unsigned int f : cell->face_indices())
+    if (cell->at_boundary(f))
+      result.boundary |= 1u << f;
   for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
     result.vertices[v] = cell->vertex(v);
   return result;

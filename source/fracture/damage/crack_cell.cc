@@ -87,6 +87,17 @@ double CrackCell<dim>::size() const
 
 
 template <int dim>
+Point<dim> CrackCell<dim>::face_centre(const unsigned int face) const
+{
+  Point<dim> sum;
+  constexpr unsigned int n = GeometryInfo<dim>::vertices_per_face;
+  for (unsigned int v = 0; v < n; ++v)
+    sum += vertices[GeometryInfo<dim>::face_to_cell_vertices(face, v)] / n;
+  return sum;
+}
+
+
+template <int dim>
 Point<dim> CrackCell<dim>::crossing(const unsigned int face) const
 {
   Point<dim> sum;

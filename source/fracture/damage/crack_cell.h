@@ -33,6 +33,9 @@ struct CrackCell
   unsigned int plus = 0;           ///< vertices on the plus side, one bit each
   double greatest = 0.;            ///< committed: equivalent opening reached [m]
   double carried = 0.;             ///< committed: normal traction of faces that touch [Pa]
+  double reached = 1.;             ///< committed: share to which the fluid has come
+  bool bare = false;         ///< no strength was left behind it when it cracked, nor a process zone
+  unsigned int boundary = 0; ///< faces on the domain's boundary, one bit each
 
   dealii::Point<dim> centre() const;
 
@@ -42,6 +45,11 @@ struct CrackCell
   bool is_on_plus_side(const unsigned int vertex) const
   {
     return (plus >> vertex) & 1;
+  }
+
+  bool is_at_boundary(const unsigned int face) const
+  {
+    return (boundary >> face) & 1;
   }
 
   /// Whether there are vertices on either side.
@@ -68,6 +76,8 @@ struct CrackCell
   /// Length of a side [m].
   double size() const;
 
+  dealii::Point<dim> face_centre(unsigned int face) const;
+
   /// Where the plane of the crack meets the edges of a face that it crosses, on average.
   dealii::Point<dim> crossing(unsigned int face) const;
 
@@ -76,7 +86,7 @@ struct CrackCell
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &id &region &vertices &normal &on_plane &plus &greatest &carried;
+    ar &id &region &vertices &normal &on_plane &plus &greatest &carried &reached &bare &boundary;
   }
 
 private:

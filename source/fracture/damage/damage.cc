@@ -77,7 +77,9 @@ void Damage<dim>::choose_strength(const dealii::types::material_id region, const
   const double most = 0.9 * std::sqrt(2. * modulus * energy / size);
   if (std::isnan(strength))
   {
-    constexpr double cells = 8.;
+    // Fewer, and a crack advances by jumps; more, and the process zone is as long as the crack, in
+    // three dimensions above all, where cells are few.
+    constexpr double cells = dim == 2 ? 4. : 2.;
     strength = std::sqrt(modulus * energy / (cells * size));
     message << "Tensile strength: " << strength << " Pa, chosen so that the cohesive length is "
             << cells << " cells of " << size << " m.";
@@ -231,6 +233,7 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     CrackCell<dim> &crack = band.cells[i];
     const Tensor<1, dim> jump = band.jump(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, jump * crack.normal);
+    crack.reached = std::max(crack.reached, reached_share(i, state));
     crack.greatest =
       law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest).greatest;
     crack.carried = crack.greatest >= law(crack).critical
@@ -326,7 +329,7 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 
 
 template <int dim>
-FractureSummary Damage<dim>::summary(const State &state, const Collectives &collectives) const
+FractureSummary Damage<dim>::summary(const State &state, const Collectives &) const
 {
   FractureSummary result;
   for (unsigned int i = 0; i < band.cells.size(); ++i)
@@ -336,14 +339,14 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &coll
     const double area = crack.area();
     const Tensor<1, dim> jump = band.jump(i, state.current.extra);
     if (crack.greatest > seam.start)
-      result.length += area;
+      result.length += area * crack.reached;
     if (crack.greatest >= seam.critical)
       result.broken_length += area;
+    result.n_tips += dim == 2 && band.is_front(i);
     const auto response = seam.template evaluate<dim>(crack.normal, jump, crack.greatest);
     result.stored_energy += 0.5 * area * (response.traction * jump);
     result.dissipated_energy += area * seam.dissipation(crack.greatest);
   }
-  (void)collectives;
   return result;
 }
 

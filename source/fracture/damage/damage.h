@@ -107,6 +107,25 @@ private:
   /// The same on all ranks, in the same order.
   std::vector<Candidate> candidates(const Collectives &collectives) const;
 
+  /// Share of a front cell to which the fluid has come: all of it, unless there is suction in it, as
+  /// in viscous fluid, and the rock is bare to there. Then from what it and its neighbour hold, with
+  /// the opening x^(2/3) of such a tip (Desroches et al. 1994).
+  double reached_share(unsigned int number, const State &state) const;
+
+  /// In-situ compression across a cracked cell [Pa].
+  double closing_stress(const CrackCell<dim> &crack) const;
+
+  /// What a candidate grows out of.
+  struct Behind
+  {
+    bool opens = false;   ///< its seam has begun to soften
+    bool broken = false;  ///< nothing is left of its seam
+    double pressure = 0.; ///< of the fluid [Pa]
+    double net = 0.;      ///< magnitude, over the stress that closes the crack [Pa]
+    double reached = 0.;  ///< see reached_share()
+  };
+  Behind look_behind(const Candidate &candidate, const State &state) const;
+
   /// Put the crack into a candidate, across this direction of greatest tension.
   void crack(Candidate &candidate, const dealii::Tensor<1, dim> &across) const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stockwork::damage
 {
@@ -74,6 +75,66 @@ void Damage<dim>::crack(Candidate &candidate, const Tensor<1, dim> &across) cons
 }
 
 
+template <int dim>
+double Damage<dim>::closing_stress(const CrackCell<dim> &crack) const
+{
+  return -(crack.normal * (scene.in_situ_stress(crack.centre()) * crack.normal));
+}
+
+
+template <int dim>
+double Damage<dim>::reached_share(const unsigned int number, const State &state) const
+{
+  const CrackCell<dim> &crack = band.cells[number];
+  if (!crack.bare || !state.segment_pressure || !std::isnan(scene.crack_pressure) ||
+      !band.is_front(number) || state.segment_pressure(crack.key()) >= closing_stress(crack))
+    return 1.;
+  const auto held = [&](const unsigned int i)
+  {
+    const CrackCell<dim> &cell = band.cells[i];
+    return std::max(0., cell.area() * (band.jump(i, state.current.extra) * cell.normal));
+  };
+  const double own = held(number);
+  double next = 0., next_area = crack.area();
+  for (unsigned int f = 0; f < Band<dim>::n_faces; ++f)
+    if (const unsigned int j = band.neighbour(number, f); j != Band<dim>::none && held(j) > next)
+    {
+      next = held(j);
+      next_area = band.cells[j].area();
+    }
+  if (own == 0. || next == 0.)
+    return 0.;
+  // With w ~ x^(2/3) at the distance x from the front, V ~ x^(5/3) is beyond any place.
+  const double ratio = std::pow(own / (own + next), 0.6);
+  return std::min(1., next_area / crack.area() * ratio / (1. - ratio));
+}
+
+
+template <int dim>
+typename Damage<dim>::Behind Damage<dim>::look_behind(const Candidate &candidate,
+                                                      const State &state) const
+{
+  Behind result;
+  result.pressure = state.segment_pressure ? -std::numeric_limits<double>::infinity() : 0.;
+  for (const unsigned int number : candidate.behind)
+  {
+    const CrackCell<dim> &crack = band.cells[number];
+    const SeamLaw &seam = law(crack);
+    const double reached =
+      seam.evaluate(crack.normal, band.jump(number, state.current.extra), crack.greatest).greatest;
+    result.opens |= reached > seam.start;
+    result.broken |= reached >= seam.critical;
+    result.reached = std::max(result.reached, reached_share(number, state));
+    if (!state.segment_pressure)
+      continue;
+    const double pressure = state.segment_pressure(crack.key());
+    result.pressure = std::max(result.pressure, pressure);
+    result.net = std::max(result.net, std::abs(pressure - closing_stress(crack)));
+  }
+  return result;
+}
+
+
 namespace
 {
 /// Unit vector, its components rounded to 1e-6, so that the noise of a solver neither tilts a crack
@@ -130,25 +191,21 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   for (unsigned int i = 0; i < all.size(); ++i)
   {
     Candidate &candidate = all[i];
-    // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
-    // exceeds the strength there would be no end to it.
-    bool opens = false;
-    double pressure = 0.;
-    for (const unsigned int number : candidate.behind)
-    {
-      const CrackCell<dim> &behind = band.cells[number];
-      opens |= law(behind)
-                 .evaluate(behind.normal, band.jump(number, state.current.extra), behind.greatest)
-                 .greatest > law(behind).start;
-      if (state.segment_pressure)
-        pressure = std::max(pressure, state.segment_pressure(behind.key()));
-    }
-    if (!opens)
-      continue;
+    const Behind behind = look_behind(candidate, state);
     if (laws.count(candidate.cell.region) == 0)
       choose_strength(candidate.cell.region, candidate.cell.size());
-    const double drive = dealii::eigenvalues(averages[2 * i].stress)[0] + pressure;
-    if (drive < parameters.growth_threshold * law(candidate.cell).strength * (1. - 1e-6))
+    const double strength = law(candidate.cell).strength;
+    // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
+    // exceeds the strength there would be no end to it. Where it does so by far, there is no
+    // process zone worth the name.
+    if (!behind.opens || (!behind.broken && behind.net > 10. * strength))
+      continue;
+    // Suction at the front and the tension ahead, both many times the strength, leave a difference
+    // that tells nothing: there the fluid has to have arrived.
+    if (behind.reached < 0.8)
+      continue;
+    const double drive = dealii::eigenvalues(averages[2 * i].stress)[0] + behind.pressure;
+    if (drive < parameters.growth_threshold * strength * (1. - 1e-6))
       continue;
     if (n_advances >= parameters.most_advances)
     {
@@ -162,6 +219,8 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       continue;
     }
     crack(candidate, rounded(dealii::eigenvectors(averages[2 * i + 1].stress)[0].second));
+    candidate.cell.bare = behind.broken;
+    candidate.cell.reached = behind.broken ? 0. : 1.;
     if (candidate.cell.is_cut() && candidate.cell.area() > 0.)
       more.push_back(candidate.cell);
   }
@@ -188,6 +247,8 @@ template std::vector<typename Damage<2>::Candidate>
 Damage<2>::candidates(const Collectives &) const;
 template std::vector<typename Damage<3>::Candidate>
 Damage<3>::candidates(const Collectives &) const;
+template double Damage<2>::reached_share(unsigned int, const State &) const;
+template double Damage<3>::reached_share(unsigned int, const State &) const;
 template Verdict Damage<2>::advance(const StepContext &, const State &, const Collectives &);
 template Verdict Damage<3>::advance(const StepContext &, const State &, const Collectives &);
 } // namespace stockwork::damage
