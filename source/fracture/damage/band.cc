@@ -211,19 +211,21 @@ bool Band<dim>::is_front(const unsigned int i) const
 
 namespace
 {
-/// Extent of a face in the direction in which a crack meets it [m].
-double edge_length(const CrackCell<3> &crack, const unsigned int face)
+/// Extent of a face in the direction in which two cracks on its sides meet it, which is the same
+/// seen from either [m].
+double edge_length(const CrackCell<3> &crack, const CrackCell<3> &other, const unsigned int face)
 {
   const Point<3> centre = crack.face_centre(face);
+  const Tensor<1, 3> normal =
+    crack.normal + (crack.normal * other.normal < 0. ? -1. : 1.) * other.normal;
   Tensor<1, 3> edge =
-    dealii::cross_product_3d(crack.normal, Tensor<1, 3>(centre - crack.centre()));
+    dealii::cross_product_3d(normal, Tensor<1, 3>(other.centre() - crack.centre()));
   edge /= edge.norm();
   double low = 0., high = 0.;
   for (unsigned int v = 0; v < dealii::GeometryInfo<3>::vertices_per_face; ++v)
   {
     const double place =
-      edge *
-      (crack.vertices[dealii::GeometryInfo<3>::face_to_cell_vertices(face, v)] - centre);
+      edge * (crack.vertices[dealii::GeometryInfo<3>::face_to_cell_vertices(face, v)] - centre);
     low = std::min(low, place);
     high = std::max(high, place);
   }
@@ -231,7 +233,7 @@ double edge_length(const CrackCell<3> &crack, const unsigned int face)
 }
 
 
-double edge_length(const CrackCell<2> &, const unsigned int)
+double edge_length(const CrackCell<2> &, const CrackCell<2> &, const unsigned int)
 {
   return 1.;
 }
@@ -248,9 +250,9 @@ void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) cons
       // Lengths along the crack and not along the stairs of cells.
       const Tensor<1, dim> to_face = crack.face_centre(f) - segment.centre;
       const double along = (to_face - (to_face * crack.normal) * crack.normal).norm();
-      segment.neighbours.push_back({cells[links[i][f]].key(),
-                                    std::max(along, 0.05 * crack.size()),
-                                    edge_length(crack, f)});
+      const CrackCell<dim> &other = cells[links[i][f]];
+      segment.neighbours.push_back(
+        {other.key(), std::max(along, 0.05 * crack.size()), edge_length(crack, other, f)});
     }
 }
 

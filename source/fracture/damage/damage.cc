@@ -1,9 +1,5 @@
 #include "fracture/damage/damage.h"
 
-#include "mesh/geometry.h"
-
-#include <deal.II/base/mpi.h>
-
 #include <boost/serialization/vector.hpp>
 
 #include "stockwork/base/error.h"
@@ -263,41 +259,6 @@ std::vector<std::string> Damage<dim>::take_messages()
   taken.swap(messages);
   n_messages_before = 0;
   return taken;
-}
-
-
-template <int dim>
-void Damage<dim>::wanted_cell_size(
-  const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-  std::vector<float> &sizes) const
-{
-  if (!mesh_view)
-  {
-    if (parameters.cell_size > 0.)
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto &crack : scene.cracks)
-            if (crack.distance(cell->center()) <
-                0.5 * cell->diameter() + parameters.rings_ahead * parameters.cell_size)
-              sizes[cell->active_cell_index()] =
-                std::min(sizes[cell->active_cell_index()], static_cast<float>(parameters.cell_size));
-    return;
-  }
-  // A crack passes cells of one level only. TODO cells far from the front need fewer rings
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const Point<dim> centre = cell->center();
-      float &size = sizes[cell->active_cell_index()];
-      for (const CrackCell<dim> &crack : band.cells)
-      {
-        const double h = crack.size();
-        if (centre.distance(crack.centre()) < parameters.rings_ahead * h + 0.5 * cell->diameter())
-          size = std::min(size, static_cast<float>(std::ldexp(
-                                  cell_size(cell), cell->level() -
-                                                     int(crack.id.get_child_indices().size()))));
-      }
-    }
 }
 
 
