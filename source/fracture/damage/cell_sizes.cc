@@ -67,7 +67,8 @@ void Damage<dim>::wanted_cell_size(
     h = std::max(h, crack.size());
     level = std::max<unsigned int>(level, crack.id.get_child_indices().size());
   }
-  const double block = 0.5 * parameters.rings_ahead * h;
+  // In three dimensions cells are dearer than another mesh now and then.
+  const double block = (dim == 2 ? 2. : 1.) * parameters.rings_ahead * h;
   std::vector<Point<dim>> along;
   std::set<std::array<long, dim>> blocks;
   for (unsigned int i = 0; i < band.cells.size(); ++i)
@@ -90,7 +91,7 @@ void Damage<dim>::wanted_cell_size(
     ahead.push_back(place);
   }
   const Surroundings<dim> of_cells(along, 1.5 * h),
-    of_front(ahead, (0.5 * parameters.rings_ahead) * h + 0.5 * std::sqrt(double(dim)) * block);
+    of_front(ahead, 0.5 * parameters.rings_ahead * h + 0.5 * std::sqrt(double(dim)) * block);
   // It is the level that is asked for: on a mesh whose cells grow, the size would differ from cell
   // to cell and leave hanging nodes on the way.
   for (const auto &cell : triangulation.active_cell_iterators())
