@@ -96,14 +96,21 @@ void Band<dim>::make_cut(const unsigned int i,
   cut = CutCell<dim>();
   cut.points = values.get_quadrature().get_points();
   cut.weights = values.get_JxW_values();
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    cut.extra.push_back(dim * i + d);
-    cut.component.push_back(d);
-  }
+  // One column for each mode and component: a rotation has more than one.
+  for (unsigned int mode = 0; mode < n_modes; ++mode)
+    for (unsigned int d = 0; d < dim; ++d)
+      if (mode >= dim || mode == d)
+      {
+        cut.extra.push_back(first_unknown(i) + mode);
+        cut.component.push_back(d);
+      }
+  const Point<dim> middle = crack.middle();
+  const auto axes = crack.axes();
+  const double size = crack.size();
   for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
   {
-    double value = crack.normal * (values.quadrature_point(q) - crack.on_plane) > 0. ? 1. : 0.;
+    const Tensor<1, dim> place = values.quadrature_point(q) - middle;
+    double value = crack.normal * place > 0. ? 1. : 0.;
     Tensor<1, dim> gradient;
     for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
       if (crack.is_on_plus_side(v))
@@ -111,9 +118,54 @@ void Band<dim>::make_cut(const unsigned int i,
         value -= values.shape_value(v, q);
         gradient -= values.shape_grad(v, q);
       }
-    cut.values.insert(cut.values.end(), dim, value);
-    cut.gradients.insert(cut.gradients.end(), dim, gradient);
+    const auto motions = modes(crack, place);
+    for (unsigned int mode = 0; mode < n_modes; ++mode)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (mode >= dim || mode == d)
+        {
+          Tensor<1, dim> slope; // of the motion's component
+          if (mode >= dim)
+            slope =
+              (crack.normal[d] * axes[mode - dim] - axes[mode - dim][d] * crack.normal) / size;
+          cut.values.push_back(value * motions[mode][d]);
+          cut.gradients.push_back(motions[mode][d] * gradient + value * slope);
+        }
   }
+}
+
+
+template <int dim>
+std::vector<Tensor<1, dim>> Band<dim>::modes(const CrackCell<dim> &crack,
+                                             const Tensor<1, dim> &place) const
+{
+  std::vector<Tensor<1, dim>> result(n_modes);
+  for (unsigned int d = 0; d < dim; ++d)
+    result[d][d] = 1.;
+  if (n_modes > dim)
+  {
+    const auto axes = crack.axes();
+    const double size = crack.size();
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      result[dim + k] =
+        ((place * axes[k]) * crack.normal - (place * crack.normal) * axes[k]) / size;
+  }
+  return result;
+}
+
+
+template <int dim>
+std::array<Tensor<1, dim>, CrackCell<dim>::n_points>
+Band<dim>::jumps(const unsigned int i, const std::vector<double> &extra) const
+{
+  std::array<Tensor<1, dim>, CrackCell<dim>::n_points> result;
+  const auto points = cells[i].points();
+  for (unsigned int q = 0; q < points.size(); ++q)
+  {
+    const auto motions = modes(cells[i], points[q]);
+    for (unsigned int mode = 0; mode < n_modes; ++mode)
+      result[q] += extra[first_unknown(i) + mode] * motions[mode];
+  }
+  return result;
 }
 
 
@@ -167,10 +219,10 @@ template <int dim>
 std::vector<ExtraUnknown> Band<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> all;
-  all.reserve(dim * cells.size());
+  all.reserve(n_modes * cells.size());
   for (const CrackCell<dim> &crack : cells)
-    for (unsigned int d = 0; d < dim; ++d)
-      all.push_back({crack.key() + 1 + d});
+    for (unsigned int mode = 0; mode < n_modes; ++mode)
+      all.push_back({crack.key() + 1 + mode});
   return all;
 }
 
@@ -296,7 +348,7 @@ std::vector<Segment<dim>> Band<dim>::segments(
     add_neighbours(owned.number, segment);
     for (unsigned int d = 0; d < dim; ++d)
     {
-      segment.opening.extra.push_back(dim * owned.number + d);
+      segment.opening.extra.push_back(first_unknown(owned.number) + d);
       segment.opening.extra_coefficients.push_back(crack.normal[d]);
     }
     segment.pore_pressure.constant = in_situ_pore_pressure(segment.centre);

@@ -16,9 +16,9 @@
 
 namespace stockwork::damage
 {
-/// All cracked cells, and what they are on the mesh: the extra functions of the bulk, one jump for
-/// each cell, and the segments of the fluid. The list is the same on every rank, in the order in
-/// which cells have cracked, so that the jump of cell i is unknowns dim i to dim i + dim - 1.
+/// All cracked cells, and what they are on the mesh: the extra functions of the bulk, and the
+/// segments of the fluid. The list is the same on every rank, in the order in which cells have
+/// cracked, and so are the unknowns.
 template <int dim>
 class Band
 {
@@ -53,13 +53,36 @@ public:
 
   std::vector<ExtraUnknown> unknowns() const;
 
+  explicit Band(const bool linear)
+    : n_modes(linear ? 2 * dim - 1 : dim)
+  {
+  }
+
+  /// Unknowns of a cell: the mean jump and, where jumps are linear, how the opening changes along
+  /// each of CrackCell::axes(), over the cell's size: both [m].
+  const unsigned int n_modes;
+
+  /// What the modes of a cell do at a place, seen from CrackCell::middle(): plus less minus side.
+  std::vector<dealii::Tensor<1, dim>> modes(const CrackCell<dim> &crack,
+                                            const dealii::Tensor<1, dim> &place) const;
+
+  unsigned int first_unknown(const unsigned int i) const
+  {
+    return n_modes * i;
+  }
+
+  /// The mean over the cell [m].
   dealii::Tensor<1, dim> jump(const unsigned int i, const std::vector<double> &extra) const
   {
     dealii::Tensor<1, dim> a;
     for (unsigned int d = 0; d < dim; ++d)
-      a[d] = extra[dim * i + d];
+      a[d] = extra[first_unknown(i) + d];
     return a;
   }
+
+  /// At each of CrackCell::points() [m].
+  std::array<dealii::Tensor<1, dim>, CrackCell<dim>::n_points>
+  jumps(const unsigned int i, const std::vector<double> &extra) const;
 
   /// Null: the cell is whole, or another rank's.
   const CutCell<dim> *cut_cell(const unsigned int active_cell_index) const

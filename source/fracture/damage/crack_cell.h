@@ -19,11 +19,14 @@ namespace stockwork::damage
 /// With phi = sum of the Q1 functions of the vertices on the plus side, a jump a adds the strain
 /// -sym(a grad phi) to that of the nodes. Two bodies that move apart as they are then leave no
 /// stress in the cells between them, along whatever stairs these lie; a strain -sym(a n)/h, which
-/// is what a damaged stiffness makes of it, would leave some wherever n is not normal to the mesh.
+/// is what a damaged stiffness makes of it, would leave some wherever n is not normal to the mesh. The jump
+/// may be that of a rigid body that turns as well, and this is still so (Linder and Armero 2007 call
+/// such jumps linear).
 template <int dim>
 struct CrackCell
 {
   static constexpr unsigned int n_vertices = 1 << dim;
+  static constexpr unsigned int n_points = 1 << (dim - 1);
 
   dealii::CellId id;
   dealii::types::material_id region = 0;
@@ -31,8 +34,9 @@ struct CrackCell
   dealii::Tensor<1, dim> normal;   ///< unit, to the plus side; fixed once cracked
   dealii::Point<dim> on_plane;     ///< a point of the crack in or near the cell
   unsigned int plus = 0;           ///< vertices on the plus side, one bit each
-  double greatest = 0.;            ///< committed: equivalent opening reached [m]
-  double carried = 0.;             ///< committed: normal traction of faces that touch [Pa]
+  /// At each of points(), committed: equivalent opening reached [m], and normal traction of faces
+  /// that touch [Pa].
+  std::array<double, n_points> greatest{}, carried{};
   double reached = 1.;             ///< committed: share to which the fluid has come
   bool bare = false;         ///< no strength was left behind it when it cracked, nor a process zone
   unsigned int boundary = 0; ///< faces on the domain's boundary, one bit each
@@ -72,6 +76,19 @@ struct CrackCell
   {
     return volume() / area();
   }
+
+  /// Middle of the crack in the cell: its centre, moved onto the plane.
+  dealii::Point<dim> middle() const
+  {
+    const dealii::Point<dim> c = centre();
+    return c - ((c - on_plane) * normal) * normal;
+  }
+
+  /// Unit vectors along the crack, along the cell's edges as far as possible.
+  std::array<dealii::Tensor<1, dim>, dim - 1> axes() const;
+
+  /// Points of the crack, from middle(), that share its area: Gauss points of a square.
+  std::array<dealii::Tensor<1, dim>, n_points> points() const;
 
   /// Length of a side [m].
   double size() const;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace stockwork::damage
@@ -30,6 +31,7 @@ template <int dim>
 Damage<dim>::Damage(const Parameters &parameters, const Scene<dim> &scene)
   : parameters(parameters)
   , scene(scene)
+  , band(parameters.linear_jumps)
 {
   if (!(scene.rock.main().energy_release_rate > 0.))
     throw InputError("The damage model needs the rock's energy release rate G_c (Rock / Energy "
@@ -130,7 +132,7 @@ void Damage<dim>::start(const Collectives &collectives)
       if (laws.count(cell.region) == 0)
         choose_strength(cell.region, cell.size());
       if (crack.kind == InitialCrack<dim>::Kind::open)
-        cell.greatest = laws[cell.region].critical;
+        cell.greatest.fill(laws[cell.region].critical);
       all.push_back(cell);
     }
   }
@@ -151,11 +153,21 @@ void Damage<dim>::begin_step(const StepContext &)
 
 template <int dim>
 typename Damage<dim>::Touch Damage<dim>::touch(const CrackCell<dim> &crack,
+                                               const unsigned int point,
                                                const double opening) const
 {
   const double stiffness = contact_stiffness * rock_stiffness(crack);
-  const double traction = std::min(crack.carried + stiffness * opening, 0.);
+  const double traction = std::min(crack.carried[point] + stiffness * opening, 0.);
   return {traction, traction < 0. ? stiffness : 0.};
+}
+
+
+template <int dim>
+SeamResponse<dim> Damage<dim>::seam(const CrackCell<dim> &crack,
+                                    const unsigned int point,
+                                    const Tensor<1, dim> &jump) const
+{
+  return law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest[point]);
 }
 
 
@@ -163,29 +175,32 @@ template <int dim>
 void Damage<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
 {
   LocalSystem local;
-  std::vector<Tensor<1, dim>> jumps(dim);
-  for (unsigned int d = 0; d < dim; ++d)
-    jumps[d][d] = 1.;
   for (const auto &owned : band.owned())
   {
     const CrackCell<dim> &crack = band.cells[owned.number];
-    const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    const double area = crack.area();
-    const SeamResponse<dim> seam =
-      law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest);
-    const Touch touching = touch(crack, jump * crack.normal);
     local.extra.clear();
-    for (unsigned int d = 0; d < dim; ++d)
-      local.extra.push_back(dim * owned.number + d);
+    for (unsigned int mode = 0; mode < band.n_modes; ++mode)
+      local.extra.push_back(band.first_unknown(owned.number) + mode);
     local.reinit();
-    add_released_traction<dim>(scene, crack.centre(), crack.normal, area, jumps, local.residual);
-    const Tensor<1, dim> traction = seam.traction + touching.traction * crack.normal;
-    for (unsigned int i = 0; i < dim; ++i)
+    const double area = crack.area(), share = area / CrackCell<dim>::n_points;
+    add_released_traction<dim>(scene, crack.middle(), crack.normal, area,
+                               band.modes(crack, Tensor<1, dim>()), local.residual);
+    const auto points = crack.points();
+    const auto jumps = band.jumps(owned.number, state.current.extra);
+    for (unsigned int q = 0; q < points.size(); ++q)
     {
-      local.residual(i) += area * traction[i];
-      for (unsigned int j = 0; j < dim; ++j)
-        local.matrix(i, j) = area * (seam.tangent[i][j] +
-                                     touching.slope * crack.normal[i] * crack.normal[j]);
+      const auto modes = band.modes(crack, points[q]);
+      const SeamResponse<dim> held = seam(crack, q, jumps[q]);
+      const Touch touching = touch(crack, q, jumps[q] * crack.normal);
+      const Tensor<1, dim> traction = held.traction + touching.traction * crack.normal;
+      for (unsigned int i = 0; i < band.n_modes; ++i)
+      {
+        local.residual(i) += share * (traction * modes[i]);
+        for (unsigned int j = 0; j < band.n_modes; ++j)
+          local.matrix(i, j) +=
+            share * (modes[i] * (held.tangent * modes[j]) +
+                     touching.slope * (modes[i] * crack.normal) * (modes[j] * crack.normal));
+      }
     }
     sink.add(local);
   }
@@ -205,15 +220,19 @@ bool Damage<dim>::press_faces(const State &state)
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     CrackCell<dim> &crack = band.cells[i];
-    if (crack.greatest < law(crack).critical)
-      continue; // a seam that still holds would be torn when this pressure goes
-    const double gap = band.jump(i, state.current.extra) * crack.normal;
-    const Touch touching = touch(crack, gap);
-    if (touching.traction == 0. || std::abs(gap) <= 0.005 * opening ||
-        std::abs(gap) * touching.slope <= -0.01 * touching.traction)
-      continue;
-    crack.carried = touching.traction;
-    pressed = true;
+    const auto jumps = band.jumps(i, state.current.extra);
+    for (unsigned int q = 0; q < jumps.size(); ++q)
+    {
+      if (crack.greatest[q] < law(crack).critical)
+        continue; // a seam that still holds would be torn when this pressure goes
+      const double gap = std::abs(jumps[q] * crack.normal);
+      const Touch touching = touch(crack, q, jumps[q] * crack.normal);
+      if (touching.traction == 0. || gap <= 0.005 * opening ||
+          gap * touching.slope <= -0.01 * touching.traction)
+        continue;
+      crack.carried[q] = touching.traction;
+      pressed = true;
+    }
   }
   n_presses += pressed;
   return pressed;
@@ -227,14 +246,20 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     CrackCell<dim> &crack = band.cells[i];
-    const Tensor<1, dim> jump = band.jump(i, state.current.extra);
-    greatest_opening = std::max(greatest_opening, jump * crack.normal);
+    const auto jumps = band.jumps(i, state.current.extra);
+    greatest_opening =
+      std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, reached_share(i, state));
-    crack.greatest =
-      law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest).greatest;
-    crack.carried = crack.greatest >= law(crack).critical
-                      ? touch(crack, jump * crack.normal).traction
-                      : 0.;
+    for (unsigned int q = 0; q < jumps.size(); ++q)
+    {
+      const double before = crack.greatest[q];
+      crack.greatest[q] = seam(crack, q, jumps[q]).greatest;
+      dissipated += crack.area() / CrackCell<dim>::n_points *
+                    (law(crack).dissipation(crack.greatest[q]) - law(crack).dissipation(before));
+      crack.carried[q] = crack.greatest[q] >= law(crack).critical
+                           ? touch(crack, q, jumps[q] * crack.normal).traction
+                           : 0.;
+    }
   }
   committed = band.cells;
   waits_for_mesh = needs_mesh;
@@ -268,7 +293,8 @@ void Damage<dim>::save(boost::archive::binary_oarchive &archive) const
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
   for (const auto &[region, law] : laws)
     strengths.emplace_back(region, law.strength);
-  archive << committed << strengths << started << waits_for_mesh << greatest_opening;
+  archive << committed << strengths << started << waits_for_mesh << greatest_opening
+          << dissipated;
 }
 
 
@@ -276,7 +302,8 @@ template <int dim>
 void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
-  archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening;
+  archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening >>
+    dissipated;
   laws.clear();
   for (const auto &[region, strength] : strengths)
     laws[region] = law_of(region, strength);
@@ -296,18 +323,21 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &) co
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     const CrackCell<dim> &crack = band.cells[i];
-    const SeamLaw &seam = law(crack);
-    const double area = crack.area();
-    const Tensor<1, dim> jump = band.jump(i, state.current.extra);
-    if (crack.greatest > seam.start)
-      result.length += area * crack.reached;
-    if (crack.greatest >= seam.critical)
-      result.broken_length += area;
+    const SeamLaw &of_rock = law(crack);
+    const double share = crack.area() / CrackCell<dim>::n_points;
+    const auto jumps = band.jumps(i, state.current.extra);
+    for (unsigned int q = 0; q < jumps.size(); ++q)
+    {
+      // What has a crack but still holds is intact rock.
+      if (crack.greatest[q] > of_rock.start)
+        result.length += share * crack.reached;
+      if (crack.greatest[q] >= of_rock.critical)
+        result.broken_length += share;
+      result.stored_energy += 0.5 * share * (seam(crack, q, jumps[q]).traction * jumps[q]);
+    }
     result.n_tips += dim == 2 && band.is_front(i);
-    const auto response = seam.template evaluate<dim>(crack.normal, jump, crack.greatest);
-    result.stored_energy += 0.5 * area * (response.traction * jump);
-    result.dissipated_energy += area * seam.dissipation(crack.greatest);
   }
+  result.dissipated_energy = dissipated;
   return result;
 }
 
@@ -321,13 +351,14 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
     const CrackCell<dim> &crack = band.cells[owned.number];
     const unsigned int index = owned.cell->active_cell_index();
     const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    damage[index] = law(crack).damage(crack.greatest, rock_stiffness(crack));
+    const double mean =
+      std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
+    damage[index] = law(crack).damage(mean, rock_stiffness(crack));
     opening[index] = jump * crack.normal;
     if constexpr (dim == 2)
     {
-      const Tensor<1, dim> along({crack.normal[1], -crack.normal[0]});
-      const Point<dim> centre =
-        crack.centre() - ((crack.centre() - crack.on_plane) * crack.normal) * crack.normal;
+      const Tensor<1, dim> along = crack.axes()[0];
+      const Point<dim> centre = crack.middle();
       std::vector<std::pair<std::string, double>> values{
         {"aperture", opening[index]}, {"slip", jump * along}, {"damage", damage[index]}};
       if (state.segment_pressure)
@@ -350,7 +381,7 @@ namespace
 template <int dim>
 std::unique_ptr<Damage<dim>> create(dealii::ParameterHandler &prm, const Scene<dim> &scene)
 {
-  return std::make_unique<Damage<dim>>(Parameters::parse(prm), scene);
+  return std::make_unique<Damage<dim>>(Parameters::parse(prm, dim), scene);
 }
 } // namespace
 

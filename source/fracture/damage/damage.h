@@ -84,7 +84,11 @@ private:
   {
     double traction = 0., slope = 0.;
   };
-  Touch touch(const CrackCell<dim> &crack, double opening) const;
+  Touch touch(const CrackCell<dim> &crack, unsigned int point, double opening) const;
+
+  /// What the rock carries across the crack at one of its points.
+  SeamResponse<dim>
+  seam(const CrackCell<dim> &crack, unsigned int point, const dealii::Tensor<1, dim> &jump) const;
 
   /// Whether faces overlap too much, which then carry more: the step is to be solved again.
   bool press_faces(const State &);
@@ -142,6 +146,7 @@ private:
   bool started = false;         ///< a step has been accepted
   bool waits_for_mesh = false;  ///< cells ahead were of another size
   double greatest_opening = 0.; ///< of all cells so far [m]
+  double dissipated = 0.;       ///< since the start [J], [J/m] in 2-D
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
