@@ -203,8 +203,9 @@ CohesiveXFEM<dim>::look_ahead(const State &state, const Collectives &collectives
         discs.push_back({path.tip(end), path.direction(end), parameters.direction_radius * h});
       }
   const auto averages = average_ahead<dim>(
-    discs, *mesh_view, [this](const unsigned int cell)
-    { return discontinuity.cut_cell(cell) != nullptr; }, scene, state, collectives);
+    discs, *mesh_view,
+    [this](const unsigned int cell) { return discontinuity.cut_cell(cell) != nullptr; }, scene,
+    state, collectives);
   for (unsigned int i = 0; i < tips.size(); ++i)
   {
     tips[i].near = averages[2 * i];

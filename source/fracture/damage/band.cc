@@ -61,8 +61,7 @@ void Band<dim>::embed(const unsigned int first)
   box.extend(1e-6 * cells[first].size());
 
   const dealii::FE_Q<dim> vertex_functions(1);
-  const dealii::QGauss<dim> quadrature(
-    mesh_view->dof_handler.get_fe().base_element(0).degree + 1);
+  const dealii::QGauss<dim> quadrature(mesh_view->dof_handler.get_fe().base_element(0).degree + 1);
   dealii::FEValues<dim> values(mesh_view->mapping, vertex_functions, quadrature,
                                dealii::update_values | dealii::update_gradients |
                                  dealii::update_quadrature_points | dealii::update_JxW_values);
@@ -97,7 +96,8 @@ void Band<dim>::make_cut(const unsigned int i,
   cut.points = values.get_quadrature().get_points();
   cut.weights = values.get_JxW_values();
   // One column for each mode and component: a rotation has more than one.
-  for (unsigned int mode = 0; mode < n_modes; ++mode)
+  const unsigned int n = n_modes(crack);
+  for (unsigned int mode = 0; mode < n; ++mode)
     for (unsigned int d = 0; d < dim; ++d)
       if (mode >= dim || mode == d)
       {
@@ -119,7 +119,7 @@ void Band<dim>::make_cut(const unsigned int i,
         gradient -= values.shape_grad(v, q);
       }
     const auto motions = modes(crack, place);
-    for (unsigned int mode = 0; mode < n_modes; ++mode)
+    for (unsigned int mode = 0; mode < n; ++mode)
       for (unsigned int d = 0; d < dim; ++d)
         if (mode >= dim || mode == d)
         {
@@ -138,10 +138,10 @@ template <int dim>
 std::vector<Tensor<1, dim>> Band<dim>::modes(const CrackCell<dim> &crack,
                                              const Tensor<1, dim> &place) const
 {
-  std::vector<Tensor<1, dim>> result(n_modes);
+  std::vector<Tensor<1, dim>> result(n_modes(crack));
   for (unsigned int d = 0; d < dim; ++d)
     result[d][d] = 1.;
-  if (n_modes > dim)
+  if (result.size() > dim)
   {
     const auto axes = crack.axes();
     const double size = crack.size();
@@ -162,7 +162,7 @@ Band<dim>::jumps(const unsigned int i, const std::vector<double> &extra) const
   for (unsigned int q = 0; q < points.size(); ++q)
   {
     const auto motions = modes(cells[i], points[q]);
-    for (unsigned int mode = 0; mode < n_modes; ++mode)
+    for (unsigned int mode = 0; mode < motions.size(); ++mode)
       result[q] += extra[first_unknown(i) + mode] * motions[mode];
   }
   return result;
@@ -219,9 +219,8 @@ template <int dim>
 std::vector<ExtraUnknown> Band<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> all;
-  all.reserve(n_modes * cells.size());
   for (const CrackCell<dim> &crack : cells)
-    for (unsigned int mode = 0; mode < n_modes; ++mode)
+    for (unsigned int mode = 0; mode < n_modes(crack); ++mode)
       all.push_back({crack.key() + 1 + mode});
   return all;
 }
@@ -231,13 +230,14 @@ template <int dim>
 void Band<dim>::link(const unsigned int first)
 {
   links.resize(cells.size());
+  first_unknowns.resize(cells.size());
   for (unsigned int i = first; i < cells.size(); ++i)
   {
+    first_unknowns[i] = i > 0 ? first_unknowns[i - 1] + n_modes(cells[i - 1]) : 0;
     links[i].fill(none);
     for (unsigned int f = 0; f < n_faces; ++f)
     {
-      const std::uint64_t place =
-        Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
+      const std::uint64_t place = Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
       const auto [other, is_new] = open_faces.emplace(place, std::make_pair(i, f));
       if (is_new)
         continue;
@@ -332,8 +332,8 @@ void Band<dim>::add_pore_pressure(const Owned &owned, Segment<dim> &segment) con
 
 
 template <int dim>
-std::vector<Segment<dim>> Band<dim>::segments(
-  const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
+std::vector<Segment<dim>>
+Band<dim>::segments(const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
 {
   std::vector<Segment<dim>> all;
   for (const Owned &owned : owned_cells)

@@ -53,14 +53,19 @@ public:
 
   std::vector<ExtraUnknown> unknowns() const;
 
+  /// @param linear whether a jump may change in its cell
   explicit Band(const bool linear)
-    : n_modes(linear ? 2 * dim - 1 : dim)
+    : linear(linear)
   {
   }
 
-  /// Unknowns of a cell: the mean jump and, where jumps are linear, how the opening changes along
-  /// each of CrackCell::axes(), over the cell's size: both [m].
-  const unsigned int n_modes;
+  /// Unknowns of a cell: the mean jump and, where it is linear, how the opening changes along each
+  /// of CrackCell::axes() over the cell's size: both [m]. A single vertex on one side of the crack
+  /// does not know how this side turns.
+  unsigned int n_modes(const CrackCell<dim> &crack) const
+  {
+    return linear && crack.is_cut_evenly() ? 2 * dim - 1 : dim;
+  }
 
   /// What the modes of a cell do at a place, seen from CrackCell::middle(): plus less minus side.
   std::vector<dealii::Tensor<1, dim>> modes(const CrackCell<dim> &crack,
@@ -68,7 +73,7 @@ public:
 
   unsigned int first_unknown(const unsigned int i) const
   {
-    return n_modes * i;
+    return first_unknowns[i];
   }
 
   /// The mean over the cell [m].
@@ -131,8 +136,10 @@ private:
 
   void add_pore_pressure(const Owned &owned, Segment<dim> &segment) const;
 
+  const bool linear;
   std::unique_ptr<MeshView<dim>> mesh_view;
-  std::unordered_map<unsigned int, CutCell<dim>> cuts;    ///< by active cell index
+  std::vector<unsigned int> first_unknowns;                ///< of each cell
+  std::unordered_map<unsigned int, CutCell<dim>> cuts;     ///< by active cell index
   std::unordered_map<unsigned int, unsigned int> by_index; ///< active cell index to number
   std::vector<Owned> owned_cells;
   std::vector<std::array<unsigned int, n_faces>> links;

@@ -106,10 +106,8 @@ void Damage<dim>::wanted_cell_size(
 }
 
 
-template void
-Damage<2>::wanted_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
-                            std::vector<float> &) const;
-template void
-Damage<3>::wanted_cell_size(const dealii::parallel::distributed::Triangulation<3> &,
-                            std::vector<float> &) const;
+template void Damage<2>::wanted_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
+                                          std::vector<float> &) const;
+template void Damage<3>::wanted_cell_size(const dealii::parallel::distributed::Triangulation<3> &,
+                                          std::vector<float> &) const;
 } // namespace stockwork::damage

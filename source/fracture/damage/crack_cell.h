@@ -19,9 +19,9 @@ namespace stockwork::damage
 /// With phi = sum of the Q1 functions of the vertices on the plus side, a jump a adds the strain
 /// -sym(a grad phi) to that of the nodes. Two bodies that move apart as they are then leave no
 /// stress in the cells between them, along whatever stairs these lie; a strain -sym(a n)/h, which
-/// is what a damaged stiffness makes of it, would leave some wherever n is not normal to the mesh. The jump
-/// may be that of a rigid body that turns as well, and this is still so (Linder and Armero 2007 call
-/// such jumps linear).
+/// is what a damaged stiffness makes of it, would leave some wherever n is not normal to the mesh.
+/// The jump may be that of a rigid body that turns as well, and this is still so (Linder and Armero
+/// 2007 call such jumps linear).
 template <int dim>
 struct CrackCell
 {
@@ -31,13 +31,13 @@ struct CrackCell
   dealii::CellId id;
   dealii::types::material_id region = 0;
   std::array<dealii::Point<dim>, n_vertices> vertices;
-  dealii::Tensor<1, dim> normal;   ///< unit, to the plus side; fixed once cracked
-  dealii::Point<dim> on_plane;     ///< a point of the crack in or near the cell
-  unsigned int plus = 0;           ///< vertices on the plus side, one bit each
+  dealii::Tensor<1, dim> normal; ///< unit, to the plus side; fixed once cracked
+  dealii::Point<dim> on_plane;   ///< a point of the crack in or near the cell
+  unsigned int plus = 0;         ///< vertices on the plus side, one bit each
   /// At each of points(), committed: equivalent opening reached [m], and normal traction of faces
   /// that touch [Pa].
   std::array<double, n_points> greatest{}, carried{};
-  double reached = 1.;             ///< committed: share to which the fluid has come
+  double reached = 1.;       ///< committed: share to which the fluid has come
   bool bare = false;         ///< no strength was left behind it when it cracked, nor a process zone
   unsigned int boundary = 0; ///< faces on the domain's boundary, one bit each
 
@@ -60,6 +60,15 @@ struct CrackCell
   bool is_cut() const
   {
     return plus != 0 && plus != (1u << n_vertices) - 1;
+  }
+
+  /// Whether each side has as many vertices as the other, so that these know how the sides turn.
+  bool is_cut_evenly() const
+  {
+    unsigned int n = 0;
+    for (unsigned int v = 0; v < n_vertices; ++v)
+      n += is_on_plus_side(v);
+    return 2 * n == n_vertices;
   }
 
   /// Put the vertices on the sides of the plane through on_plane; those on it on the minus side.

@@ -85,7 +85,8 @@ void Damage<dim>::choose_strength(const dealii::types::material_id region, const
   else if (strength > most)
   {
     message << "Cells of " << size << " m are too large for a tensile strength of " << strength
-            << " Pa: it is lowered to " << most << " Pa, and the energy of fracture stays. Cells of "
+            << " Pa: it is lowered to " << most
+            << " Pa, and the energy of fracture stays. Cells of "
             << 0.25 * modulus * energy / (strength * strength) << " m would resolve it.";
     strength = most;
   }
@@ -127,7 +128,8 @@ void Damage<dim>::start(const Collectives &collectives)
                        "a crack that is longer than half a cell; this one passes none");
     for (CrackCell<dim> &cell : passed)
     {
-      if (std::any_of(all.begin(), all.end(), [&](const auto &other) { return other.id == cell.id; }))
+      if (std::any_of(all.begin(), all.end(),
+                      [&](const auto &other) { return other.id == cell.id; }))
         continue;
       if (laws.count(cell.region) == 0)
         choose_strength(cell.region, cell.size());
@@ -179,7 +181,8 @@ void Damage<dim>::assemble(const StepContext &, const State &state, Sink &sink) 
   {
     const CrackCell<dim> &crack = band.cells[owned.number];
     local.extra.clear();
-    for (unsigned int mode = 0; mode < band.n_modes; ++mode)
+    const unsigned int n_modes = band.n_modes(crack);
+    for (unsigned int mode = 0; mode < n_modes; ++mode)
       local.extra.push_back(band.first_unknown(owned.number) + mode);
     local.reinit();
     const double area = crack.area(), share = area / CrackCell<dim>::n_points;
@@ -193,10 +196,10 @@ void Damage<dim>::assemble(const StepContext &, const State &state, Sink &sink) 
       const SeamResponse<dim> held = seam(crack, q, jumps[q]);
       const Touch touching = touch(crack, q, jumps[q] * crack.normal);
       const Tensor<1, dim> traction = held.traction + touching.traction * crack.normal;
-      for (unsigned int i = 0; i < band.n_modes; ++i)
+      for (unsigned int i = 0; i < n_modes; ++i)
       {
         local.residual(i) += share * (traction * modes[i]);
-        for (unsigned int j = 0; j < band.n_modes; ++j)
+        for (unsigned int j = 0; j < n_modes; ++j)
           local.matrix(i, j) +=
             share * (modes[i] * (held.tangent * modes[j]) +
                      touching.slope * (modes[i] * crack.normal) * (modes[j] * crack.normal));
@@ -247,8 +250,7 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
   {
     CrackCell<dim> &crack = band.cells[i];
     const auto jumps = band.jumps(i, state.current.extra);
-    greatest_opening =
-      std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
+    greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, reached_share(i, state));
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
@@ -293,8 +295,7 @@ void Damage<dim>::save(boost::archive::binary_oarchive &archive) const
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
   for (const auto &[region, law] : laws)
     strengths.emplace_back(region, law.strength);
-  archive << committed << strengths << started << waits_for_mesh << greatest_opening
-          << dissipated;
+  archive << committed << strengths << started << waits_for_mesh << greatest_opening << dissipated;
 }
 
 
@@ -302,8 +303,7 @@ template <int dim>
 void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
-  archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening >>
-    dissipated;
+  archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening >> dissipated;
   laws.clear();
   for (const auto &[region, strength] : strengths)
     laws[region] = law_of(region, strength);

@@ -27,9 +27,10 @@ Damage<dim>::candidates(const Collectives &collectives) const
       mine.push_back({describe<dim>(neighbour), {owned.number}, {f}, fits});
     }
   std::vector<Candidate> all = collectives.gather(mine);
-  std::sort(all.begin(), all.end(), [](const Candidate &a, const Candidate &b)
-            { return a.cell.id < b.cell.id ||
-                     (a.cell.id == b.cell.id && a.behind[0] < b.behind[0]); });
+  std::sort(all.begin(), all.end(),
+            [](const Candidate &a, const Candidate &b) {
+              return a.cell.id < b.cell.id || (a.cell.id == b.cell.id && a.behind[0] < b.behind[0]);
+            });
   std::vector<Candidate> merged;
   for (const Candidate &one : all)
     if (!merged.empty() && merged.back().cell.id == one.cell.id)
@@ -52,8 +53,8 @@ void Damage<dim>::crack(Candidate &candidate, const Tensor<1, dim> &across) cons
   for (unsigned int k = 0; k < candidate.behind.size(); ++k)
   {
     const CrackCell<dim> &other = band.cells[candidate.behind[k]];
-    of_others += (other.normal * band.cells[candidate.behind[0]].normal < 0. ? -1. : 1.) *
-                 other.normal;
+    of_others +=
+      (other.normal * band.cells[candidate.behind[0]].normal < 0. ? -1. : 1.) * other.normal;
     entry += other.crossing(candidate.faces_behind[k]) / double(candidate.behind.size());
   }
   cell.normal = across * of_others < 0. ? -across : across;
@@ -210,8 +211,8 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
     const Tensor<1, dim> &straight_on = band.cells[candidate.behind[0]].normal;
     const auto &stress = averages[2 * i].stress;
     const double drive =
-      behind.pressure + (parameters.straight ? straight_on * (stress * straight_on)
-                                             : dealii::eigenvalues(stress)[0]);
+      behind.pressure +
+      (parameters.straight ? straight_on * (stress * straight_on) : dealii::eigenvalues(stress)[0]);
     if (drive < parameters.growth_threshold * strength * (1. - 1e-6))
       continue;
     if (n_advances >= parameters.most_advances)

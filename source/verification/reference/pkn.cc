@@ -49,8 +49,9 @@ Made<3> make_pkn(const ParameterHandler &prm, const ReferenceInput<3> &input)
 {
   const auto height = get_optional_quantity(prm, "Fracture height", dimension::length);
   if (!height)
-    throw EntryError("Verification/Fracture height", "",
-                     "the height between the layers that hold the fracture, with 'Reference = pkn'");
+    throw EntryError(
+      "Verification/Fracture height", "",
+      "the height between the layers that hold the fracture, with 'Reference = pkn'");
   if (!(input.injection_rate > 0.) || input.n_wells > 1 || !input.rate_is_constant)
     throw InputError("The reference solution of a fracture of constant height is for one well of "
                      "constant, positive rate.");
