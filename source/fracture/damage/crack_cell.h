@@ -32,6 +32,7 @@ struct CrackCell
   dealii::Point<dim> on_plane;     ///< a point of the crack in or near the cell
   unsigned int plus = 0;           ///< vertices on the plus side, one bit each
   double greatest = 0.;            ///< committed: equivalent opening reached [m]
+  double initial = 0.;             ///< that at the start, which no energy was spent on [m]
   double carried = 0.;             ///< committed: normal traction of faces that touch [Pa]
   double reached = 1.;             ///< committed: share to which the fluid has come
   bool bare = false;         ///< no strength was left behind it when it cracked, nor a process zone
@@ -86,7 +87,8 @@ struct CrackCell
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &id &region &vertices &normal &on_plane &plus &greatest &carried &reached &bare &boundary;
+    ar &id &region &vertices &normal &on_plane &plus &greatest &initial;
+    ar &carried &reached &bare &boundary;
   }
 
 private:

@@ -134,7 +134,7 @@ void Damage<dim>::start(const Collectives &collectives)
       if (laws.count(cell.region) == 0)
         choose_strength(cell.region, cell.size());
       if (crack.kind == InitialCrack<dim>::Kind::open)
-        cell.greatest = laws[cell.region].critical;
+        cell.greatest = cell.initial = laws[cell.region].critical;
       all.push_back(cell);
     }
   }
@@ -345,7 +345,8 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &) co
     result.n_tips += dim == 2 && band.is_front(i);
     const auto response = seam.template evaluate<dim>(crack.normal, jump, crack.greatest);
     result.stored_energy += 0.5 * area * (response.traction * jump);
-    result.dissipated_energy += area * seam.dissipation(crack.greatest);
+    result.dissipated_energy +=
+      area * (seam.dissipation(crack.greatest) - seam.dissipation(crack.initial));
   }
   return result;
 }
