@@ -248,9 +248,11 @@ void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) cons
       // Lengths along the crack and not along the stairs of cells.
       const Tensor<1, dim> to_face = crack.face_centre(f) - segment.centre;
       const double along = (to_face - (to_face * crack.normal) * crack.normal).norm();
-      segment.neighbours.push_back({cells[links[i][f]].key(),
-                                    std::max(along, 0.05 * crack.size()),
-                                    edge_length(crack, f)});
+      // Their normals may differ; what flows out of one flows into the other.
+      const unsigned int j = links[i][f],
+                         g = std::find(links[j].begin(), links[j].end(), i) - links[j].begin();
+      segment.neighbours.push_back({cells[j].key(), std::max(along, 0.05 * crack.size()),
+                                    0.5 * (edge_length(crack, f) + edge_length(cells[j], g))});
     }
 }
 
