@@ -217,7 +217,7 @@ double edge_length(const CrackCell<3> &crack, const unsigned int face)
   const Point<3> centre = crack.face_centre(face);
   Tensor<1, 3> edge =
     dealii::cross_product_3d(crack.normal, Tensor<1, 3>(centre - crack.centre()));
-  edge /= edge.norm();
+  edge /= std::max(edge.norm(), 1e-300); // zero: the crack meets no line of the face
   double low = 0., high = 0.;
   for (unsigned int v = 0; v < dealii::GeometryInfo<3>::vertices_per_face; ++v)
   {
