@@ -272,7 +272,7 @@ double edge_length(const CrackCell<3> &crack, const CrackCell<3> &other, const u
     crack.normal + (crack.normal * other.normal < 0. ? -1. : 1.) * other.normal;
   Tensor<1, 3> edge =
     dealii::cross_product_3d(normal, Tensor<1, 3>(other.centre() - crack.centre()));
-  edge /= edge.norm();
+  edge /= std::max(edge.norm(), 1e-300); // zero: the crack meets no line of the face
   double low = 0., high = 0.;
   for (unsigned int v = 0; v < dealii::GeometryInfo<3>::vertices_per_face; ++v)
   {

@@ -112,7 +112,8 @@ struct CrackCell
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &id &region &vertices &normal &on_plane &plus &greatest &carried &reached &bare &boundary;
+    ar &id &region &vertices &normal &on_plane &plus &greatest &initial;
+    ar &carried &reached &bare &boundary;
   }
 
 private:

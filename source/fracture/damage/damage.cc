@@ -36,6 +36,16 @@ Damage<dim>::Damage(const Parameters &parameters, const Scene<dim> &scene)
   if (!(scene.rock.main().energy_release_rate > 0.))
     throw InputError("The damage model needs the rock's energy release rate G_c (Rock / Energy "
                      "release rate, or Fracture toughness).");
+  if (const RockProperties &rock = scene.rock.main();
+      std::abs(rock.shear_energy_release_rate - rock.energy_release_rate) >
+      1e-6 * rock.energy_release_rate)
+  {
+    std::ostringstream given;
+    given << rock.shear_energy_release_rate << " J/m^2";
+    throw EntryError("Rock/Shear energy release rate", given.str(),
+                     "nothing (an empty entry), or the critical one, with 'Fracture/Model = damage', "
+                     "whose cracks have one energy, whatever the mode");
+  }
   if (scene.cracks.empty())
     throw InputError("The damage model needs an initial crack or notch to grow from.");
   for (const auto &crack : scene.cracks)
