@@ -112,7 +112,7 @@ struct CrackCell
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &id &region &vertices &normal &on_plane &plus &greatest &initial;
+    ar &id &region &vertices &normal &on_plane &plus &greatest;
     ar &carried &reached &bare &boundary;
   }
 
