@@ -26,10 +26,9 @@ void Band<dim>::setup(const MeshView<dim> &new_mesh_view)
 template <int dim>
 void Band<dim>::add(const std::vector<CrackCell<dim>> &more)
 {
-  const unsigned int first = cells.size();
-  cells.insert(cells.end(), more.begin(), more.end());
-  link(first);
-  embed(first);
+  std::vector<CrackCell<dim>> all = cells;
+  all.insert(all.end(), more.begin(), more.end());
+  replace(all);
 }
 
 
@@ -40,25 +39,32 @@ void Band<dim>::replace(const std::vector<CrackCell<dim>> &others)
   cuts.clear();
   by_index.clear();
   owned_cells.clear();
-  open_faces.clear();
-  link(0);
-  embed(0);
+  link_neighbours();
+  all_motions.clear();
+  first_unknowns.clear();
+  unsigned int n = 0;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    all_motions.push_back(motions_of(i));
+    first_unknowns.push_back(n);
+    n += all_motions.back().size();
+  }
+  if (mesh_view && !cells.empty())
+    embed();
 }
 
 
 template <int dim>
-void Band<dim>::embed(const unsigned int first)
+void Band<dim>::embed()
 {
-  if (!mesh_view || first == cells.size())
-    return;
   std::unordered_map<std::uint64_t, unsigned int> wanted;
-  dealii::BoundingBox<dim> box(std::make_pair(cells[first].centre(), cells[first].centre()));
-  for (unsigned int i = first; i < cells.size(); ++i)
+  dealii::BoundingBox<dim> box(std::make_pair(cells[0].centre(), cells[0].centre()));
+  for (unsigned int i = 0; i < cells.size(); ++i)
   {
     wanted[cells[i].key()] = i;
     box.merge_with(dealii::BoundingBox<dim>(std::make_pair(cells[i].centre(), cells[i].centre())));
   }
-  box.extend(1e-6 * cells[first].size());
+  box.extend(1e-6 * cells[0].size());
 
   const dealii::FE_Q<dim> vertex_functions(1);
   const dealii::QGauss<dim> quadrature(mesh_view->dof_handler.get_fe().base_element(0).degree + 1);
@@ -84,6 +90,17 @@ void Band<dim>::embed(const unsigned int first)
 }
 
 
+namespace
+{
+/// Whether a motion has a component.
+template <int dim>
+bool moves(const Motion<dim> &motion, const unsigned int component)
+{
+  return motion.base[component] != 0. || motion.turn[component].norm_square() > 0.;
+}
+} // namespace
+
+
 template <int dim>
 void Band<dim>::make_cut(const unsigned int i,
                          const CellIterator &cell,
@@ -95,18 +112,15 @@ void Band<dim>::make_cut(const unsigned int i,
   cut = CutCell<dim>();
   cut.points = values.get_quadrature().get_points();
   cut.weights = values.get_JxW_values();
-  // One column for each mode and component: a rotation has more than one.
-  const unsigned int n = n_modes(crack);
-  for (unsigned int mode = 0; mode < n; ++mode)
+  // One column for each motion and component.
+  for (unsigned int k = 0; k < motions(i).size(); ++k)
     for (unsigned int d = 0; d < dim; ++d)
-      if (mode >= dim || mode == d)
+      if (moves(motions(i)[k], d))
       {
-        cut.extra.push_back(first_unknown(i) + mode);
+        cut.extra.push_back(first_unknown(i) + k);
         cut.component.push_back(d);
       }
   const Point<dim> middle = crack.middle();
-  const auto axes = crack.axes();
-  const double size = crack.size();
   for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
   {
     const Tensor<1, dim> place = values.quadrature_point(q) - middle;
@@ -118,37 +132,30 @@ void Band<dim>::make_cut(const unsigned int i,
         value -= values.shape_value(v, q);
         gradient -= values.shape_grad(v, q);
       }
-    const auto motions = modes(crack, place);
-    for (unsigned int mode = 0; mode < n; ++mode)
+    for (const Motion<dim> &motion : motions(i))
       for (unsigned int d = 0; d < dim; ++d)
-        if (mode >= dim || mode == d)
+        if (moves(motion, d))
         {
-          Tensor<1, dim> slope; // of the motion's component
-          if (mode >= dim)
-            slope =
-              (crack.normal[d] * axes[mode - dim] - axes[mode - dim][d] * crack.normal) / size;
-          cut.values.push_back(value * motions[mode][d]);
-          cut.gradients.push_back(motions[mode][d] * gradient + value * slope);
+          cut.values.push_back(value * motion.at(place)[d]);
+          cut.gradients.push_back(motion.at(place)[d] * gradient + value * motion.turn[d]);
         }
   }
 }
 
 
 template <int dim>
-std::vector<Tensor<1, dim>> Band<dim>::modes(const CrackCell<dim> &crack,
-                                             const Tensor<1, dim> &place) const
+std::vector<Motion<dim>> Band<dim>::motions_of(const unsigned int i) const
 {
-  std::vector<Tensor<1, dim>> result(n_modes(crack));
+  const CrackCell<dim> &crack = cells[i];
+  const Tensor<1, dim> &n = crack.normal;
+  std::vector<Motion<dim>> result(dim);
   for (unsigned int d = 0; d < dim; ++d)
-    result[d][d] = 1.;
-  if (result.size() > dim)
-  {
-    const auto axes = crack.axes();
-    const double size = crack.size();
-    for (unsigned int k = 0; k < dim - 1; ++k)
-      result[dim + k] =
-        ((place * axes[k]) * crack.normal - (place * crack.normal) * axes[k]) / size;
-  }
+    result[d].base[d] = 1.;
+  // An opening that changes along the crack by one over the size of the cell.
+  if (linear && crack.is_cut_evenly())
+    for (const Tensor<1, dim> &axis : crack.axes())
+      result.push_back(
+        {Tensor<1, dim>(), (outer_product(n, axis) - outer_product(axis, n)) / crack.size()});
   return result;
 }
 
@@ -160,11 +167,8 @@ Band<dim>::jumps(const unsigned int i, const std::vector<double> &extra) const
   std::array<Tensor<1, dim>, CrackCell<dim>::n_points> result;
   const auto points = cells[i].points();
   for (unsigned int q = 0; q < points.size(); ++q)
-  {
-    const auto motions = modes(cells[i], points[q]);
-    for (unsigned int mode = 0; mode < motions.size(); ++mode)
-      result[q] += extra[first_unknown(i) + mode] * motions[mode];
-  }
+    for (unsigned int k = 0; k < motions(i).size(); ++k)
+      result[q] += extra[first_unknown(i) + k] * motions(i)[k].at(points[q]);
   return result;
 }
 
@@ -219,26 +223,25 @@ template <int dim>
 std::vector<ExtraUnknown> Band<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> all;
-  for (const CrackCell<dim> &crack : cells)
-    for (unsigned int mode = 0; mode < n_modes(crack); ++mode)
-      all.push_back({crack.key() + 1 + mode});
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    for (unsigned int k = 0; k < motions(i).size(); ++k)
+      all.push_back({cells[i].key() + 1 + k});
   return all;
 }
 
 
 template <int dim>
-void Band<dim>::link(const unsigned int first)
+void Band<dim>::link_neighbours()
 {
+  std::unordered_map<std::uint64_t, std::pair<unsigned int, unsigned int>> faces; // by place
   links.resize(cells.size());
-  first_unknowns.resize(cells.size());
-  for (unsigned int i = first; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    first_unknowns[i] = i > 0 ? first_unknowns[i - 1] + n_modes(cells[i - 1]) : 0;
     links[i].fill(none);
     for (unsigned int f = 0; f < n_faces; ++f)
     {
       const std::uint64_t place = Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
-      const auto [other, is_new] = open_faces.emplace(place, std::make_pair(i, f));
+      const auto [other, is_new] = faces.emplace(place, std::make_pair(i, f));
       if (is_new)
         continue;
       const auto [j, g] = other->second;

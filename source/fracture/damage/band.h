@@ -16,6 +16,20 @@
 
 namespace stockwork::damage
 {
+/// A motion of one side of a crack against the other as a rigid body: base + turn (x - middle), the
+/// matrix antisymmetric, so that it strains nothing.
+template <int dim>
+struct Motion
+{
+  dealii::Tensor<1, dim> base;
+  dealii::Tensor<2, dim> turn;
+
+  dealii::Tensor<1, dim> at(const dealii::Tensor<1, dim> &place) const
+  {
+    return base + turn * place;
+  }
+};
+
 /// All cracked cells, and what they are on the mesh: the extra functions of the bulk, and the
 /// segments of the fluid. The list is the same on every rank, in the order in which cells have
 /// cracked, and so are the unknowns.
@@ -59,17 +73,13 @@ public:
   {
   }
 
-  /// Unknowns of a cell: the mean jump and, where it is linear, how the opening changes along each
-  /// of CrackCell::axes() over the cell's size: both [m]. A single vertex on one side of the crack
-  /// does not know how this side turns.
-  unsigned int n_modes(const CrackCell<dim> &crack) const
+  /// What the unknowns of a cell do to its plus side against the minus side: the mean jump and,
+  /// where it is linear, how the opening changes along each of CrackCell::axes() over the cell's
+  /// size: all [m]. A single vertex on one side of the crack does not know how this side turns.
+  const std::vector<Motion<dim>> &motions(const unsigned int i) const
   {
-    return linear && crack.is_cut_evenly() ? 2 * dim - 1 : dim;
+    return all_motions[i];
   }
-
-  /// What the modes of a cell do at a place, seen from CrackCell::middle(): plus less minus side.
-  std::vector<dealii::Tensor<1, dim>> modes(const CrackCell<dim> &crack,
-                                            const dealii::Tensor<1, dim> &place) const;
 
   unsigned int first_unknown(const unsigned int i) const
   {
@@ -124,11 +134,11 @@ public:
   segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
 
 private:
-  /// Find the cells from this number on.
-  void embed(unsigned int first);
+  /// Find the cells on the mesh.
+  void embed();
 
-  /// Find neighbours of the cells from this number on.
-  void link(unsigned int first);
+  void link_neighbours();
+  std::vector<Motion<dim>> motions_of(unsigned int i) const;
 
   void make_cut(unsigned int i, const CellIterator &cell, dealii::FEValues<dim> &values);
 
@@ -138,12 +148,12 @@ private:
 
   const bool linear;
   std::unique_ptr<MeshView<dim>> mesh_view;
-  std::vector<unsigned int> first_unknowns;                ///< of each cell
+  std::vector<std::vector<Motion<dim>>> all_motions; ///< of each cell
+  std::vector<unsigned int> first_unknowns;
   std::unordered_map<unsigned int, CutCell<dim>> cuts;     ///< by active cell index
   std::unordered_map<unsigned int, unsigned int> by_index; ///< active cell index to number
   std::vector<Owned> owned_cells;
   std::vector<std::array<unsigned int, n_faces>> links;
-  std::unordered_map<std::uint64_t, std::pair<unsigned int, unsigned int>> open_faces; ///< by place
 };
 
 /// The cell, with the crack's plane given, but not yet parted.

@@ -42,9 +42,10 @@ Damage<dim>::Damage(const Parameters &parameters, const Scene<dim> &scene)
   {
     std::ostringstream given;
     given << rock.shear_energy_release_rate << " J/m^2";
-    throw EntryError("Rock/Shear energy release rate", given.str(),
-                     "nothing (an empty entry), or the critical one, with 'Fracture/Model = damage', "
-                     "whose cracks have one energy, whatever the mode");
+    throw EntryError(
+      "Rock/Shear energy release rate", given.str(),
+      "nothing (an empty entry), or the critical one, with 'Fracture/Model = damage', "
+      "whose cracks have one energy, whatever the mode");
   }
   if (scene.cracks.empty())
     throw InputError("The damage model needs an initial crack or notch to grow from.");
@@ -190,29 +191,35 @@ void Damage<dim>::assemble(const StepContext &, const State &state, Sink &sink) 
   for (const auto &owned : band.owned())
   {
     const CrackCell<dim> &crack = band.cells[owned.number];
+    const std::vector<Motion<dim>> &motions = band.motions(owned.number);
     local.extra.clear();
-    const unsigned int n_modes = band.n_modes(crack);
-    for (unsigned int mode = 0; mode < n_modes; ++mode)
-      local.extra.push_back(band.first_unknown(owned.number) + mode);
+    std::vector<Tensor<1, dim>> at_middle;
+    for (unsigned int k = 0; k < motions.size(); ++k)
+    {
+      local.extra.push_back(band.first_unknown(owned.number) + k);
+      at_middle.push_back(motions[k].base);
+    }
     local.reinit();
     const double area = crack.area(), share = area / CrackCell<dim>::n_points;
-    add_released_traction<dim>(scene, crack.middle(), crack.normal, area,
-                               band.modes(crack, Tensor<1, dim>()), local.residual);
+    add_released_traction<dim>(scene, crack.middle(), crack.normal, area, at_middle,
+                               local.residual);
     const auto points = crack.points();
     const auto jumps = band.jumps(owned.number, state.current.extra);
+    std::vector<Tensor<1, dim>> moved(motions.size());
     for (unsigned int q = 0; q < points.size(); ++q)
     {
-      const auto modes = band.modes(crack, points[q]);
+      for (unsigned int k = 0; k < motions.size(); ++k)
+        moved[k] = motions[k].at(points[q]);
       const SeamResponse<dim> held = seam(crack, q, jumps[q]);
       const Touch touching = touch(crack, q, jumps[q] * crack.normal);
       const Tensor<1, dim> traction = held.traction + touching.traction * crack.normal;
-      for (unsigned int i = 0; i < n_modes; ++i)
+      for (unsigned int i = 0; i < moved.size(); ++i)
       {
-        local.residual(i) += share * (traction * modes[i]);
-        for (unsigned int j = 0; j < n_modes; ++j)
+        local.residual(i) += share * (traction * moved[i]);
+        for (unsigned int j = 0; j < moved.size(); ++j)
           local.matrix(i, j) +=
-            share * (modes[i] * (held.tangent * modes[j]) +
-                     touching.slope * (modes[i] * crack.normal) * (modes[j] * crack.normal));
+            share * (moved[i] * (held.tangent * moved[j]) +
+                     touching.slope * (moved[i] * crack.normal) * (moved[j] * crack.normal));
       }
     }
     sink.add(local);
@@ -261,7 +268,7 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     CrackCell<dim> &crack = band.cells[i];
     const auto jumps = band.jumps(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
-    crack.reached = std::max(crack.reached, reached_share(i, state));
+    crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
       const double before = crack.greatest[q];

@@ -111,9 +111,10 @@ private:
   /// The same on all ranks, in the same order.
   std::vector<Candidate> candidates(const Collectives &collectives) const;
 
-  /// Share of a front cell to which the fluid has come: all of it, unless there is suction in it,
-  /// as in viscous fluid, and the rock is bare to there. Then from what it and its neighbour hold,
-  /// with the opening x^(2/3) of such a tip (Desroches et al. 1994).
+  /// Share of a front cell to which the fluid has come, above 1 where it would be beyond. It is
+  /// there, unless there is suction in it, as in viscous fluid, and the rock is bare to there. Then
+  /// from what it and its neighbour hold, with the opening x^(2/3) of such a tip (Desroches et al.
+  /// 1994).
   double reached_share(unsigned int number, const State &state) const;
 
   /// In-situ compression across a cracked cell [Pa].

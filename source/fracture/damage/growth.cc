@@ -86,10 +86,11 @@ double Damage<dim>::closing_stress(const CrackCell<dim> &crack) const
 template <int dim>
 double Damage<dim>::reached_share(const unsigned int number, const State &state) const
 {
+  constexpr double full = std::numeric_limits<double>::infinity();
   const CrackCell<dim> &crack = band.cells[number];
   if (!crack.bare || !state.segment_pressure || !std::isnan(scene.crack_pressure) ||
       !band.is_front(number) || state.segment_pressure(crack.key()) >= closing_stress(crack))
-    return 1.;
+    return full;
   const auto held = [&](const unsigned int i)
   {
     const CrackCell<dim> &cell = band.cells[i];
@@ -107,7 +108,7 @@ double Damage<dim>::reached_share(const unsigned int number, const State &state)
     return 0.;
   // With w ~ x^(2/3) at the distance x from the front, V ~ x^(5/3) is beyond any place.
   const double ratio = std::pow(own / (own + next), 0.6);
-  return std::min(1., next_area / crack.area() * ratio / (1. - ratio));
+  return next_area / crack.area() * ratio / (1. - ratio);
 }
 
 
@@ -206,7 +207,7 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       continue;
     // Suction at the front and the tension ahead, both many times the strength, leave a difference
     // that tells nothing: there the fluid has to have arrived.
-    if (behind.reached < 0.8)
+    if (behind.reached < 1.)
       continue;
     const Tensor<1, dim> &straight_on = band.cells[candidate.behind[0]].normal;
     const auto &stress = averages[2 * i].stress;
