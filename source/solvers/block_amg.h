@@ -5,6 +5,7 @@
 #include "solvers/displacement_multigrid.h"
 #include "solvers/extra_schur.h"
 #include "solvers/linear_solver.h"
+#include "solvers/patch_solver.h"
 
 namespace stockwork
 {
@@ -30,7 +31,7 @@ public:
     return true;
   }
 
-  bool sees_rock_change(dealii::types::global_dof_index) const override
+  bool sees_rock_change(const LinearSystem &, const SystemStamps &) const override
   {
     return true;
   }
@@ -52,6 +53,7 @@ private:
   MPI_Comm communicator;
 
   DisplacementMultigrid displacement;
+  PatchSolver patch;
   dealii::TrilinosWrappers::PreconditionAMG pressure;
   dealii::TrilinosWrappers::SparseMatrix schur; ///< positive, in units of its largest entry
   double schur_unit = 1.;

@@ -32,12 +32,16 @@ public:
                      dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                      std::vector<double> &dx_extra) override;
 
+  /// Where the bulk is definite, and its factor at hand has a LocalInverse.
+  bool sees_rock_change(const LinearSystem &system, const SystemStamps &stamps) const override;
+
   /// Where the bulk is definite and unchanged since it was factorised.
   std::unique_ptr<CondensedSystem>
   condense(const LinearSystem &system, const SystemStamps &stamps, double tolerance) override;
 
 private:
   class Condensed;
+  class LocalTangent;
 
   /// Whether there is a factor, of this bulk or of an earlier one on the same mesh.
   bool has_factor(const LinearSystem &system, const SystemStamps &stamps) const;
@@ -72,6 +76,14 @@ private:
                  const SystemVector &r,
                  SystemVector &dx,
                  bool skip_bulk_load);
+
+  /// dx -= (J + rock change)^-1 r, up to a residual of that size, by iterations between the
+  /// unknowns that the change touches. Returns how many.
+  unsigned int eliminate_tangent(const SystemOperator &op,
+                                 const SystemOperator::Border &border,
+                                 const SystemVector &r,
+                                 double allowed,
+                                 SystemVector &dx);
 
   MPI_Comm communicator;
   bool is_root;

@@ -24,9 +24,12 @@ public:
                     std::vector<int> &rows,
                     std::vector<double> &values,
                     std::vector<double> &x) override;
+  std::unique_ptr<LocalInverse> local_inverse(const std::vector<int> &unknowns) const override;
   int size() const override;
 
 private:
+  class Local;
+
   std::unique_ptr<CholmodFactor> factor;
 };
 } // namespace stockwork

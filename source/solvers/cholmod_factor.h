@@ -36,6 +36,28 @@ public:
   /// The place of each unknown in the order of the factor.
   std::vector<int> places_in_factor() const;
 
+  /// The supernodes of L, blocks of columns of one pattern, that hold these unknowns, and all
+  /// that substitutions with loads on them pass on the way to the root; ascending. Without an
+  /// argument all of them. None where the factor has no supernodes.
+  std::vector<int> path_to_root(const std::vector<int> &unknowns) const;
+  std::vector<int> all_supernodes() const;
+
+  /// x <- L^-1 x, where x is zero outside of these supernodes and what follows them; x in the
+  /// order of the factor.
+  void forward(const std::vector<int> &supernodes, double *x) const;
+
+  /// x <- L^-T x on these supernodes.
+  void backward(const std::vector<int> &supernodes, double *x) const;
+
+  /// Call use(first, last) for the columns of these supernodes.
+  template <class Function>
+  void for_each_range(const std::vector<int> &supernodes, const Function &use) const
+  {
+    const int *const super = static_cast<int *>(factor->super);
+    for (const int k : supernodes)
+      use(super[k], super[k + 1]);
+  }
+
   /// Call use(row, column, value) for each entry of L, in the order of the factor. After analyse()
   /// with `last`, which makes the factor supernodal.
   template <class Function>

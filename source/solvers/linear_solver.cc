@@ -65,9 +65,10 @@ public:
     return dim == 3 && n_dofs > parameters.direct_below;
   }
 
-  bool sees_rock_change(const dealii::types::global_dof_index n_dofs) const override
+  bool sees_rock_change(const LinearSystem &system, const SystemStamps &stamps) const override
   {
-    return wants_hierarchy(n_dofs);
+    return wants_hierarchy(system.residual_bulk.size()) ||
+           (system.elastic && bordered && bordered->sees_rock_change(system, stamps));
   }
 
   LinearReport solve(const LinearSystem &system,

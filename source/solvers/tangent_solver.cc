@@ -195,7 +195,7 @@ LinearReport TangentSolver::solve(LinearSystem &system,
   // has said whether it loads or unloads, the linear rock gives the direction.
   try
   {
-    if (linear->sees_rock_change(system.bulk.m()) && !tangent_is_good)
+    if (linear->sees_rock_change(system, stamps) && !tangent_is_good)
     {
       report = linear->solve(system, stamps, tolerance, dx_bulk, dx_extra);
       if (report.converged)
