@@ -181,7 +181,10 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
     // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
     extra.update(op, op.border(), stiffness->m(), true);
   if (system.rock_change != nullptr)
-    patch.build(system.bulk.block(0, 0), system.rock_change->block(0, 0));
+    // In two dimensions a factor is never too dear.
+    patch.build(system.bulk.block(0, 0), system.rock_change->block(0, 0),
+                system.displacement_hierarchy.dim == 3 ? parameters.direct_below
+                                                       : system.bulk.m());
   else
     patch.clear();
   built_for = stamps;
@@ -193,7 +196,8 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   SystemVector dx = op.make_vector();
   const auto iterate = [&]()
   {
-    BlockTriangular preconditioner(op, communicator, displacement, patch, extra, pressure, schur_unit);
+    BlockTriangular preconditioner(op, communicator, displacement, patch, extra, pressure,
+                                   schur_unit);
     solve_by_krylov(op, communicator, std::ref(preconditioner), limits, dx, report);
   };
   iterate();

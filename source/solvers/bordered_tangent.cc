@@ -13,8 +13,9 @@ namespace stockwork
 {
 namespace
 {
-/// Of GMRES between few unknowns, all of whose basis vectors are kept.
-constexpr unsigned int most_local_iterations = 60;
+/// Of GMRES between few unknowns, all of whose basis vectors are kept: at least, in units of what
+/// a substitution with all unknowns costs, and at most.
+constexpr unsigned int most_substitutions = 20, most_local_iterations = 100;
 } // namespace
 
 /// The linear system of rock that yields, seen from the few unknowns T that the change dA of the
@@ -49,11 +50,13 @@ public:
     answer_of_extra(x, r_extra);
     multiply_by_change(load, x);
     load *= -1.;
-    dealii::SolverControl control(most_local_iterations, allowed);
+    const auto most = std::min(most_local_iterations,
+                               static_cast<unsigned int>(most_substitutions / inverse->cost()));
+    dealii::SolverControl control(most, allowed);
     try
     {
       using Gmres = dealii::SolverGMRES<Vector>;
-      Gmres(control, Gmres::AdditionalData(most_local_iterations + 2))
+      Gmres(control, Gmres::AdditionalData(most + 2))
         .solve(*this, y, load, dealii::PreconditionIdentity());
     }
     catch (const dealii::SolverControl::NoConvergence &)
@@ -212,7 +215,7 @@ private:
 
 bool BorderedSolver::sees_rock_change(const LinearSystem &system, const SystemStamps &stamps) const
 {
-  return system.definite && has_factor(system, stamps) && factor->local_inverse({}) != nullptr;
+  return system.definite && has_factor(system, stamps) && factor->has_local_inverse();
 }
 
 

@@ -93,8 +93,9 @@ public:
   void backward_to_few(const std::vector<double> &half, Vector &x) const override
   {
     factor.for_each_range(path,
-                          [&](const int first, const int last)
-                          { std::copy(&half[first], &half[first] + (last - first), &work[first]); });
+                          [&](const int first, const int last) {
+                            std::copy(&half[first], &half[first] + (last - first), &work[first]);
+                          });
     backward_few(x);
   }
 
@@ -102,6 +103,11 @@ public:
   {
     forward_few(y);
     backward_few(x);
+  }
+
+  double cost() const override
+  {
+    return factor.entries(path) / factor.entries(all);
   }
 
 private:
@@ -129,8 +135,6 @@ private:
 
 std::unique_ptr<LocalInverse> Cholesky::local_inverse(const std::vector<int> &unknowns) const
 {
-  if (factor->all_supernodes().empty())
-    return nullptr;
   return std::make_unique<Local>(*factor, unknowns);
 }
 } // namespace stockwork

@@ -116,6 +116,7 @@ void CholmodFactor::analyse(const int n,
   if (std::is_sorted(places.begin(), places.end()))
     places = {};
 
+  common.supernodal = CHOLMOD_SUPERNODAL;
   if (last.empty())
     factor = cholmod_analyze(matrix, &common);
   else
@@ -123,7 +124,6 @@ void CholmodFactor::analyse(const int n,
     std::vector<int> member(last), order(n);
     if (!cholmod_camd(matrix, nullptr, 0, member.data(), order.data(), &common))
       fail("ordering the matrix");
-    common.supernodal = CHOLMOD_SUPERNODAL;
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
     factor = cholmod_analyze_p(matrix, order.data(), nullptr, 0, &common);
@@ -177,7 +177,7 @@ std::vector<int> CholmodFactor::places_in_factor() const
 
 std::vector<int> CholmodFactor::all_supernodes() const
 {
-  std::vector<int> all(factor->is_super ? factor->nsuper : 0);
+  std::vector<int> all(factor->nsuper);
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
@@ -185,10 +185,9 @@ std::vector<int> CholmodFactor::all_supernodes() const
 
 std::vector<int> CholmodFactor::path_to_root(const std::vector<int> &unknowns) const
 {
-  if (!factor->is_super)
-    return {};
-  const int *const super = static_cast<int *>(factor->super), *const pi = static_cast<int *>(factor->pi),
-            *const s = static_cast<int *>(factor->s);
+  const int *const super = static_cast<int *>(factor->super),
+                   *const pi = static_cast<int *>(factor->pi),
+                   *const s = static_cast<int *>(factor->s);
   const int n_supernodes = static_cast<int>(factor->nsuper);
   std::vector<int> supernode(size());
   for (int k = 0; k < n_supernodes; ++k)
@@ -210,10 +209,23 @@ std::vector<int> CholmodFactor::path_to_root(const std::vector<int> &unknowns) c
 }
 
 
+double CholmodFactor::entries(const std::vector<int> &supernodes) const
+{
+  const int *const super = static_cast<int *>(factor->super), *const pi =
+                                                                static_cast<int *>(factor->pi);
+  double sum = 0.;
+  for (const int k : supernodes)
+    sum += static_cast<double>(super[k + 1] - super[k]) * (pi[k + 1] - pi[k]);
+  return sum;
+}
+
+
 void CholmodFactor::forward(const std::vector<int> &supernodes, double *const x) const
 {
-  const int *const super = static_cast<int *>(factor->super), *const pi = static_cast<int *>(factor->pi),
-            *const px = static_cast<int *>(factor->px), *const s = static_cast<int *>(factor->s);
+  const int *const super = static_cast<int *>(factor->super),
+                   *const pi = static_cast<int *>(factor->pi),
+                   *const px = static_cast<int *>(factor->px),
+                   *const s = static_cast<int *>(factor->s);
   const double *const values = static_cast<double *>(factor->x);
   const char lower = 'L', as_is = 'N';
   const int step = 1;
@@ -239,8 +251,10 @@ void CholmodFactor::forward(const std::vector<int> &supernodes, double *const x)
 
 void CholmodFactor::backward(const std::vector<int> &supernodes, double *const x) const
 {
-  const int *const super = static_cast<int *>(factor->super), *const pi = static_cast<int *>(factor->pi),
-            *const px = static_cast<int *>(factor->px), *const s = static_cast<int *>(factor->s);
+  const int *const super = static_cast<int *>(factor->super),
+                   *const pi = static_cast<int *>(factor->pi),
+                   *const px = static_cast<int *>(factor->px),
+                   *const s = static_cast<int *>(factor->s);
   const double *const values = static_cast<double *>(factor->x);
   const char lower = 'L', as_is = 'N', transposed = 'T';
   const int step = 1;

@@ -15,12 +15,6 @@ namespace stockwork
 {
 using namespace dealii;
 
-namespace
-{
-/// Of the rows of the matrix.
-constexpr double largest_patch = 0.25;
-} // namespace
-
 PatchSolver::PatchSolver(const MPI_Comm communicator)
   : communicator(communicator)
 {
@@ -28,7 +22,8 @@ PatchSolver::PatchSolver(const MPI_Comm communicator)
 
 
 void PatchSolver::build(const TrilinosWrappers::SparseMatrix &new_matrix,
-                        const TrilinosWrappers::SparseMatrix &change)
+                        const TrilinosWrappers::SparseMatrix &change,
+                        const types::global_dof_index most_rows)
 {
   matrix = &new_matrix;
   const Epetra_CrsMatrix &k = matrix->trilinos_matrix(), &dk = change.trilinos_matrix();
@@ -43,7 +38,8 @@ void PatchSolver::build(const TrilinosWrappers::SparseMatrix &new_matrix,
     double *k_values, *dk_values;
     int *indices, *dk_indices;
     dk.ExtractMyRowView(i, n_change_entries, dk_values, dk_indices);
-    if (std::all_of(dk_values, dk_values + n_change_entries, [](const double v) { return v == 0.; }))
+    if (std::all_of(dk_values, dk_values + n_change_entries,
+                    [](const double v) { return v == 0.; }))
       continue;
     k.ExtractMyRowView(i, n_entries, k_values, indices);
     mine.push_back(k.GRID(i));
@@ -64,7 +60,7 @@ void PatchSolver::build(const TrilinosWrappers::SparseMatrix &new_matrix,
   scaling = all_gather(communicator, scaling);
   // Ranks follow one another, so the rows are sorted.
   n_patch = patch.size();
-  if (n_patch == 0 || n_patch > largest_patch * matrix->m())
+  if (n_patch == 0 || n_patch > most_rows)
   {
     n_patch = 0;
     return;
@@ -113,8 +109,7 @@ void PatchSolver::correct(TrilinosWrappers::MPI::Vector &x,
 {
   if (n_patch == 0)
     return;
-  const std::vector<double> at_columns =
-    SystemOperator::at_columns(matrix->trilinos_matrix(), x);
+  const std::vector<double> at_columns = SystemOperator::at_columns(matrix->trilinos_matrix(), x);
   std::vector<double> r(n_patch, 0.);
   const double *const load = b.trilinos_vector()[0];
   std::size_t j = 0;

@@ -17,10 +17,11 @@ class PatchSolver
 public:
   explicit PatchSolver(MPI_Comm communicator);
 
-  /// Factorise; keeps references. Nothing is solved where the patch is too large for that to pay,
-  /// or singular.
+  /// Factorise; keeps a reference to the matrix. Nothing is solved where the patch is singular, or
+  /// has more than `most_rows`.
   void build(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-             const dealii::TrilinosWrappers::SparseMatrix &change);
+             const dealii::TrilinosWrappers::SparseMatrix &change,
+             dealii::types::global_dof_index most_rows);
 
   void clear()
   {

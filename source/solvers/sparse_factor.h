@@ -31,6 +31,9 @@ public:
 
   /// x = A^-1 y between the few unknowns.
   virtual void vmult(dealii::Vector<double> &x, const dealii::Vector<double> &y) const = 0;
+
+  /// What that costs, over a substitution with all unknowns.
+  virtual double cost() const = 0;
 };
 
 /// A factor of a sparse matrix, whose pattern is ordered once and whose values change. Indices
@@ -69,10 +72,14 @@ public:
     return {};
   }
 
-  /// See LocalInverse; valid until the factor is another. Null: not with this factor.
+  /// See LocalInverse; valid until the factor is another. Null: not with this one.
   virtual std::unique_ptr<LocalInverse> local_inverse(const std::vector<int> & /*unknowns*/) const
   {
     return nullptr;
+  }
+  virtual bool has_local_inverse() const
+  {
+    return false;
   }
 
   virtual int size() const = 0;
