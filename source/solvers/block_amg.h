@@ -20,7 +20,8 @@ namespace stockwork
 /// with one multigrid cycle each for K and for S_p, the fixed-stress approximation of the Schur
 /// complement (White, Castelletto & Tchelepi 2016), and S_a dense (ExtraSchur). The products with
 /// K^-1 in it are Krylov solutions of their own, computed once for each extra unknown, for K is the
-/// same in all steps.
+/// same in all steps. Where rock yields, the cycle for K is followed by a factor of the rows that
+/// do (PatchSolver).
 class BlockAmgSolver : public LinearSolver
 {
 public:

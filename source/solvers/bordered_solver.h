@@ -20,7 +20,8 @@ namespace stockwork
 /// iteration then takes two back-substitutions and one dense factorisation. Where few rows of A
 /// have changed since it was factorised (bonds broke), the factor is kept as well (Woodbury):
 /// A + E dA is A with one more extra unknown f = dA u per changed row. In porous rock A changes
-/// with the time step.
+/// with the time step. Of rock that yields, the change is taken along by iterations between the
+/// unknowns that it touches, with the same factor.
 class BorderedSolver : public LinearSolver
 {
 public:

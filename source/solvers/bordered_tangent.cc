@@ -13,9 +13,9 @@ namespace stockwork
 {
 namespace
 {
-/// Of GMRES between few unknowns, all of whose basis vectors are kept: at least, in units of what
-/// a substitution with all unknowns costs, and at most.
-constexpr unsigned int most_substitutions = 20, most_local_iterations = 100;
+/// GMRES between few unknowns keeps all its basis vectors. It is given up when that has cost as
+/// much as so many substitutions with all unknowns, or after so many iterations.
+constexpr double most_substitutions = 20., most_local_iterations = 100.;
 } // namespace
 
 /// The linear system of rock that yields, seen from the few unknowns T that the change dA of the
@@ -50,8 +50,10 @@ public:
     answer_of_extra(x, r_extra);
     multiply_by_change(load, x);
     load *= -1.;
-    const auto most = std::min(most_local_iterations,
-                               static_cast<unsigned int>(most_substitutions / inverse->cost()));
+    const unsigned int most =
+      inverse->cost() * most_local_iterations > most_substitutions
+        ? most_substitutions / inverse->cost()
+        : most_local_iterations;
     dealii::SolverControl control(most, allowed);
     try
     {

@@ -100,6 +100,7 @@ void PatchSolver::build(const TrilinosWrappers::SparseMatrix &new_matrix,
   catch (const SolveError &)
   {
     n_patch = 0; // rock that flows freely
+    factor.reset();
   }
 }
 
