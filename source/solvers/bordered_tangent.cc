@@ -50,10 +50,9 @@ public:
     answer_of_extra(x, r_extra);
     multiply_by_change(load, x);
     load *= -1.;
-    const unsigned int most =
-      inverse->cost() * most_local_iterations > most_substitutions
-        ? most_substitutions / inverse->cost()
-        : most_local_iterations;
+    const unsigned int most = inverse->cost() * most_local_iterations > most_substitutions
+                                ? most_substitutions / inverse->cost()
+                                : most_local_iterations;
     dealii::SolverControl control(most, allowed);
     try
     {

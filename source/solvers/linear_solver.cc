@@ -24,9 +24,10 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "multigrid, and such a system for the fracture; for large three-dimensional "
     "problems. auto: iterative above a size in 3-D, else bordered, and direct in porous "
     "rock without a fracture.");
-  prm.declare_entry("Direct below", "30000", Integer(0),
-                    "Number of bulk unknowns in 3-D up to which auto chooses the direct solver, and "
-                    "of rows that yield up to which multigrid is helped by a factor of these.");
+  prm.declare_entry(
+    "Direct below", "30000", Integer(0),
+    "Number of bulk unknowns in 3-D up to which auto chooses the direct solver, and "
+    "of rows that yield up to which multigrid is helped by a factor of these.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
   prm.declare_entry("Restart", "50", Integer(2), "Basis vectors FGMRES keeps before a restart.");
   prm.leave_subsection();
