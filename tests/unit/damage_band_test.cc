@@ -272,8 +272,8 @@ TEST_CASE("halves of a body that move apart leave no strain in any cell, at any 
 }
 
 
-// TODO At a corner the cells of both legs are parted by their own leg's line, also those that lie
-// beyond its end, and contradict one another: the crack locks there.
+// TODO At a corner the cells of both legs are parted by their own leg's line, also those that lie beyond
+// its end, and contradict one another: halves that move apart leave strain there.
 TEST_CASE("a crack with a corner has every vertex on one side" * doctest::should_fail())
 {
   const Box<2> box(20);

@@ -161,6 +161,7 @@ void Damage<dim>::begin_step(const StepContext &)
   n_advances = 0;
   needs_mesh = false;
   n_messages_before = messages.size();
+  laws_before = laws;
 }
 
 
@@ -290,6 +291,7 @@ template <int dim>
 void Damage<dim>::rollback()
 {
   band.replace(committed);
+  laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
   all_segments = band.segments(scene.in_situ_pore_pressure);
