@@ -173,6 +173,47 @@ Band<dim>::jumps(const unsigned int i, const std::vector<double> &extra) const
 }
 
 
+namespace
+{
+/// Of a polyline, the place nearest to a point.
+struct NearestPlace
+{
+  Point<2> place;
+  Tensor<1, 2> normal; ///< of the leg, unit, to its left
+  Tensor<1, 2> side;   ///< points to the plus side; at a corner between both legs' normals
+  bool is_beyond_end = false;
+};
+
+NearestPlace nearest_place(const std::vector<Point<2>> &corners, const Point<2> &x)
+{
+  NearestPlace nearest;
+  double least = std::numeric_limits<double>::infinity();
+  const auto normal = [&corners](const unsigned int k)
+  {
+    const Tensor<1, 2> leg = corners[k + 1] - corners[k];
+    return Tensor<1, 2>({-leg[1], leg[0]}) / leg.norm();
+  };
+  const unsigned int n = corners.size() - 1;
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    const Tensor<1, 2> leg = corners[k + 1] - corners[k];
+    const double along = (x - corners[k]) * leg / leg.norm_square(),
+                 t = std::min(1., std::max(0., along));
+    const Point<2> place = corners[k] + t * leg;
+    if (place.distance(x) >= least)
+      continue;
+    least = place.distance(x);
+    nearest = {place, normal(k), normal(k), (along < 0. && k == 0) || (along > 1. && k + 1 == n)};
+    if (along >= 1. && k + 1 < n)
+      nearest.side += normal(k + 1);
+    else if (along <= 0. && k > 0)
+      nearest.side += normal(k - 1);
+  }
+  return nearest;
+}
+} // namespace
+
+
 template <int dim>
 std::vector<CrackCell<dim>> Band<dim>::passed(const InitialCrack<dim> &crack) const
 {
@@ -182,38 +223,33 @@ std::vector<CrackCell<dim>> Band<dim>::passed(const InitialCrack<dim> &crack) co
     if (!cell->is_locally_owned() || crack.distance(cell->center()) > cell->diameter())
       continue;
     CrackCell<dim> piece = describe<dim>(cell);
-    const auto take_if_cut = [&]
-    {
-      piece.part_by_plane();
-      if (piece.is_cut())
-        found.push_back(piece);
-      return piece.is_cut();
-    };
     if (crack.disc)
     {
       piece.normal = crack.disc->normal;
       piece.on_plane = crack.disc->centre;
       const Tensor<1, dim> away = piece.centre() - piece.on_plane;
-      if ((away - (away * piece.normal) * piece.normal).norm() <= crack.disc->radius)
-        take_if_cut();
+      piece.part_by_plane();
+      if (piece.is_cut() &&
+          (away - (away * piece.normal) * piece.normal).norm() <= crack.disc->radius)
+        found.push_back(piece);
     }
     else if constexpr (dim == 2)
-      for (unsigned int k = 0; k + 1 < crack.points.size(); ++k)
+    {
+      const NearestPlace near = nearest_place(crack.points, piece.centre());
+      if (near.is_beyond_end)
+        continue;
+      piece.normal = near.normal;
+      piece.on_plane = near.place;
+      // One side for the whole crack, or the cells around a corner contradicted one another.
+      for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
       {
-        Tensor<1, dim> along = crack.points[k + 1] - crack.points[k];
-        const double length = along.norm();
-        along /= length;
-        const double place = (piece.centre() - crack.points[k]) * along;
-        // At a corner the cells of both legs, so that no gap is left.
-        const double before = k > 0 ? piece.size() : 0.,
-                     after = k + 2 < crack.points.size() ? piece.size() : 0.;
-        if (place < -before || place > length + after)
-          continue;
-        piece.normal = dealii::Tensor<1, dim>({-along[1], along[0]});
-        piece.on_plane = crack.points[k];
-        if (take_if_cut())
-          break;
+        const NearestPlace of_vertex = nearest_place(crack.points, piece.vertices[v]);
+        if ((piece.vertices[v] - of_vertex.place) * of_vertex.side > 1e-9 * piece.size())
+          piece.plus |= 1u << v;
       }
+      if (piece.is_cut())
+        found.push_back(piece);
+    }
   }
   return found;
 }

@@ -153,6 +153,7 @@ private:
   unsigned int n_presses = 0, n_advances = 0;
   bool needs_mesh = false;
   std::size_t n_messages_before = 0;
-  std::map<dealii::types::material_id, SeamLaw> laws_before; ///< so that what was said is said again
+  std::map<dealii::types::material_id, SeamLaw>
+    laws_before; ///< so that what was said is said again
 };
 } // namespace stockwork::damage
