@@ -4,6 +4,7 @@
     contrib/benchmark/run.py [--dolfinx SCRIPT] [--dealii PROGRAM] [--repeat 3] [--write FILE]
                              [--jobs step/mandel2d/33 memory ...] [--nice -18]
     contrib/benchmark/run.py --before OLD/build/source/stockwork --repeat 10 --jobs before
+    contrib/benchmark/run.py --program NEW/build/source/stockwork --before OLD/build/source/stockwork --jobs counted
 
 Jobs: step/CASE/N    a time step, direct and iterative, with everything made anew and with the
                      factor (or preconditioner) kept
@@ -15,6 +16,10 @@ Jobs: step/CASE/N    a time step, direct and iterative, with everything made ane
                                for as kgd/NAME/RESOLUTION/2
       plastic/borehole         a step in which 5 % of the cells yield, over an elastic one
       before                   whole runs beside an older build, --before PROGRAM: user time, memory
+      counted                  the same decks, coarse and short, by the instructions that valgrind counts: those of the run,
+                               in brackets of a step [10^9]; their ratios; counted/NAME: those whose name starts so.
+                               Valgrind does not know AVX-512: configure both builds with
+                               -DSTOCKWORK_NATIVE=OFF -DCMAKE_CXX_FLAGS=-march=haswell
 Cases: mandel2d      [0,100] x [0,10] m, 10 N x N squares, Q2-Q1, plate displacement prescribed
        footing3d     [0,10]^3 m, N^3 hexahedra, Q2-Q1, load on a quarter of the top
 
@@ -30,6 +35,7 @@ mumps|fs-hypre --steps K [--reuse]` and `PROGRAM CASE N K` with `step`, `asm_mat
 import argparse
 import json
 import os
+import re
 import shutil
 import statistics
 import subprocess
@@ -66,6 +72,20 @@ BEFORE = {
     "kgd/viscosity, cohesive": ("kgd/viscosity/cohesive_xfem.prm", ["Resolution=medium"]),
     "kgd/sun, bonds, to 6 s": ("kgd/sun/peridynamics.prm", ["Resolution=coarse", "Time/End time=6 s"]),
     "radial, bonds, to 0.2 s": ("radial/toughness/peridynamics.prm", ["Resolution=coarse", "Time/End time=0.2 s"]),
+}
+
+# The same decks counted, valgrind being fifty times as slow: resolution, and ends of a run of few steps and of one of
+# more; none where the deck has one step.
+COUNTED = {
+    "mandel": ("mandel/none.prm", "medium", ("500 s", "5000 s")),
+    "cryer": ("cryer/none.prm", "coarse", ("0.02 s", "0.2 s")),
+    "column": ("column/alpha_1/none.prm", "medium", ("5 s", "60 s")),
+    "sneddon, given": ("sneddon/prescribed.prm", "coarse", None),
+    "sneddon, cohesive": ("sneddon/cohesive_xfem.prm", "coarse", None),
+    "kgd/toughness, cohesive": ("kgd/toughness/cohesive_xfem.prm", "coarse", ("2 s", "10 s")),
+    "kgd/viscosity, cohesive": ("kgd/viscosity/cohesive_xfem.prm", "coarse", ("2 s", "10 s")),
+    "kgd/sun, bonds": ("kgd/sun/peridynamics.prm", "coarse", ("1 s", "2 s")),
+    "radial, bonds": ("radial/toughness/peridynamics.prm", "coarse", ("0.05 s", "0.1 s")),
 }
 
 # A borehole in rock that yields, cells of equal length along the radius: the share of cells that yield is
@@ -310,16 +330,47 @@ class Bench:
                 sys.exit(f"{' '.join(command)}\nexit status {status}")
             return usage.ru_utime, usage.ru_maxrss / 1e3
 
+    def old(self, deck):
+        """The older program, and the deck in its tree."""
+        if not self.options.before:
+            sys.exit("Say which program was before: --before PROGRAM")
+        return self.options.before, os.path.join(os.path.dirname(self.options.before), "..", "..", "prm", deck)
+
+    def counted(self, *first):
+        """Instructions of two builds."""
+        for name, (deck, *runs) in COUNTED.items():
+            if name.startswith("/".join(first)):
+                (now, step), (before, old_step) = (self.instructions(*program, *runs) for program in (
+                    (self.options.program, os.path.join(ROOT, "prm", deck)), self.old(deck)))
+                self.row(name, f"{now:.2f} ({step:.4f})", f"{before:.2f} ({old_step:.4f})", None,
+                         f"{now / before:.3f}", f"{step / old_step:.3f}")
+
+    def instructions(self, program, deck, resolution, ends):
+        """10^9 instructions of a run, and those of a step: what a run takes more than one of fewer steps, or than none."""
+        def count(*arguments):
+            done = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null",
+                                   program, *arguments], env=dict(ENVIRONMENT, OPENBLAS_CORETYPE="Haswell"),
+                                  capture_output=True, text=True)
+            if done.returncode:
+                sys.exit(f"{program} {' '.join(arguments)}\nexit status {done.returncode}\n{done.stderr[-2000:]}")
+            return 1e-9 * int(re.search(r"I +refs: +([\d,]+)", done.stderr)[1].replace(",", ""))
+
+        def run(*end):
+            with tempfile.TemporaryDirectory() as output:
+                command = [deck, "--output", output]
+                for setting in [f"Resolution={resolution}", *end, "Output/Fields=false"]:
+                    command += ["--set", setting]
+                return count(*command), read_summary(output)["steps"]
+        (start, few), (whole, steps) = ([run(f"Time/End time={end}") for end in ends] if ends else
+                                        ((count("--version"), 0), run()))
+        return whole, (whole - start) / (steps - few)
+
     def before(self):
         """Whole runs of two builds in turns."""
-        old = self.options.before
-        if not old:
-            sys.exit("Say which program was before: --before PROGRAM")
-        old_decks = os.path.join(os.path.dirname(old), "..", "..", "prm")
         for name, (deck, settings) in BEFORE.items():
             now, before = [], []
             for _ in range(self.options.repeat):
-                before.append(self.measured(old, os.path.join(old_decks, deck), settings))
+                before.append(self.measured(*self.old(deck), settings))
                 now.append(self.measured(self.options.program, os.path.join(ROOT, "prm", deck), settings))
             ratios = sorted(a[0] / b[0] for a, b in zip(now, before))
             quarter = len(ratios) // 4
@@ -377,7 +428,7 @@ def main():
     print("load of the machine:", " ".join(f"{x:.1f}" for x in os.getloadavg()))
     kinds = {"step": bench.compare_steps, "iterations": bench.iterations, "memory": bench.memory,
              "ranks": bench.ranks, "accuracy": bench.accuracy, "kgd": bench.kgd,
-             "plastic": bench.plastic, "before": bench.before}
+             "plastic": bench.plastic, "before": bench.before, "counted": bench.counted}
     for job in options.jobs:
         kind, *arguments = job.split("/")
         kinds[kind](*(int(a) if a.isdigit() else a for a in arguments))

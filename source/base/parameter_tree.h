@@ -7,8 +7,8 @@
 
 namespace stockwork
 {
-/// One declared entry of a ParameterHandler. The handler keeps its tree to itself, but prints it
-/// as JSON; this is that tree, read back.
+/// One declared entry of a ParameterHandler. The handler keeps its tree to itself, but saves it to
+/// archives.
 struct DeclaredEntry
 {
   std::string section; ///< "Section/Sub", empty at the top level

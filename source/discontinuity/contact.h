@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/serialization/library_version_type.hpp> // Boost 1.74 uses it in the next one and leaves it out
 #include <boost/serialization/unordered_map.hpp>
 
 #include "discontinuity/contact_law.h"

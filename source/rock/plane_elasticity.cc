@@ -1,5 +1,6 @@
 #include "rock/plane_elasticity.h"
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <cmath>
