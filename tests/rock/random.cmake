@@ -1,0 +1,49 @@
+# Rock that varies from place to place. Its distribution is in unit/random_field_test.
+
+# A bar whose modulus varies along it, against a row of springs whose factors are those of random_bar.py: on the lattice, on
+# meshes of half and of a quarter of it, correlated, and of two rocks.
+set(exact "final/energy_balance_error < 1e-12" "warnings == 0")
+stockwork_case_test(NAME rock/random/bar DECK tests/rock/random_bar.prm LABELS quick
+  EXPECT "final/load = 864603.254818622 within 1e-10" ${exact})
+foreach(refinements 1 2)
+  stockwork_case_test(NAME rock/random/bar/refined_${refinements} DECK tests/rock/random_bar.prm LABELS quick
+    SET "Mesh/Uniform refinements=${refinements}" EXPECT "final/load = 864603.254818622 within 1e-10" ${exact})
+endforeach()
+stockwork_case_test(NAME rock/random/bar/correlated DECK tests/rock/random_bar.prm LABELS quick
+  SET "Rock/Random field/Correlation length=4 m" EXPECT "final/load = 1279656.8975139188 within 1e-10" ${exact})
+stockwork_case_test(NAME rock/random/bar/layers DECK tests/rock/random_bar.prm LABELS quick
+  SET "Mesh/Region boxes=1: (8, 0) to (16, 2)" "Rock/Region 1/Young modulus=20 GPa"
+      "Rock/Region 1/Random field/Properties=none"
+  EXPECT "final/load = 1226560.5787813177 within 1e-10" ${exact})
+# The same on 1, 2 and 4 ranks.
+foreach(ranks 2 4)
+  stockwork_same_test(NAME rock/random/ranks_${ranks} DECK tests/rock/random_bar.prm RANKS 1,${ranks} TOLERANCE 1e-10
+    IGNORE balance_error LABELS quick SET "Mesh/Uniform refinements=3")
+endforeach()
+
+# A fracture that grows through such rock, on a mesh that is refined ahead of it.
+set(random "Rock/Critical energy release rate=31.25 J/m^2" "Rock/Fracture toughness="
+  "Rock/Random field/Properties=Young modulus, tensile strength, critical energy release rate"
+  "Rock/Random field/Weibull modulus=10" "Rock/Random field/Lattice spacing=1 m")
+set(tough "Fracture/Model=damage" "Fracture/cohesive_xfem/Cell size=0" "Fracture/cohesive_xfem/Elastic share=0.01"
+  "Fracture/damage/Cell size=0.5 m")
+foreach(model cohesive_xfem damage)
+  set(of_model ${random})
+  if(model STREQUAL "damage")
+    list(APPEND of_model ${tough})
+  endif()
+  stockwork_same_test(NAME rock/random/${model}/ranks DECK tests/data/growing_fracture.prm SET ${of_model}
+    RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error)
+  stockwork_restart_test(NAME rock/random/${model}/restart DECK tests/data/growing_fracture.prm SET ${of_model}
+    RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error INTERRUPT_SET "Time/End time=4 s" "Checkpoint/Steps between=5")
+  # As m grows, uniform rock.
+  stockwork_same_test(NAME rock/random/${model}/uniform DECK tests/data/growing_fracture.prm SET ${of_model}
+    "Rock/Random field/Weibull modulus=1e300" TOLERANCE 1e-12 IGNORE balance_error
+    SECOND_SET "Rock/Random field/Properties=" "Rock/Random field/Weibull modulus="
+      "Rock/Random field/Lattice spacing=")
+endforeach()
+stockwork_same_test(NAME rock/random/porous/uniform DECK tests/contract/rock.prm LABELS quick TOLERANCE 1e-12
+  IGNORE balance_error
+  SET "Verification/Reference=none" "Rock/Random field/Properties=Young modulus, permeability"
+      "Rock/Random field/Weibull modulus=1e300" "Rock/Random field/Lattice spacing=1 m"
+  SECOND_SET "Rock/Random field/Properties=" "Rock/Random field/Weibull modulus=" "Rock/Random field/Lattice spacing=")
