@@ -32,7 +32,7 @@ double uniform_of(const std::uint64_t key)
 
 
 /// Cells per correlation length.
-constexpr double fewest_cells = 2., most_cells = 10.;
+constexpr double fewest_cells = 2., most_cells = 5.;
 } // namespace
 
 
@@ -79,7 +79,7 @@ void RandomField::declare_parameters(ParameterHandler &prm, const bool is_region
     "Correlation length", "", Quantity(dimension::length, Range::non_negative(), ""),
     text("Correlation length",
          "l: normal deviates at the distance r, from which the factors follow, are "
-         "correlated by exp(-r^2/l^2). Two to ten spacings of the lattice. Empty or "
+         "correlated by exp(-r^2/l^2). Two to five spacings of the lattice. Empty or "
          "0: each cell of the lattice is independent of the others."));
   prm.declare_entry("Seed", is_region ? "" : "1", Quantity(dimension::number, Range::finite(), ""),
                     text("Seed", "A whole number >= 0; another seed is another rock."));
@@ -133,7 +133,7 @@ void RandomField::parse_parameters(ParameterHandler &prm,
       refuse("Lattice spacing", "a length > 0 m, such as '1 m'" + why);
     if (length > 0. && (length < fewest_cells * spacing * (1. - 1e-9) ||
                         length > most_cells * spacing * (1. + 1e-9)))
-      refuse("Correlation length", "0, or two to ten spacings of the lattice (of " +
+      refuse("Correlation length", "0, or two to five spacings of the lattice (of " +
                                      stockwork::to_string(spacing, dimension::length) + ")");
   }
   set_weights();
