@@ -15,6 +15,16 @@ stockwork_case_test(NAME rock/random/bar/layers DECK tests/rock/random_bar.prm L
   SET "Mesh/Region boxes=1: (8, 0) to (16, 2)" "Rock/Region 1/Young modulus=20 GPa"
       "Rock/Region 1/Random field/Properties=none"
   EXPECT "final/load = 1226560.5787813177 within 1e-10" ${exact})
+stockwork_case_test(NAME rock/random/bar/3d DECK tests/rock/random_bar.prm LABELS quick
+  SET "Dimension=3" "Mesh/Box/Upper corner=16 m, 2 m, 2 m" "Mesh/Box/Z spacing=1 cells"
+      "Boundary conditions/Roller=left, bottom, front"
+  EXPECT "final/load = 1729206.509637244 within 1e-10" ${exact})
+# Steady flow up a column whose permeability varies along it: the pressure falls by 1/f_i from cell to cell, and what the
+# pores hold at constant total stress is linear in it (factors of random_bar.py, seed 1, one column of the lattice).
+stockwork_case_test(NAME rock/random/column DECK tests/rock/permeability.prm LABELS quick
+  SET "Rock/Permeability decay stress=" "Rock/Random field/Properties=permeability"
+      "Rock/Random field/Weibull modulus=2" "Rock/Random field/Lattice spacing=1.25 m"
+  EXPECT "final/pore_volume = -0.05590304665939001 within 1e-10" "warnings == 0")
 # The same on 1, 2 and 4 ranks.
 foreach(ranks 2 4)
   stockwork_same_test(NAME rock/random/ranks_${ranks} DECK tests/rock/random_bar.prm RANKS 1,${ranks} TOLERANCE 1e-10
@@ -47,3 +57,9 @@ stockwork_same_test(NAME rock/random/porous/uniform DECK tests/contract/rock.prm
   SET "Verification/Reference=none" "Rock/Random field/Properties=Young modulus, permeability"
       "Rock/Random field/Weibull modulus=1e300" "Rock/Random field/Lattice spacing=1 m"
   SECOND_SET "Rock/Random field/Properties=" "Rock/Random field/Weibull modulus=" "Rock/Random field/Lattice spacing=")
+
+# What is said before the run.
+stockwork_rock_audit_test(random tests/rock/random_bar.prm "random rock: mean +0\\.886 .*Young modulus: Weibull, m = 2, .*seed 3")
+stockwork_rock_audit_test(random_regions tests/rock/random_bar.prm "random rock: mean, region 1 +0\\.951 .*seed 5"
+  --set "Mesh/Region boxes=1: (8, 0) to (16, 2)" --set "Rock/Region 1/Random field/Weibull modulus=10"
+  --set "Rock/Region 1/Random field/Seed=5")
