@@ -114,7 +114,7 @@ def main():
     parser.add_argument("--n", type=whole_from(1), default=10, help="scenes of each family")
     parser.add_argument("--first", type=whole_from(0), default=0, help="number of the first scene")
     parser.add_argument("--seed", type=whole_from(0), default=1)
-    parser.add_argument("--model", default="cohesive_xfem", choices=("cohesive_xfem", "peridynamics"))
+    parser.add_argument("--model", default="cohesive_xfem", choices=("cohesive_xfem", "damage", "peridynamics"))
     parser.add_argument("--km-from", type=positive, default=0.5)
     parser.add_argument("--km-to", type=positive, default=8.)
     parser.add_argument("--wing", type=positive, default=42., help="length of a wing at the end, in cells")

@@ -17,7 +17,8 @@
 An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
 (`errors/pore_pressure/final`), or is `rates/COLUMN` of statistics.csv, its growth per time in the
 second half of the run, or `minimum/COLUMN` or `maximum/COLUMN`, of all steps, or
-`closure/QUANTITY` of contrib/closure.py; OP is one of
+`closure/QUANTITY` of contrib/closure.py, or `direction`, the slope of the fractures' diagonal in
+degrees; OP is one of
 < <= > >= ==, or = which needs the relative TOLERANCE;
 VALUE is a number or another path. A list stands for its length (`warnings == 0`), and what is
 missing, null or not finite fails.
@@ -207,6 +208,9 @@ def run_case(runner, options):
         summary["maximum"] = {name: max(column) for name, column in columns.items() if column}
     if any(e.path.startswith("closure/") for e in expectations):
         summary["closure"] = closure(read_statistics(runner.output("run")))[0]
+    if any(e.path == "direction" for e in expectations):
+        final = summary["final"]
+        summary["direction"] = math.degrees(math.atan2(final["extent_y"], final["extent_x"]))
     failed = check_all(expectations, summary)
     failed += [f"no warning says '{text}', but {summary['warnings']}" for text in options.warns
                if not any(text in warning for warning in summary["warnings"])]

@@ -94,7 +94,7 @@ def deck(scene, model="cohesive_xfem", seed=0, number=0):
     stressed = scene.along or scene.across
     return DECK.format(
         about=scene.describe(), family=scene.family, seed=seed, number=number, scene=scene, model=model,
-        elements="\nsubsection Discretisation\n  set Elements = Q1-Q1 stabilised\nend\n" if bonds else "",
+        elements="\nsubsection Discretisation\n  set Elements = Q1-Q1 stabilised\nend\n" if model != "cohesive_xfem" else "",
         lower=reach[0] * scene.cell, upper=reach[1] * scene.cell, cell=scene.cell, growth=GROWTH,
         low=low * scene.cell, high=high * scene.cell, notch=notch * scene.cell,
         in_situ=IN_SITU.format(*scene.stress) if stressed else "",

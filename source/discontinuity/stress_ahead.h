@@ -29,8 +29,8 @@ struct RockAhead
   double pore_pressure = 0.;              ///< with that in situ [Pa]
 };
 
-/// Averages over the cells without a crack in each half disc with the weight exp(-4 r^2/R^2) (Wells and
-/// Sluys 2001). The same on all ranks.
+/// Averages over the cells without a crack in each half disc with the weight exp(-4 r^2/R^2) (Wells
+/// and Sluys 2001). The same on all ranks.
 /// @param is_cracked whether a cell, by active cell index, is left out
 template <int dim>
 std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &discs,

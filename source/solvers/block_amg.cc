@@ -28,12 +28,14 @@ public:
   BlockTriangular(const SystemOperator &op,
                   const MPI_Comm communicator,
                   const DisplacementMultigrid &displacement,
+                  const PatchSolver &patch,
                   const ExtraSchur &extra,
                   const AMG &pressure,
                   const double pressure_unit)
     : op(op)
     , communicator(communicator)
     , displacement(displacement)
+    , patch(patch)
     , extra(extra)
     , pressure(pressure)
     , pressure_unit(pressure_unit)
@@ -72,12 +74,14 @@ public:
       }
     }
     displacement.vmult(z.bulk.block(0), r.bulk.block(0));
+    patch.correct(z.bulk.block(0), r.bulk.block(0));
   }
 
 private:
   const SystemOperator &op;
   MPI_Comm communicator;
   const DisplacementMultigrid &displacement;
+  const PatchSolver &patch;
   const ExtraSchur &extra;
   const AMG &pressure;
   double pressure_unit;
@@ -89,6 +93,7 @@ BlockAmgSolver::BlockAmgSolver(const LinearSolverParameters &parameters,
                                const MPI_Comm communicator)
   : parameters(parameters)
   , communicator(communicator)
+  , patch(communicator)
   , extra(communicator,
           [this](const auto &left, const auto &right) { return multiply(left, right); })
 {
@@ -175,6 +180,12 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   if (op.n_extra() > 0)
     // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
     extra.update(op, op.border(), stiffness->m(), true);
+  if (system.rock_change != nullptr)
+    // In two dimensions a factor is never too dear.
+    patch.build(system.bulk.block(0, 0), system.rock_change->block(0, 0),
+                system.displacement_hierarchy.dim == 3 ? parameters.direct_below : system.bulk.m());
+  else
+    patch.clear();
   built_for = stamps;
   report.setup_seconds = stopwatch.seconds();
 
@@ -184,7 +195,8 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   SystemVector dx = op.make_vector();
   const auto iterate = [&]()
   {
-    BlockTriangular preconditioner(op, communicator, displacement, extra, pressure, schur_unit);
+    BlockTriangular preconditioner(op, communicator, displacement, patch, extra, pressure,
+                                   schur_unit);
     solve_by_krylov(op, communicator, std::ref(preconditioner), limits, dx, report);
   };
   iterate();

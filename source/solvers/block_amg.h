@@ -5,6 +5,7 @@
 #include "solvers/displacement_multigrid.h"
 #include "solvers/extra_schur.h"
 #include "solvers/linear_solver.h"
+#include "solvers/patch_solver.h"
 
 namespace stockwork
 {
@@ -19,7 +20,8 @@ namespace stockwork
 /// with one multigrid cycle each for K and for S_p, the fixed-stress approximation of the Schur
 /// complement (White, Castelletto & Tchelepi 2016), and S_a dense (ExtraSchur). The products with
 /// K^-1 in it are Krylov solutions of their own, computed once for each extra unknown, for K is the
-/// same in all steps.
+/// same in all steps. Where rock yields, the cycle for K is followed by a factor of the rows that
+/// do (PatchSolver).
 class BlockAmgSolver : public LinearSolver
 {
 public:
@@ -30,7 +32,7 @@ public:
     return true;
   }
 
-  bool sees_rock_change(dealii::types::global_dof_index) const override
+  bool sees_rock_change(const LinearSystem &, const SystemStamps &) const override
   {
     return true;
   }
@@ -52,6 +54,7 @@ private:
   MPI_Comm communicator;
 
   DisplacementMultigrid displacement;
+  PatchSolver patch;
   dealii::TrilinosWrappers::PreconditionAMG pressure;
   dealii::TrilinosWrappers::SparseMatrix schur; ///< positive, in units of its largest entry
   double schur_unit = 1.;

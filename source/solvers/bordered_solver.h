@@ -20,7 +20,8 @@ namespace stockwork
 /// iteration then takes two back-substitutions and one dense factorisation. Where few rows of A
 /// have changed since it was factorised (bonds broke), the factor is kept as well (Woodbury):
 /// A + E dA is A with one more extra unknown f = dA u per changed row. In porous rock A changes
-/// with the time step.
+/// with the time step. Of rock that yields, the change is taken along by iterations between the
+/// unknowns that it touches, with the same factor.
 class BorderedSolver : public LinearSolver
 {
 public:
@@ -32,12 +33,16 @@ public:
                      dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                      std::vector<double> &dx_extra) override;
 
+  /// Where the bulk is definite, and its factor at hand has a LocalInverse.
+  bool sees_rock_change(const LinearSystem &system, const SystemStamps &stamps) const override;
+
   /// Where the bulk is definite and unchanged since it was factorised.
   std::unique_ptr<CondensedSystem>
   condense(const LinearSystem &system, const SystemStamps &stamps, double tolerance) override;
 
 private:
   class Condensed;
+  class LocalTangent;
 
   /// Whether there is a factor, of this bulk or of an earlier one on the same mesh.
   bool has_factor(const LinearSystem &system, const SystemStamps &stamps) const;
@@ -72,6 +77,14 @@ private:
                  const SystemVector &r,
                  SystemVector &dx,
                  bool skip_bulk_load);
+
+  /// dx -= (J + rock change)^-1 r, up to a residual of that size, by iterations between the
+  /// unknowns that the change touches. Returns how many.
+  unsigned int eliminate_tangent(const SystemOperator &op,
+                                 const SystemOperator::Border &border,
+                                 const SystemVector &r,
+                                 double allowed,
+                                 SystemVector &dx);
 
   MPI_Comm communicator;
   bool is_root;

@@ -24,9 +24,16 @@ public:
                     std::vector<int> &rows,
                     std::vector<double> &values,
                     std::vector<double> &x) override;
+  std::unique_ptr<LocalInverse> local_inverse(const std::vector<int> &unknowns) const override;
+  bool has_local_inverse() const override
+  {
+    return true;
+  }
   int size() const override;
 
 private:
+  class Local;
+
   std::unique_ptr<CholmodFactor> factor;
 };
 } // namespace stockwork

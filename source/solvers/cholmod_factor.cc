@@ -2,7 +2,20 @@
 
 #include "stockwork/base/error.h"
 
+#include <deal.II/lac/lapack_templates.h>
+
 #include <algorithm>
+#include <numeric>
+
+/// BLAS: x <- A^-1 x, A triangular.
+extern "C" void dtrsv_(const char *triangle,
+                       const char *transposed,
+                       const char *unit_diagonal,
+                       const int *n,
+                       const double *a,
+                       const int *leading_dimension,
+                       double *x,
+                       const int *step);
 
 namespace stockwork
 {
@@ -103,6 +116,7 @@ void CholmodFactor::analyse(const int n,
   if (std::is_sorted(places.begin(), places.end()))
     places = {};
 
+  common.supernodal = CHOLMOD_SUPERNODAL;
   if (last.empty())
     factor = cholmod_analyze(matrix, &common);
   else
@@ -110,7 +124,6 @@ void CholmodFactor::analyse(const int n,
     std::vector<int> member(last), order(n);
     if (!cholmod_camd(matrix, nullptr, 0, member.data(), order.data(), &common))
       fail("ordering the matrix");
-    common.supernodal = CHOLMOD_SUPERNODAL;
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
     factor = cholmod_analyze_p(matrix, order.data(), nullptr, 0, &common);
@@ -159,5 +172,107 @@ std::vector<int> CholmodFactor::places_in_factor() const
   for (int k = 0; k < size(); ++k)
     result[order[k]] = k;
   return result;
+}
+
+
+std::vector<int> CholmodFactor::all_supernodes() const
+{
+  std::vector<int> all(factor->nsuper);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+
+std::vector<int> CholmodFactor::path_to_root(const std::vector<int> &unknowns) const
+{
+  const int *const super = static_cast<int *>(factor->super),
+                   *const pi = static_cast<int *>(factor->pi),
+                   *const s = static_cast<int *>(factor->s);
+  const int n_supernodes = static_cast<int>(factor->nsuper);
+  std::vector<int> supernode(size());
+  for (int k = 0; k < n_supernodes; ++k)
+    std::fill(supernode.begin() + super[k], supernode.begin() + super[k + 1], k);
+  std::vector<char> passed(n_supernodes, 0);
+  const std::vector<int> place = places_in_factor();
+  for (const int unknown : unknowns)
+    for (int k = supernode[place[unknown]]; k >= 0 && !passed[k];)
+    {
+      passed[k] = 1;
+      const int n_columns = super[k + 1] - super[k];
+      k = pi[k] + n_columns < pi[k + 1] ? supernode[s[pi[k] + n_columns]] : -1;
+    }
+  std::vector<int> path;
+  for (int k = 0; k < n_supernodes; ++k)
+    if (passed[k])
+      path.push_back(k);
+  return path;
+}
+
+
+double CholmodFactor::entries(const std::vector<int> &supernodes) const
+{
+  const int *const super = static_cast<int *>(factor->super), *const pi =
+                                                                static_cast<int *>(factor->pi);
+  double sum = 0.;
+  for (const int k : supernodes)
+    sum += static_cast<double>(super[k + 1] - super[k]) * (pi[k + 1] - pi[k]);
+  return sum;
+}
+
+
+void CholmodFactor::forward(const std::vector<int> &supernodes, double *const x) const
+{
+  const int *const super = static_cast<int *>(factor->super),
+                   *const pi = static_cast<int *>(factor->pi),
+                   *const px = static_cast<int *>(factor->px),
+                   *const s = static_cast<int *>(factor->s);
+  const double *const values = static_cast<double *>(factor->x);
+  const char lower = 'L', as_is = 'N';
+  const int step = 1;
+  const double one = 1., zero = 0.;
+  std::vector<double> below(factor->maxesize);
+  for (const int k : supernodes)
+  {
+    const int n_columns = super[k + 1] - super[k], n_rows = pi[k + 1] - pi[k],
+              n_below = n_rows - n_columns;
+    const double *const block = values + px[k];
+    double *const here = x + super[k];
+    dtrsv_(&lower, &as_is, &as_is, &n_columns, block, &n_rows, here, &step);
+    if (n_below == 0)
+      continue;
+    dealii::gemv(&as_is, &n_below, &n_columns, &one, block + n_columns, &n_rows, here, &step, &zero,
+                 below.data(), &step);
+    const int *const rows = s + pi[k] + n_columns;
+    for (int i = 0; i < n_below; ++i)
+      x[rows[i]] -= below[i];
+  }
+}
+
+
+void CholmodFactor::backward(const std::vector<int> &supernodes, double *const x) const
+{
+  const int *const super = static_cast<int *>(factor->super),
+                   *const pi = static_cast<int *>(factor->pi),
+                   *const px = static_cast<int *>(factor->px),
+                   *const s = static_cast<int *>(factor->s);
+  const double *const values = static_cast<double *>(factor->x);
+  const char lower = 'L', as_is = 'N', transposed = 'T';
+  const int step = 1;
+  const double one = 1., minus_one = -1.;
+  std::vector<double> below(factor->maxesize);
+  for (auto k = supernodes.rbegin(); k != supernodes.rend(); ++k)
+  {
+    const int n_columns = super[*k + 1] - super[*k], n_rows = pi[*k + 1] - pi[*k],
+              n_below = n_rows - n_columns;
+    const double *const block = values + px[*k];
+    double *const here = x + super[*k];
+    const int *const rows = s + pi[*k] + n_columns;
+    for (int i = 0; i < n_below; ++i)
+      below[i] = x[rows[i]];
+    if (n_below > 0)
+      dealii::gemv(&transposed, &n_below, &n_columns, &minus_one, block + n_columns, &n_rows,
+                   below.data(), &step, &one, here, &step);
+    dtrsv_(&lower, &transposed, &as_is, &n_columns, block, &n_rows, here, &step);
+  }
 }
 } // namespace stockwork

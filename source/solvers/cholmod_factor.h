@@ -36,8 +36,33 @@ public:
   /// The place of each unknown in the order of the factor.
   std::vector<int> places_in_factor() const;
 
-  /// Call use(row, column, value) for each entry of L, in the order of the factor. After analyse()
-  /// with `last`, which makes the factor supernodal.
+  /// The supernodes of L, which are blocks of columns of one pattern, ascending.
+  std::vector<int> all_supernodes() const;
+
+  /// Those that hold these unknowns, and all that lie on their way to the root of the elimination
+  /// tree: where L^-1 b is not zero if b is on these unknowns alone, and all that L^-T asks for
+  /// their values (Gilbert & Peierls 1988).
+  std::vector<int> path_to_root(const std::vector<int> &unknowns) const;
+
+  /// How many numbers these supernodes hold.
+  double entries(const std::vector<int> &supernodes) const;
+
+  /// x <- L^-1 x, x in the order of the factor, zero outside of these supernodes.
+  void forward(const std::vector<int> &supernodes, double *x) const;
+
+  /// x <- L^-T x on these supernodes.
+  void backward(const std::vector<int> &supernodes, double *x) const;
+
+  /// Call use(first, last) for the columns of these supernodes.
+  template <class Function>
+  void for_each_range(const std::vector<int> &supernodes, const Function &use) const
+  {
+    const int *const super = static_cast<int *>(factor->super);
+    for (const int k : supernodes)
+      use(super[k], super[k + 1]);
+  }
+
+  /// Call use(row, column, value) for each entry of L, in the order of the factor.
   template <class Function>
   void for_each_entry(const Function &use) const
   {

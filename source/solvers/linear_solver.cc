@@ -24,8 +24,10 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "multigrid, and such a system for the fracture; for large three-dimensional "
     "problems. auto: iterative above a size in 3-D, else bordered, and direct in porous "
     "rock without a fracture.");
-  prm.declare_entry("Direct below", "30000", Integer(0),
-                    "Number of bulk unknowns in 3-D up to which auto chooses the direct solver.");
+  prm.declare_entry(
+    "Direct below", "30000", Integer(0),
+    "Number of bulk unknowns in 3-D up to which auto chooses the direct solver, and "
+    "of rows that yield up to which multigrid is helped by a factor of these.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
   prm.declare_entry("Restart", "50", Integer(2), "Basis vectors FGMRES keeps before a restart.");
   prm.leave_subsection();
@@ -65,9 +67,10 @@ public:
     return dim == 3 && n_dofs > parameters.direct_below;
   }
 
-  bool sees_rock_change(const dealii::types::global_dof_index n_dofs) const override
+  bool sees_rock_change(const LinearSystem &system, const SystemStamps &stamps) const override
   {
-    return wants_hierarchy(n_dofs);
+    return wants_hierarchy(system.residual_bulk.size()) ||
+           (system.elastic && bordered && bordered->sees_rock_change(system, stamps));
   }
 
   LinearReport solve(const LinearSystem &system,

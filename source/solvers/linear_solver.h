@@ -96,9 +96,8 @@ public:
     return false;
   }
 
-  /// Whether solve() takes LinearSystem::rock_change along, of a system with that many bulk
-  /// unknowns; its preconditioner then is that of linear rock.
-  virtual bool sees_rock_change(dealii::types::global_dof_index /*n_dofs*/) const
+  /// Whether solve() takes LinearSystem::rock_change along; what it keeps stays linear rock's.
+  virtual bool sees_rock_change(const LinearSystem & /*system*/, const SystemStamps &) const
   {
     return false;
   }

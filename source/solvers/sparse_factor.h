@@ -1,11 +1,41 @@
 #pragma once
 
+#include <deal.II/lac/vector.h>
+
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace stockwork
 {
+/// The inverse of a factorised matrix A = L L^T between a few unknowns, by substitutions that visit
+/// only what these unknowns reach in the factor. Unknowns count from zero. On one rank.
+class LocalInverse
+{
+public:
+  virtual ~LocalInverse() = default;
+
+  /// L^-1 b, in the order of the factor, of a load on all unknowns.
+  virtual std::vector<double> forward(const double *b) const = 0;
+
+  /// x = L^-T half, back in the order of the unknowns.
+  virtual void backward(std::vector<double> half, double *x) const = 0;
+
+  /// half += L^-1 y, y a load on the few unknowns.
+  virtual void add_forward(const dealii::Vector<double> &y, std::vector<double> &half) const = 0;
+
+  /// The few values of L^-T half.
+  virtual void backward_to_few(const std::vector<double> &half,
+                               dealii::Vector<double> &x) const = 0;
+
+  /// x = A^-1 y between the few unknowns.
+  virtual void vmult(dealii::Vector<double> &x, const dealii::Vector<double> &y) const = 0;
+
+  /// What that costs, over a substitution with all unknowns.
+  virtual double cost() const = 0;
+};
+
 /// A factor of a sparse matrix, whose pattern is ordered once and whose values change. Indices
 /// count from one.
 class SparseFactor
@@ -40,6 +70,16 @@ public:
                                                       const SparseVectors & /*right*/)
   {
     return {};
+  }
+
+  /// See LocalInverse; valid until the factor is another. Null: not with this one.
+  virtual std::unique_ptr<LocalInverse> local_inverse(const std::vector<int> & /*unknowns*/) const
+  {
+    return nullptr;
+  }
+  virtual bool has_local_inverse() const
+  {
+    return false;
   }
 
   virtual int size() const = 0;

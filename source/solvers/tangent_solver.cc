@@ -176,6 +176,7 @@ LinearReport TangentSolver::solve(LinearSystem &system,
     ++tangent_stamps.extra_values;
   };
 
+  const bool by_multigrid = linear->wants_hierarchy(system.residual_bulk.size());
   SystemVector dx;
   LinearReport report;
   const auto add_iterations = [&](const LinearReport &now)
@@ -195,10 +196,10 @@ LinearReport TangentSolver::solve(LinearSystem &system,
   // has said whether it loads or unloads, the linear rock gives the direction.
   try
   {
-    if (linear->sees_rock_change(system.bulk.m()) && !tangent_is_good)
+    if (!tangent_is_good && linear->sees_rock_change(system, stamps))
     {
       report = linear->solve(system, stamps, tolerance, dx_bulk, dx_extra);
-      if (report.converged)
+      if (report.converged || (by_multigrid && report.is_good_enough()))
         return report;
     }
     else

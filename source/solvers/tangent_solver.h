@@ -10,9 +10,10 @@ namespace stockwork
 {
 /// For rock that may leave its linear range. LinearSystem::bulk is that of linear rock, whose
 /// factor or hierarchy lasts; LinearSystem::rock_change, where there is one, is what the tangent of
-/// a few cells adds to it. The sum is solved by FGMRES with the solver of the linear system as
-/// preconditioner: as many iterations as the change asks for, a back-substitution each. Where that
-/// takes too many, the tangent is factorised and preconditions the solves that follow.
+/// a few cells adds to it. The sum is solved by the solver of the linear system, if that takes the
+/// change along, else by FGMRES with it as preconditioner: as many iterations as the change asks
+/// for, a back-substitution each. Where that takes too many, the tangent is factorised and
+/// preconditions the solves that follow.
 class TangentSolver
 {
 public:

@@ -43,6 +43,7 @@ const Entry table[] = {
   {"kgd carter", reference::make_kgd_carter, nullptr},
   {"kgd box", reference::make_kgd_box, nullptr},
   {"radial", nullptr, reference::make_radial},
+  {"pkn", nullptr, reference::make_pkn},
   {"line source", reference::make_sources<2>, nullptr, false, true},
   {"point source", nullptr, reference::make_sources<3>, false, true},
 };
@@ -79,7 +80,8 @@ void declare_reference_parameters(ParameterHandler &prm)
     "toughness and viscosity; "
     "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
     "the rollers of the domain all round. radial (3-D): circular, at the deck's own toughness and "
-    "viscosity. line source, point source (3-D): wells into the rock, far from its sides.");
+    "viscosity. pkn (3-D): between layers that hold it. line source, point source (3-D): wells "
+    "into the rock, far from its sides.");
   prm.declare_entry("Wrong factors", "", Patterns::List(Patterns::Double()),
                     "For tests that a comparison can fail: the reference times each of these "
                     "numbers, separated by commas, is compared with as well (summary.json, "
@@ -93,6 +95,8 @@ void declare_reference_parameters(ParameterHandler &prm)
   prm.declare_entry("Footing width", "", Quantity(dimension::length, Range::positive(), ""),
                     "footing: that part of the strip's width which is in the model. Required "
                     "there.");
+  prm.declare_entry("Fracture height", "", Quantity(dimension::length, Range::positive(), ""),
+                    "pkn: height between the layers that hold the fracture. Required there.");
   prm.declare_entry("Elastic share", "0.01", Quantity(dimension::number, Range::open(0., 1.)),
                     "double cantilever: opening of the layer at its strength over the opening "
                     "without traction; the fracture model's.");

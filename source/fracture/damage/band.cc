@@ -26,10 +26,9 @@ void Band<dim>::setup(const MeshView<dim> &new_mesh_view)
 template <int dim>
 void Band<dim>::add(const std::vector<CrackCell<dim>> &more)
 {
-  const unsigned int first = cells.size();
-  cells.insert(cells.end(), more.begin(), more.end());
-  link(first);
-  embed(first);
+  std::vector<CrackCell<dim>> all = cells;
+  all.insert(all.end(), more.begin(), more.end());
+  replace(all);
 }
 
 
@@ -40,29 +39,35 @@ void Band<dim>::replace(const std::vector<CrackCell<dim>> &others)
   cuts.clear();
   by_index.clear();
   owned_cells.clear();
-  open_faces.clear();
-  link(0);
-  embed(0);
+  link_neighbours();
+  all_motions.clear();
+  first_unknowns.clear();
+  unsigned int n = 0;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    all_motions.push_back(motions_of(i));
+    first_unknowns.push_back(n);
+    n += all_motions.back().size();
+  }
+  if (mesh_view && !cells.empty())
+    embed();
 }
 
 
 template <int dim>
-void Band<dim>::embed(const unsigned int first)
+void Band<dim>::embed()
 {
-  if (!mesh_view || first == cells.size())
-    return;
   std::unordered_map<std::uint64_t, unsigned int> wanted;
-  dealii::BoundingBox<dim> box(std::make_pair(cells[first].centre(), cells[first].centre()));
-  for (unsigned int i = first; i < cells.size(); ++i)
+  dealii::BoundingBox<dim> box(std::make_pair(cells[0].centre(), cells[0].centre()));
+  for (unsigned int i = 0; i < cells.size(); ++i)
   {
     wanted[cells[i].key()] = i;
     box.merge_with(dealii::BoundingBox<dim>(std::make_pair(cells[i].centre(), cells[i].centre())));
   }
-  box.extend(1e-6 * cells[first].size());
+  box.extend(1e-6 * cells[0].size());
 
   const dealii::FE_Q<dim> vertex_functions(1);
-  const dealii::QGauss<dim> quadrature(
-    mesh_view->dof_handler.get_fe().base_element(0).degree + 1);
+  const dealii::QGauss<dim> quadrature(mesh_view->dof_handler.get_fe().base_element(0).degree + 1);
   dealii::FEValues<dim> values(mesh_view->mapping, vertex_functions, quadrature,
                                dealii::update_values | dealii::update_gradients |
                                  dealii::update_quadrature_points | dealii::update_JxW_values);
@@ -85,6 +90,17 @@ void Band<dim>::embed(const unsigned int first)
 }
 
 
+namespace
+{
+/// Whether a motion has a component.
+template <int dim>
+bool moves(const Motion<dim> &motion, const unsigned int component)
+{
+  return motion.base[component] != 0. || motion.turn[component].norm_square() > 0.;
+}
+} // namespace
+
+
 template <int dim>
 void Band<dim>::make_cut(const unsigned int i,
                          const CellIterator &cell,
@@ -96,14 +112,19 @@ void Band<dim>::make_cut(const unsigned int i,
   cut = CutCell<dim>();
   cut.points = values.get_quadrature().get_points();
   cut.weights = values.get_JxW_values();
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    cut.extra.push_back(dim * i + d);
-    cut.component.push_back(d);
-  }
+  // One column for each motion and component.
+  for (unsigned int k = 0; k < motions(i).size(); ++k)
+    for (unsigned int d = 0; d < dim; ++d)
+      if (moves(motions(i)[k], d))
+      {
+        cut.extra.push_back(first_unknown(i) + k);
+        cut.component.push_back(d);
+      }
+  const Point<dim> middle = crack.middle();
   for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
   {
-    double value = crack.normal * (values.quadrature_point(q) - crack.on_plane) > 0. ? 1. : 0.;
+    const Tensor<1, dim> place = values.quadrature_point(q) - middle;
+    double value = crack.normal * place > 0. ? 1. : 0.;
     Tensor<1, dim> gradient;
     for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
       if (crack.is_on_plus_side(v))
@@ -111,9 +132,44 @@ void Band<dim>::make_cut(const unsigned int i,
         value -= values.shape_value(v, q);
         gradient -= values.shape_grad(v, q);
       }
-    cut.values.insert(cut.values.end(), dim, value);
-    cut.gradients.insert(cut.gradients.end(), dim, gradient);
+    for (const Motion<dim> &motion : motions(i))
+      for (unsigned int d = 0; d < dim; ++d)
+        if (moves(motion, d))
+        {
+          cut.values.push_back(value * motion.at(place)[d]);
+          cut.gradients.push_back(motion.at(place)[d] * gradient + value * motion.turn[d]);
+        }
   }
+}
+
+
+template <int dim>
+std::vector<Motion<dim>> Band<dim>::motions_of(const unsigned int i) const
+{
+  const CrackCell<dim> &crack = cells[i];
+  const Tensor<1, dim> &n = crack.normal;
+  std::vector<Motion<dim>> result(dim);
+  for (unsigned int d = 0; d < dim; ++d)
+    result[d].base[d] = 1.;
+  // An opening that changes along the crack by one over the size of the cell.
+  if (linear && crack.is_cut_evenly())
+    for (const Tensor<1, dim> &axis : crack.axes())
+      result.push_back(
+        {Tensor<1, dim>(), (outer_product(n, axis) - outer_product(axis, n)) / crack.size()});
+  return result;
+}
+
+
+template <int dim>
+std::array<Tensor<1, dim>, CrackCell<dim>::n_points>
+Band<dim>::jumps(const unsigned int i, const std::vector<double> &extra) const
+{
+  std::array<Tensor<1, dim>, CrackCell<dim>::n_points> result;
+  const auto points = cells[i].points();
+  for (unsigned int q = 0; q < points.size(); ++q)
+    for (unsigned int k = 0; k < motions(i).size(); ++k)
+      result[q] += extra[first_unknown(i) + k] * motions(i)[k].at(points[q]);
+  return result;
 }
 
 
@@ -167,26 +223,25 @@ template <int dim>
 std::vector<ExtraUnknown> Band<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> all;
-  all.reserve(dim * cells.size());
-  for (const CrackCell<dim> &crack : cells)
-    for (unsigned int d = 0; d < dim; ++d)
-      all.push_back({crack.key() + 1 + d});
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    for (unsigned int k = 0; k < motions(i).size(); ++k)
+      all.push_back({cells[i].key() + 1 + k});
   return all;
 }
 
 
 template <int dim>
-void Band<dim>::link(const unsigned int first)
+void Band<dim>::link_neighbours()
 {
+  std::unordered_map<std::uint64_t, std::pair<unsigned int, unsigned int>> faces; // by place
   links.resize(cells.size());
-  for (unsigned int i = first; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < cells.size(); ++i)
   {
     links[i].fill(none);
     for (unsigned int f = 0; f < n_faces; ++f)
     {
-      const std::uint64_t place =
-        Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
-      const auto [other, is_new] = open_faces.emplace(place, std::make_pair(i, f));
+      const std::uint64_t place = Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
+      const auto [other, is_new] = faces.emplace(place, std::make_pair(i, f));
       if (is_new)
         continue;
       const auto [j, g] = other->second;
@@ -211,19 +266,21 @@ bool Band<dim>::is_front(const unsigned int i) const
 
 namespace
 {
-/// Extent of a face in the direction in which a crack meets it [m].
-double edge_length(const CrackCell<3> &crack, const unsigned int face)
+/// Extent of a face in the direction in which two cracks on its sides meet it, which is the same
+/// seen from either [m].
+double edge_length(const CrackCell<3> &crack, const CrackCell<3> &other, const unsigned int face)
 {
   const Point<3> centre = crack.face_centre(face);
+  const Tensor<1, 3> normal =
+    crack.normal + (crack.normal * other.normal < 0. ? -1. : 1.) * other.normal;
   Tensor<1, 3> edge =
-    dealii::cross_product_3d(crack.normal, Tensor<1, 3>(centre - crack.centre()));
-  edge /= edge.norm();
+    dealii::cross_product_3d(normal, Tensor<1, 3>(other.centre() - crack.centre()));
+  edge /= std::max(edge.norm(), 1e-300); // zero: the crack meets no line of the face
   double low = 0., high = 0.;
   for (unsigned int v = 0; v < dealii::GeometryInfo<3>::vertices_per_face; ++v)
   {
     const double place =
-      edge *
-      (crack.vertices[dealii::GeometryInfo<3>::face_to_cell_vertices(face, v)] - centre);
+      edge * (crack.vertices[dealii::GeometryInfo<3>::face_to_cell_vertices(face, v)] - centre);
     low = std::min(low, place);
     high = std::max(high, place);
   }
@@ -231,7 +288,7 @@ double edge_length(const CrackCell<3> &crack, const unsigned int face)
 }
 
 
-double edge_length(const CrackCell<2> &, const unsigned int)
+double edge_length(const CrackCell<2> &, const CrackCell<2> &, const unsigned int)
 {
   return 1.;
 }
@@ -248,9 +305,9 @@ void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) cons
       // Lengths along the crack and not along the stairs of cells.
       const Tensor<1, dim> to_face = crack.face_centre(f) - segment.centre;
       const double along = (to_face - (to_face * crack.normal) * crack.normal).norm();
-      segment.neighbours.push_back({cells[links[i][f]].key(),
-                                    std::max(along, 0.05 * crack.size()),
-                                    edge_length(crack, f)});
+      const CrackCell<dim> &other = cells[links[i][f]];
+      segment.neighbours.push_back(
+        {other.key(), std::max(along, 0.05 * crack.size()), edge_length(crack, other, f)});
     }
 }
 
@@ -278,8 +335,8 @@ void Band<dim>::add_pore_pressure(const Owned &owned, Segment<dim> &segment) con
 
 
 template <int dim>
-std::vector<Segment<dim>> Band<dim>::segments(
-  const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
+std::vector<Segment<dim>>
+Band<dim>::segments(const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
 {
   std::vector<Segment<dim>> all;
   for (const Owned &owned : owned_cells)
@@ -294,7 +351,7 @@ std::vector<Segment<dim>> Band<dim>::segments(
     add_neighbours(owned.number, segment);
     for (unsigned int d = 0; d < dim; ++d)
     {
-      segment.opening.extra.push_back(dim * owned.number + d);
+      segment.opening.extra.push_back(first_unknown(owned.number) + d);
       segment.opening.extra_coefficients.push_back(crack.normal[d]);
     }
     segment.pore_pressure.constant = in_situ_pore_pressure(segment.centre);

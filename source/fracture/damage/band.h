@@ -16,9 +16,23 @@
 
 namespace stockwork::damage
 {
-/// All cracked cells, and what they are on the mesh: the extra functions of the bulk, one jump for
-/// each cell, and the segments of the fluid. The list is the same on every rank, in the order in
-/// which cells have cracked, so that the jump of cell i is unknowns dim i to dim i + dim - 1.
+/// A motion of one side of a crack against the other as a rigid body: base + turn (x - middle), the
+/// matrix antisymmetric, so that it strains nothing.
+template <int dim>
+struct Motion
+{
+  dealii::Tensor<1, dim> base;
+  dealii::Tensor<2, dim> turn;
+
+  dealii::Tensor<1, dim> at(const dealii::Tensor<1, dim> &place) const
+  {
+    return base + turn * place;
+  }
+};
+
+/// All cracked cells, and what they are on the mesh: the extra functions of the bulk, and the
+/// segments of the fluid. The list is the same on every rank, in the order in which cells have
+/// cracked, and so are the unknowns.
 template <int dim>
 class Band
 {
@@ -53,13 +67,37 @@ public:
 
   std::vector<ExtraUnknown> unknowns() const;
 
+  /// @param linear whether a jump may change in its cell
+  explicit Band(const bool linear)
+    : linear(linear)
+  {
+  }
+
+  /// What the unknowns of a cell do to its plus side against the minus side: the mean jump and,
+  /// where it is linear, how the opening changes along each of CrackCell::axes() over the cell's
+  /// size: all [m]. A single vertex on one side of the crack does not know how this side turns.
+  const std::vector<Motion<dim>> &motions(const unsigned int i) const
+  {
+    return all_motions[i];
+  }
+
+  unsigned int first_unknown(const unsigned int i) const
+  {
+    return first_unknowns[i];
+  }
+
+  /// The mean over the cell [m].
   dealii::Tensor<1, dim> jump(const unsigned int i, const std::vector<double> &extra) const
   {
     dealii::Tensor<1, dim> a;
     for (unsigned int d = 0; d < dim; ++d)
-      a[d] = extra[dim * i + d];
+      a[d] = extra[first_unknown(i) + d];
     return a;
   }
+
+  /// At each of CrackCell::points() [m].
+  std::array<dealii::Tensor<1, dim>, CrackCell<dim>::n_points>
+  jumps(const unsigned int i, const std::vector<double> &extra) const;
 
   /// Null: the cell is whole, or another rank's.
   const CutCell<dim> *cut_cell(const unsigned int active_cell_index) const
@@ -96,11 +134,11 @@ public:
   segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
 
 private:
-  /// Find the cells from this number on.
-  void embed(unsigned int first);
+  /// Find the cells on the mesh.
+  void embed();
 
-  /// Find neighbours of the cells from this number on.
-  void link(unsigned int first);
+  void link_neighbours();
+  std::vector<Motion<dim>> motions_of(unsigned int i) const;
 
   void make_cut(unsigned int i, const CellIterator &cell, dealii::FEValues<dim> &values);
 
@@ -108,12 +146,14 @@ private:
 
   void add_pore_pressure(const Owned &owned, Segment<dim> &segment) const;
 
+  const bool linear;
   std::unique_ptr<MeshView<dim>> mesh_view;
-  std::unordered_map<unsigned int, CutCell<dim>> cuts;    ///< by active cell index
+  std::vector<std::vector<Motion<dim>>> all_motions; ///< of each cell
+  std::vector<unsigned int> first_unknowns;
+  std::unordered_map<unsigned int, CutCell<dim>> cuts;     ///< by active cell index
   std::unordered_map<unsigned int, unsigned int> by_index; ///< active cell index to number
   std::vector<Owned> owned_cells;
   std::vector<std::array<unsigned int, n_faces>> links;
-  std::unordered_map<std::uint64_t, std::pair<unsigned int, unsigned int>> open_faces; ///< by place
 };
 
 /// The cell, with the crack's plane given, but not yet parted.

@@ -80,6 +80,46 @@ double CrackCell<dim>::volume() const
 
 
 template <int dim>
+std::array<Tensor<1, dim>, dim - 1> CrackCell<dim>::axes() const
+{
+  std::array<Tensor<1, dim>, dim - 1> t;
+  if constexpr (dim == 2)
+    t[0] = dealii::cross_product_2d(normal);
+  else
+  {
+    // The edge that lies least along the normal.
+    double least = 2.;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      Tensor<1, dim> edge = vertices[1u << d] - vertices[0];
+      edge /= edge.norm();
+      if (std::abs(edge * normal) < least - 1e-6)
+      {
+        least = std::abs(edge * normal);
+        t[0] = edge - (edge * normal) * normal;
+      }
+    }
+    t[0] /= t[0].norm();
+    t[1] = dealii::cross_product_3d(normal, t[0]);
+  }
+  return t;
+}
+
+
+template <int dim>
+std::array<Tensor<1, dim>, CrackCell<dim>::n_points> CrackCell<dim>::points() const
+{
+  const auto t = axes();
+  const double reach = 0.5 * std::pow(area(), 1. / (dim - 1)) / std::sqrt(3.);
+  std::array<Tensor<1, dim>, n_points> result;
+  for (unsigned int q = 0; q < n_points; ++q)
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      result[q] += ((q >> k) & 1 ? reach : -reach) * t[k];
+  return result;
+}
+
+
+template <int dim>
 double CrackCell<dim>::size() const
 {
   return std::pow(volume(), 1. / dim);

@@ -20,20 +20,24 @@ namespace stockwork::damage
 /// -sym(a grad phi) to that of the nodes. Two bodies that move apart as they are then leave no
 /// stress in the cells between them, along whatever stairs these lie; a strain -sym(a n)/h, which
 /// is what a damaged stiffness makes of it, would leave some wherever n is not normal to the mesh.
+/// The jump may be that of a rigid body that turns as well, and this is still so (Linder and Armero
+/// 2007 call such jumps linear).
 template <int dim>
 struct CrackCell
 {
   static constexpr unsigned int n_vertices = 1 << dim;
+  static constexpr unsigned int n_points = 1 << (dim - 1);
 
   dealii::CellId id;
   dealii::types::material_id region = 0;
   std::array<dealii::Point<dim>, n_vertices> vertices;
-  dealii::Tensor<1, dim> normal;   ///< unit, to the plus side; fixed once cracked
-  dealii::Point<dim> on_plane;     ///< a point of the crack in or near the cell
-  unsigned int plus = 0;           ///< vertices on the plus side, one bit each
-  double greatest = 0.;            ///< committed: equivalent opening reached [m]
-  double carried = 0.;             ///< committed: normal traction of faces that touch [Pa]
-  double reached = 1.;             ///< committed: share to which the fluid has come
+  dealii::Tensor<1, dim> normal; ///< unit, to the plus side; fixed once cracked
+  dealii::Point<dim> on_plane;   ///< a point of the crack in or near the cell
+  unsigned int plus = 0;         ///< vertices on the plus side, one bit each
+  /// At each of points(), committed: equivalent opening reached [m], and normal traction of faces
+  /// that touch [Pa].
+  std::array<double, n_points> greatest{}, carried{};
+  double reached = 1.;       ///< committed: share to which the fluid has come
   bool bare = false;         ///< no strength was left behind it when it cracked, nor a process zone
   unsigned int boundary = 0; ///< faces on the domain's boundary, one bit each
 
@@ -58,6 +62,15 @@ struct CrackCell
     return plus != 0 && plus != (1u << n_vertices) - 1;
   }
 
+  /// Whether each side has as many vertices as the other, so that these know how the sides turn.
+  bool is_cut_evenly() const
+  {
+    unsigned int n = 0;
+    for (unsigned int v = 0; v < n_vertices; ++v)
+      n += is_on_plus_side(v);
+    return 2 * n == n_vertices;
+  }
+
   /// Put the vertices on the sides of the plane through on_plane; those on it on the minus side.
   void part_by_plane();
 
@@ -73,6 +86,19 @@ struct CrackCell
     return volume() / area();
   }
 
+  /// Middle of the crack in the cell: its centre, moved onto the plane.
+  dealii::Point<dim> middle() const
+  {
+    const dealii::Point<dim> c = centre();
+    return c - ((c - on_plane) * normal) * normal;
+  }
+
+  /// Unit vectors along the crack, along the cell's edges as far as possible.
+  std::array<dealii::Tensor<1, dim>, dim - 1> axes() const;
+
+  /// Points of the crack, from middle(), that share its area: Gauss points of a square.
+  std::array<dealii::Tensor<1, dim>, n_points> points() const;
+
   /// Length of a side [m].
   double size() const;
 
@@ -86,7 +112,8 @@ struct CrackCell
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &id &region &vertices &normal &on_plane &plus &greatest &carried &reached &bare &boundary;
+    ar &id &region &vertices &normal &on_plane &plus &greatest;
+    ar &carried &reached &bare &boundary;
   }
 
 private:

@@ -1,9 +1,5 @@
 #include "fracture/damage/damage.h"
 
-#include "mesh/geometry.h"
-
-#include <deal.II/base/mpi.h>
-
 #include <boost/serialization/vector.hpp>
 
 #include "stockwork/base/error.h"
@@ -14,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace stockwork::damage
@@ -42,10 +39,22 @@ template <int dim>
 Damage<dim>::Damage(const Parameters &parameters, const Scene<dim> &scene)
   : parameters(parameters)
   , scene(scene)
+  , band(parameters.linear_jumps)
 {
   if (!(scene.rock.main().energy_release_rate > 0.))
     throw InputError("The damage model needs the rock's energy release rate G_c (Rock / Energy "
                      "release rate, or Fracture toughness).");
+  if (const RockProperties &rock = scene.rock.main();
+      std::abs(rock.shear_energy_release_rate - rock.energy_release_rate) >
+      1e-6 * rock.energy_release_rate)
+  {
+    std::ostringstream given;
+    given << rock.shear_energy_release_rate << " J/m^2";
+    throw EntryError(
+      "Rock/Shear energy release rate", given.str(),
+      "nothing (an empty entry), or the critical one, with 'Fracture/Model = damage', "
+      "whose cracks have one energy, whatever the mode");
+  }
   if (scene.cracks.empty())
     throw InputError("The damage model needs an initial crack or notch to grow from.");
   for (const auto &crack : scene.cracks)
@@ -94,7 +103,8 @@ void Damage<dim>::choose_strength(const dealii::types::material_id region, const
   else if (strength > most)
   {
     message << "Cells of " << size << " m are too large for a tensile strength of " << strength
-            << " Pa: it is lowered to " << most << " Pa, and the energy of fracture stays. Cells of "
+            << " Pa: it is lowered to " << most
+            << " Pa, and the energy of fracture stays. Cells of "
             << 0.25 * modulus * energy / (strength * strength) << " m would resolve it.";
     strength = most;
   }
@@ -149,12 +159,13 @@ void Damage<dim>::start(const Collectives &collectives)
                        "a crack that is longer than half a cell; this one passes none");
     for (CrackCell<dim> &cell : passed)
     {
-      if (std::any_of(all.begin(), all.end(), [&](const auto &other) { return other.id == cell.id; }))
+      if (std::any_of(all.begin(), all.end(),
+                      [&](const auto &other) { return other.id == cell.id; }))
         continue;
       if (laws.count(cell.region) == 0)
         choose_strength(cell.region, cell.size());
       if (crack.kind == InitialCrack<dim>::Kind::open)
-        cell.greatest = law(cell).critical;
+        cell.greatest.fill(law(cell).critical);
       all.push_back(cell);
     }
   }
@@ -170,16 +181,27 @@ void Damage<dim>::begin_step(const StepContext &)
   n_advances = 0;
   needs_mesh = false;
   n_messages_before = messages.size();
+  laws_before = laws;
 }
 
 
 template <int dim>
 typename Damage<dim>::Touch Damage<dim>::touch(const CrackCell<dim> &crack,
+                                               const unsigned int point,
                                                const double opening) const
 {
   const double stiffness = contact_stiffness * rock_stiffness(crack);
-  const double traction = std::min(crack.carried + stiffness * opening, 0.);
+  const double traction = std::min(crack.carried[point] + stiffness * opening, 0.);
   return {traction, traction < 0. ? stiffness : 0.};
+}
+
+
+template <int dim>
+SeamResponse<dim> Damage<dim>::seam(const CrackCell<dim> &crack,
+                                    const unsigned int point,
+                                    const Tensor<1, dim> &jump) const
+{
+  return law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest[point]);
 }
 
 
@@ -187,29 +209,39 @@ template <int dim>
 void Damage<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
 {
   LocalSystem local;
-  std::vector<Tensor<1, dim>> jumps(dim);
-  for (unsigned int d = 0; d < dim; ++d)
-    jumps[d][d] = 1.;
   for (const auto &owned : band.owned())
   {
     const CrackCell<dim> &crack = band.cells[owned.number];
-    const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    const double area = crack.area();
-    const SeamResponse<dim> seam =
-      law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest);
-    const Touch touching = touch(crack, jump * crack.normal);
+    const std::vector<Motion<dim>> &motions = band.motions(owned.number);
     local.extra.clear();
-    for (unsigned int d = 0; d < dim; ++d)
-      local.extra.push_back(dim * owned.number + d);
-    local.reinit();
-    add_released_traction<dim>(scene, crack.centre(), crack.normal, area, jumps, local.residual);
-    const Tensor<1, dim> traction = seam.traction + touching.traction * crack.normal;
-    for (unsigned int i = 0; i < dim; ++i)
+    std::vector<Tensor<1, dim>> at_middle;
+    for (unsigned int k = 0; k < motions.size(); ++k)
     {
-      local.residual(i) += area * traction[i];
-      for (unsigned int j = 0; j < dim; ++j)
-        local.matrix(i, j) = area * (seam.tangent[i][j] +
-                                     touching.slope * crack.normal[i] * crack.normal[j]);
+      local.extra.push_back(band.first_unknown(owned.number) + k);
+      at_middle.push_back(motions[k].base);
+    }
+    local.reinit();
+    const double area = crack.area(), share = area / CrackCell<dim>::n_points;
+    add_released_traction<dim>(scene, crack.middle(), crack.normal, area, at_middle,
+                               local.residual);
+    const auto points = crack.points();
+    const auto jumps = band.jumps(owned.number, state.current.extra);
+    std::vector<Tensor<1, dim>> moved(motions.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      for (unsigned int k = 0; k < motions.size(); ++k)
+        moved[k] = motions[k].at(points[q]);
+      const SeamResponse<dim> held = seam(crack, q, jumps[q]);
+      const Touch touching = touch(crack, q, jumps[q] * crack.normal);
+      const Tensor<1, dim> traction = held.traction + touching.traction * crack.normal;
+      for (unsigned int i = 0; i < moved.size(); ++i)
+      {
+        local.residual(i) += share * (traction * moved[i]);
+        for (unsigned int j = 0; j < moved.size(); ++j)
+          local.matrix(i, j) +=
+            share * (moved[i] * (held.tangent * moved[j]) +
+                     touching.slope * (moved[i] * crack.normal) * (moved[j] * crack.normal));
+      }
     }
     sink.add(local);
   }
@@ -229,15 +261,19 @@ bool Damage<dim>::press_faces(const State &state)
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     CrackCell<dim> &crack = band.cells[i];
-    if (crack.greatest < law(crack).critical)
-      continue; // a seam that still holds would be torn when this pressure goes
-    const double gap = band.jump(i, state.current.extra) * crack.normal;
-    const Touch touching = touch(crack, gap);
-    if (touching.traction == 0. || std::abs(gap) <= 0.005 * opening ||
-        std::abs(gap) * touching.slope <= -0.01 * touching.traction)
-      continue;
-    crack.carried = touching.traction;
-    pressed = true;
+    const auto jumps = band.jumps(i, state.current.extra);
+    for (unsigned int q = 0; q < jumps.size(); ++q)
+    {
+      if (crack.greatest[q] < law(crack).critical)
+        continue; // a seam that still holds would be torn when this pressure goes
+      const double gap = std::abs(jumps[q] * crack.normal);
+      const Touch touching = touch(crack, q, jumps[q] * crack.normal);
+      if (touching.traction == 0. || gap <= 0.005 * opening ||
+          gap * touching.slope <= -0.01 * touching.traction)
+        continue;
+      crack.carried[q] = touching.traction;
+      pressed = true;
+    }
   }
   n_presses += pressed;
   return pressed;
@@ -251,14 +287,19 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     CrackCell<dim> &crack = band.cells[i];
-    const Tensor<1, dim> jump = band.jump(i, state.current.extra);
-    greatest_opening = std::max(greatest_opening, jump * crack.normal);
-    crack.reached = std::max(crack.reached, reached_share(i, state));
-    crack.greatest =
-      law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest).greatest;
-    crack.carried = crack.greatest >= law(crack).critical
-                      ? touch(crack, jump * crack.normal).traction
-                      : 0.;
+    const auto jumps = band.jumps(i, state.current.extra);
+    greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
+    crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
+    for (unsigned int q = 0; q < jumps.size(); ++q)
+    {
+      const double before = crack.greatest[q];
+      crack.greatest[q] = seam(crack, q, jumps[q]).greatest;
+      dissipated += crack.area() / CrackCell<dim>::n_points *
+                    (law(crack).dissipation(crack.greatest[q]) - law(crack).dissipation(before));
+      crack.carried[q] = crack.greatest[q] >= law(crack).critical
+                           ? touch(crack, q, jumps[q] * crack.normal).traction
+                           : 0.;
+    }
   }
   committed = band.cells;
   waits_for_mesh = needs_mesh;
@@ -270,6 +311,7 @@ template <int dim>
 void Damage<dim>::rollback()
 {
   band.replace(committed);
+  laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
   all_segments = band.segments(scene.in_situ_pore_pressure);
@@ -287,47 +329,12 @@ std::vector<std::string> Damage<dim>::take_messages()
 
 
 template <int dim>
-void Damage<dim>::wanted_cell_size(
-  const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-  std::vector<float> &sizes) const
-{
-  if (!mesh_view)
-  {
-    if (parameters.cell_size > 0.)
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto &crack : scene.cracks)
-            if (crack.distance(cell->center()) <
-                0.5 * cell->diameter() + parameters.rings_ahead * parameters.cell_size)
-              sizes[cell->active_cell_index()] =
-                std::min(sizes[cell->active_cell_index()], static_cast<float>(parameters.cell_size));
-    return;
-  }
-  // A crack passes cells of one level only. TODO cells far from the front need fewer rings
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const Point<dim> centre = cell->center();
-      float &size = sizes[cell->active_cell_index()];
-      for (const CrackCell<dim> &crack : band.cells)
-      {
-        const double h = crack.size();
-        if (centre.distance(crack.centre()) < parameters.rings_ahead * h + 0.5 * cell->diameter())
-          size = std::min(size, static_cast<float>(std::ldexp(
-                                  cell_size(cell), cell->level() -
-                                                     int(crack.id.get_child_indices().size()))));
-      }
-    }
-}
-
-
-template <int dim>
 void Damage<dim>::save(boost::archive::binary_oarchive &archive) const
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
   for (const auto &[region, law] : laws)
     strengths.emplace_back(region, law.strength);
-  archive << committed << strengths << started << waits_for_mesh << greatest_opening;
+  archive << committed << strengths << started << waits_for_mesh << greatest_opening << dissipated;
 }
 
 
@@ -335,7 +342,7 @@ template <int dim>
 void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
-  archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening;
+  archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening >> dissipated;
   laws.clear();
   for (const auto &[region, strength] : strengths)
     laws[region] = law_of(scene.rock(region), strength);
@@ -355,18 +362,21 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &) co
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     const CrackCell<dim> &crack = band.cells[i];
-    const SeamLaw &seam = law(crack);
-    const double area = crack.area();
-    const Tensor<1, dim> jump = band.jump(i, state.current.extra);
-    if (crack.greatest > seam.start)
-      result.length += area * crack.reached;
-    if (crack.greatest >= seam.critical)
-      result.broken_length += area;
+    const SeamLaw &of_rock = law(crack);
+    const double share = crack.area() / CrackCell<dim>::n_points;
+    const auto jumps = band.jumps(i, state.current.extra);
+    for (unsigned int q = 0; q < jumps.size(); ++q)
+    {
+      // What has a crack but still holds is intact rock.
+      if (crack.greatest[q] > of_rock.start)
+        result.length += share * crack.reached;
+      if (crack.greatest[q] >= of_rock.critical)
+        result.broken_length += share;
+      result.stored_energy += 0.5 * share * (seam(crack, q, jumps[q]).traction * jumps[q]);
+    }
     result.n_tips += dim == 2 && band.is_front(i);
-    const auto response = seam.template evaluate<dim>(crack.normal, jump, crack.greatest);
-    result.stored_energy += 0.5 * area * (response.traction * jump);
-    result.dissipated_energy += area * seam.dissipation(crack.greatest);
   }
+  result.dissipated_energy = dissipated;
   return result;
 }
 
@@ -380,13 +390,14 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
     const CrackCell<dim> &crack = band.cells[owned.number];
     const unsigned int index = owned.cell->active_cell_index();
     const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    damage[index] = law(crack).damage(crack.greatest, rock_stiffness(crack));
+    const double mean =
+      std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
+    damage[index] = law(crack).damage(mean, rock_stiffness(crack));
     opening[index] = jump * crack.normal;
     if constexpr (dim == 2)
     {
-      const Tensor<1, dim> along({crack.normal[1], -crack.normal[0]});
-      const Point<dim> centre =
-        crack.centre() - ((crack.centre() - crack.on_plane) * crack.normal) * crack.normal;
+      const Tensor<1, dim> along = crack.axes()[0];
+      const Point<dim> centre = crack.middle();
       std::vector<std::pair<std::string, double>> values{
         {"aperture", opening[index]}, {"slip", jump * along}, {"damage", damage[index]}};
       if (state.segment_pressure)
@@ -409,7 +420,7 @@ namespace
 template <int dim>
 std::unique_ptr<Damage<dim>> create(dealii::ParameterHandler &prm, const Scene<dim> &scene)
 {
-  return std::make_unique<Damage<dim>>(Parameters::parse(prm), scene);
+  return std::make_unique<Damage<dim>>(Parameters::parse(prm, dim), scene);
 }
 } // namespace
 

@@ -89,7 +89,11 @@ private:
   {
     double traction = 0., slope = 0.;
   };
-  Touch touch(const CrackCell<dim> &crack, double opening) const;
+  Touch touch(const CrackCell<dim> &crack, unsigned int point, double opening) const;
+
+  /// What the rock carries across the crack at one of its points.
+  SeamResponse<dim>
+  seam(const CrackCell<dim> &crack, unsigned int point, const dealii::Tensor<1, dim> &jump) const;
 
   /// Whether faces overlap too much, which then carry more: the step is to be solved again.
   bool press_faces(const State &);
@@ -112,9 +116,10 @@ private:
   /// The same on all ranks, in the same order.
   std::vector<Candidate> candidates(const Collectives &collectives) const;
 
-  /// Share of a front cell to which the fluid has come: all of it, unless there is suction in it, as
-  /// in viscous fluid, and the rock is bare to there. Then from what it and its neighbour hold, with
-  /// the opening x^(2/3) of such a tip (Desroches et al. 1994).
+  /// Share of a front cell to which the fluid has come, above 1 where it would be beyond. It is
+  /// there, unless there is suction in it, as in viscous fluid, and the rock is bare to there. Then
+  /// from what it and its neighbour hold, with the opening x^(2/3) of such a tip (Desroches et al.
+  /// 1994).
   double reached_share(unsigned int number, const State &state) const;
 
   /// In-situ compression across a cracked cell [Pa].
@@ -147,10 +152,12 @@ private:
   bool started = false;         ///< a step has been accepted
   bool waits_for_mesh = false;  ///< cells ahead were of another size
   double greatest_opening = 0.; ///< of all cells so far [m]
+  double dissipated = 0.;       ///< since the start [J], [J/m] in 2-D
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
   bool needs_mesh = false;
   std::size_t n_messages_before = 0;
+  std::map<dealii::types::material_id, SeamLaw> laws_before; ///< so that what was said is said again
 };
 } // namespace stockwork::damage

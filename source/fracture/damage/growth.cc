@@ -27,9 +27,10 @@ Damage<dim>::candidates(const Collectives &collectives) const
       mine.push_back({describe<dim>(neighbour), {owned.number}, {f}, fits});
     }
   std::vector<Candidate> all = collectives.gather(mine);
-  std::sort(all.begin(), all.end(), [](const Candidate &a, const Candidate &b)
-            { return a.cell.id < b.cell.id ||
-                     (a.cell.id == b.cell.id && a.behind[0] < b.behind[0]); });
+  std::sort(all.begin(), all.end(),
+            [](const Candidate &a, const Candidate &b) {
+              return a.cell.id < b.cell.id || (a.cell.id == b.cell.id && a.behind[0] < b.behind[0]);
+            });
   std::vector<Candidate> merged;
   for (const Candidate &one : all)
     if (!merged.empty() && merged.back().cell.id == one.cell.id)
@@ -52,8 +53,8 @@ void Damage<dim>::crack(Candidate &candidate, const Tensor<1, dim> &across) cons
   for (unsigned int k = 0; k < candidate.behind.size(); ++k)
   {
     const CrackCell<dim> &other = band.cells[candidate.behind[k]];
-    of_others += (other.normal * band.cells[candidate.behind[0]].normal < 0. ? -1. : 1.) *
-                 other.normal;
+    of_others +=
+      (other.normal * band.cells[candidate.behind[0]].normal < 0. ? -1. : 1.) * other.normal;
     entry += other.crossing(candidate.faces_behind[k]) / double(candidate.behind.size());
   }
   cell.normal = across * of_others < 0. ? -across : across;
@@ -85,10 +86,11 @@ double Damage<dim>::closing_stress(const CrackCell<dim> &crack) const
 template <int dim>
 double Damage<dim>::reached_share(const unsigned int number, const State &state) const
 {
+  constexpr double full = std::numeric_limits<double>::infinity();
   const CrackCell<dim> &crack = band.cells[number];
   if (!crack.bare || !state.segment_pressure || !std::isnan(scene.crack_pressure) ||
       !band.is_front(number) || state.segment_pressure(crack.key()) >= closing_stress(crack))
-    return 1.;
+    return full;
   const auto held = [&](const unsigned int i)
   {
     const CrackCell<dim> &cell = band.cells[i];
@@ -106,7 +108,7 @@ double Damage<dim>::reached_share(const unsigned int number, const State &state)
     return 0.;
   // With w ~ x^(2/3) at the distance x from the front, V ~ x^(5/3) is beyond any place.
   const double ratio = std::pow(own / (own + next), 0.6);
-  return std::min(1., next_area / crack.area() * ratio / (1. - ratio));
+  return next_area / crack.area() * ratio / (1. - ratio);
 }
 
 
@@ -119,11 +121,13 @@ typename Damage<dim>::Behind Damage<dim>::look_behind(const Candidate &candidate
   for (const unsigned int number : candidate.behind)
   {
     const CrackCell<dim> &crack = band.cells[number];
-    const SeamLaw &seam = law(crack);
-    const double reached =
-      seam.evaluate(crack.normal, band.jump(number, state.current.extra), crack.greatest).greatest;
-    result.opens |= reached > seam.start;
-    result.broken |= reached >= seam.critical;
+    const auto jumps = band.jumps(number, state.current.extra);
+    for (unsigned int q = 0; q < jumps.size(); ++q)
+    {
+      const double greatest = seam(crack, q, jumps[q]).greatest;
+      result.opens |= greatest > law(crack).start;
+      result.broken |= greatest >= law(crack).critical;
+    }
     result.reached = std::max(result.reached, reached_share(number, state));
     if (!state.segment_pressure)
       continue;
@@ -197,14 +201,19 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
     const double strength = law(candidate.cell).strength;
     // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
     // exceeds the strength there would be no end to it. Where it does so by far, there is no
-    // process zone worth the name.
-    if (!behind.opens || (!behind.broken && behind.net > 10. * strength))
+    // process zone worth the name. A dry crack goes on at the threshold: the seam's compliance
+    // ahead of the damage counts.
+    if ((!behind.opens && behind.pressure != 0.) || (!behind.broken && behind.net > 10. * strength))
       continue;
     // Suction at the front and the tension ahead, both many times the strength, leave a difference
     // that tells nothing: there the fluid has to have arrived.
-    if (behind.reached < 0.8)
+    if (behind.reached < 1.)
       continue;
-    const double drive = dealii::eigenvalues(averages[2 * i].stress)[0] + behind.pressure;
+    const Tensor<1, dim> &straight_on = band.cells[candidate.behind[0]].normal;
+    const auto &stress = averages[2 * i].stress;
+    const double drive =
+      behind.pressure +
+      (parameters.straight ? straight_on * (stress * straight_on) : dealii::eigenvalues(stress)[0]);
     if (drive < parameters.growth_threshold * strength * (1. - 1e-6))
       continue;
     if (n_advances >= parameters.most_advances)
@@ -218,7 +227,9 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       verdict.held_back = true;
       continue;
     }
-    crack(candidate, rounded(dealii::eigenvectors(averages[2 * i + 1].stress)[0].second));
+    crack(candidate, parameters.straight
+                       ? straight_on
+                       : rounded(dealii::eigenvectors(averages[2 * i + 1].stress)[0].second));
     candidate.cell.bare = behind.broken;
     candidate.cell.reached = behind.broken ? 0. : 1.;
     if (candidate.cell.is_cut() && candidate.cell.area() > 0.)

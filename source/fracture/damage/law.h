@@ -12,9 +12,9 @@ namespace stockwork::damage
 template <int dim>
 struct SeamResponse
 {
-  dealii::Tensor<1, dim> traction;          ///< on the plus side [Pa]
-  dealii::SymmetricTensor<2, dim> tangent;  ///< by the jump [Pa/m]
-  double greatest = 0.; ///< equivalent opening reached, the history to be [m]
+  dealii::Tensor<1, dim> traction;         ///< on the plus side [Pa]
+  dealii::SymmetricTensor<2, dim> tangent; ///< by the jump [Pa/m]
+  double greatest = 0.;                    ///< equivalent opening reached, the history to be [m]
 };
 
 /// The law of a crack in a band of cells (Bazant and Oh 1983), written for the opening and not for
@@ -87,8 +87,7 @@ struct SeamLaw
   /// curve and the line back to the origin.
   double dissipation(const double greatest) const
   {
-    return 0.5 * strength * critical *
-           std::clamp((greatest - start) / (critical - start), 0., 1.);
+    return 0.5 * strength * critical * std::clamp((greatest - start) / (critical - start), 0., 1.);
   }
 
   /// D of the whole cell, by which it is softer across than the intact rock: crack and rock in

@@ -27,11 +27,19 @@ void Parameters::declare(dealii::ParameterHandler &prm)
     "Wanted size of the cells along the crack and ahead of it [m]; zero: that of the given mesh.");
   prm.declare_entry("Rings ahead", "6", dealii::Patterns::Integer(1),
                     "Cells of this size kept ready around the crack's front.");
+  prm.declare_entry("Jump", "auto", dealii::Patterns::Selection("auto|constant|linear"),
+                    "How the opening varies in a cell. A constant one resists where the opening "
+                    "changes along the crack, and fails where the rock beside it bends: a beam, a "
+                    "shallow crack. auto: linear in two, constant in three dimensions, where it "
+                    "costs two more unknowns in each cell.");
+  prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
+                    "Cracks go straight on when the stress across their plane is enough, whatever "
+                    "the stress along it: for a weak seam, or the joint of two beams.");
   prm.declare_entry("Growth", "true", dealii::Patterns::Bool(), "Whether cracks may grow.");
 }
 
 
-Parameters Parameters::parse(dealii::ParameterHandler &prm)
+Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int dim)
 {
   Parameters p;
   p.elastic_share = get_quantity(prm, "Elastic share", dimension::number);
@@ -41,7 +49,9 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm)
   p.most_advances = prm.get_integer("Most advances per step");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.rings_ahead = prm.get_integer("Rings ahead");
+  p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
+  p.linear_jumps = prm.get("Jump") == "linear" || (prm.get("Jump") == "auto" && dim == 2);
   return p;
 }
 } // namespace stockwork::damage

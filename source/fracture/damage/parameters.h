@@ -14,10 +14,12 @@ struct Parameters
   unsigned int most_advances; ///< cells by which the front may advance in a step
   double cell_size;           ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;   ///< cells of that size ahead of the front
+  bool straight;              ///< cracks keep their normal
   bool growth;
+  bool linear_jumps; ///< else constant in a cell
 
   static void declare(dealii::ParameterHandler &prm);
 
-  static Parameters parse(dealii::ParameterHandler &prm);
+  static Parameters parse(dealii::ParameterHandler &prm, unsigned int dim);
 };
 } // namespace stockwork::damage

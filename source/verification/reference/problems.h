@@ -37,6 +37,7 @@ Made<2> make_footing(const dealii::ParameterHandler &prm, const ReferenceInput<2
 template <int dim>
 Made<dim> make_sources(const dealii::ParameterHandler &prm, const ReferenceInput<dim> &input);
 Made<3> make_penny_crack(const dealii::ParameterHandler &prm, const ReferenceInput<3> &input);
+Made<3> make_pkn(const dealii::ParameterHandler &prm, const ReferenceInput<3> &input);
 Made<3> make_radial(const dealii::ParameterHandler &prm, const ReferenceInput<3> &input);
 
 /// Share of the first disc among the cracks that planes of symmetry leave in the model.

@@ -1,0 +1,113 @@
+#include "fracture/damage/damage.h"
+#include "mesh/geometry.h"
+
+#include <deal.II/numerics/rtree.h>
+
+#include <cmath>
+#include <set>
+
+namespace stockwork::damage
+{
+using dealii::Point;
+
+namespace
+{
+/// Places around which cells of one size are wanted.
+template <int dim>
+class Surroundings
+{
+public:
+  Surroundings(const std::vector<Point<dim>> &places, const double reach)
+    : tree(dealii::pack_rtree(places))
+    , reach(reach)
+  {
+  }
+
+  /// Whether a cell comes closer than the reach to any of them.
+  bool include(const Point<dim> &centre, const double radius) const
+  {
+    std::vector<Point<dim>> nearest;
+    tree.query(boost::geometry::index::nearest(centre, 1), std::back_inserter(nearest));
+    return !nearest.empty() && nearest[0].distance(centre) < reach + radius;
+  }
+
+private:
+  dealii::RTree<Point<dim>> tree;
+  double reach;
+};
+} // namespace
+
+
+/// A crack passes cells of one level only: those along it, and ahead of its front more of them than
+/// it needs, in blocks, so that they are not asked for anew whenever it has grown by a cell; a
+/// change of the mesh costs all that has been computed with the old one.
+template <int dim>
+void Damage<dim>::wanted_cell_size(
+  const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+  std::vector<float> &sizes) const
+{
+  const auto ask = [&](const unsigned int cell, const double wanted)
+  { sizes[cell] = std::min(sizes[cell], static_cast<float>(wanted)); };
+  if (!mesh_view)
+  {
+    if (parameters.cell_size > 0.)
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const auto &crack : scene.cracks)
+            if (crack.distance(cell->center()) <
+                0.5 * cell->diameter() + parameters.rings_ahead * parameters.cell_size)
+              ask(cell->active_cell_index(), parameters.cell_size);
+    return;
+  }
+
+  double h = 0.;
+  unsigned int level = 0;
+  for (const CrackCell<dim> &crack : band.cells)
+  {
+    h = std::max(h, crack.size());
+    level = std::max<unsigned int>(level, crack.id.get_child_indices().size());
+  }
+  // In three dimensions cells are dearer than another mesh now and then.
+  const double block = (dim == 2 ? 2. : 1.) * parameters.rings_ahead * h;
+  std::vector<Point<dim>> along;
+  std::set<std::array<long, dim>> blocks;
+  for (unsigned int i = 0; i < band.cells.size(); ++i)
+  {
+    const Point<dim> centre = band.cells[i].centre();
+    along.push_back(centre);
+    if (!parameters.growth || !band.is_front(i))
+      continue;
+    std::array<long, dim> index;
+    for (unsigned int d = 0; d < dim; ++d)
+      index[d] = std::lround(centre[d] / block);
+    blocks.insert(index);
+  }
+  std::vector<Point<dim>> ahead;
+  for (const auto &index : blocks)
+  {
+    Point<dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = block * index[d];
+    ahead.push_back(place);
+  }
+  const Surroundings<dim> of_cells(along, 1.5 * h),
+    of_front(ahead, 0.5 * parameters.rings_ahead * h + 0.5 * std::sqrt(double(dim)) * block);
+  // It is the level that is asked for: on a mesh whose cells grow, the size would differ from cell
+  // to cell and leave hanging nodes on the way.
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->level() < static_cast<int>(level))
+    {
+      const Point<dim> centre = cell->center();
+      const double radius = 0.5 * cell->diameter();
+      if (of_cells.include(centre, radius) || of_front.include(centre, radius))
+        ask(cell->active_cell_index(),
+            std::ldexp(cell_size(cell), cell->level() - static_cast<int>(level)));
+    }
+}
+
+
+template void Damage<2>::wanted_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
+                                          std::vector<float> &) const;
+template void Damage<3>::wanted_cell_size(const dealii::parallel::distributed::Triangulation<3> &,
+                                          std::vector<float> &) const;
+} // namespace stockwork::damage

@@ -1,0 +1,107 @@
+# Bands of damaged cells; doc/cases says what each resolution reaches. Behind each bound, what was seen.
+# A cell of a bar, pulled apart with two unloadings, takes G_c, 100 J/m^2 times 0.5 m, whatever its size and the
+# steps; the work of the bar's end knows nothing of the law.
+set(deck tests/data/damaged_bar.prm)
+set(apart "final/dissipated_energy = 50 within 1e-9" "final/external_work = 50 within 2e-4" # 4e-5
+  "final/energy_balance_error < 2e-4" "final/broken_length = 0.5 within 1e-12" "final/peak_load = 500e3 within 0.01")
+stockwork_case_test(NAME convergence/damage/bar DECK ${deck} LABELS quick EXPECT ${apart})
+foreach(cells 2 3 11)
+  stockwork_case_test(NAME convergence/damage/bar/${cells} DECK ${deck}
+    SET "Mesh/Box/X spacing=${cells} cells" EXPECT ${apart})
+endforeach()
+stockwork_case_test(NAME convergence/damage/bar/once DECK ${deck}
+  SET "Boundary conditions/Displacement x=right: 1e-6 * t" "Time/End time=230 s" EXPECT ${apart})
+# Half way it holds 140.630 um by the balance of rock and crack in series, has lost 100 J/m^2 x (140.630 - 2)/(200 - 2) of half a
+# metre, and gives the rest back.
+stockwork_case_test(NAME convergence/damage/bar/unloaded DECK ${deck} LABELS quick SET "Time/End time=360 s"
+  EXPECT "final/dissipated_energy = 35.0075 within 1e-6" "final/energy_balance_error < 2e-4" "final/broken_length == 0")
+# At rest at 750 m, one stress twice the other: nothing is damaged, nothing opens or closes.
+# TODO In the first step the faces overlap by 7e-8 m before they have found the stress that they carry.
+set(at_rest "Wells/Well 1/Rate=0" "In situ/Pore pressure=7.5 MPa" "Rock/Poisson ratio=0.3")
+set(nothing "final/dissipated_energy == 0" "final/maximum_aperture < 1e-10" "final/minimum_aperture > -1e-10"
+  "maximum/maximum_aperture < 2e-9" "minimum/minimum_aperture > -1.1e-7") # 1.2e-9, -7.2e-8
+set(porous "Rock/Bulk model=poroelastic" "Rock/Biot coefficient=0.9" "Rock/Biot modulus=10 GPa" "Rock/Permeability=1e-17"
+  "Boundary conditions/Drained=right" "Fracture flow/Leak-off=resolved" "Discretisation/Elements=Q1-Q1 stabilised")
+foreach(state "along:-37.5 MPa, -18.75 MPa" "across:-18.75 MPa, -37.5 MPa")
+  string(REPLACE ":" ";" state "${state}")
+  list(GET state 0 name)
+  list(GET state 1 stress)
+  stockwork_case_test(NAME convergence/damage/at_rest/${name} DECK tests/contract/fracture.prm LABELS quick
+    SET "Fracture/Model=damage" "In situ/Stress=${stress}" ${at_rest} ${porous}
+    EXPECT ${nothing} "final/fracture_length = 4 within 1e-12")
+endforeach()
+
+# Static cracks: half a cell is not known at each tip.
+stockwork_case_test(NAME convergence/sneddon/damage DECK prm/sneddon/damage.prm NEGATIVE
+  SET "Resolution=coarse" EXPECT "errors/fracture_volume/final < 0.019") # 0.0125
+# The bias of the mesh: 0.016, 0.033, 0.019, 0.040.
+foreach(entry 0:0.024 15:0.05 30:0.029 45:0.06)
+  string(REPLACE ":" ";" entry ${entry})
+  list(GET entry 0 angle)
+  list(GET entry 1 bound)
+  stockwork_case_test(NAME convergence/inclined/${angle}/damage DECK prm/inclined/${angle}/damage.prm NEGATIVE
+    SET "Resolution=coarse" EXPECT "errors/fracture_volume/final < ${bound}")
+endforeach()
+
+# Growth.
+stockwork_case_test(NAME convergence/kgd/toughness/damage DECK prm/kgd/toughness/damage.prm NEGATIVE
+  SET "Resolution=coarse"
+  EXPECT "errors/equivalent_length/final < 0.012" "errors/equivalent_length/mean < 0.017" # 0.0074, 0.0112
+         "errors/inlet_aperture/final < 0.004" "errors/inlet_aperture/mean < 0.013" # 0.0024, 0.0081
+         "errors/net_inlet_pressure/final < 0.012" "errors/net_inlet_pressure/mean < 0.013" # 0.0076, 0.0085
+         "fluid_balance/relative_error < 1e-8" "final/extent_y < 1e-3" "warnings == 1")
+stockwork_case_test(NAME convergence/kgd/viscosity/damage DECK prm/kgd/viscosity/damage.prm NEGATIVE
+  SET "Resolution=coarse"
+  EXPECT "errors/equivalent_length/final < 0.03" "errors/equivalent_length/mean < 0.065" # 0.0202, 0.0423
+         "errors/inlet_aperture/final < 0.012" "errors/inlet_aperture/mean < 0.021" # 0.0077, 0.0136
+         "errors/net_inlet_pressure/final < 0.003" "errors/net_inlet_pressure/mean < 0.003" # 0.0012, 0.0019
+         "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
+stockwork_case_test(NAME convergence/kgd/sun/damage DECK prm/kgd/sun/damage.prm NEGATIVE
+  SET "Resolution=coarse"
+  EXPECT "errors/equivalent_length/mean < 0.021" "errors/inlet_aperture/mean < 0.015" # 0.0142, 0.0096
+         "errors/net_inlet_pressure/mean < 0.015" # 0.0098
+         "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
+# In impermeable rock the pore pressure is nobody's business.
+foreach(pore_pressure 10 19.8)
+  stockwork_case_test(NAME convergence/kgd/wang/damage/${pore_pressure} DECK prm/kgd/wang/damage.prm NEGATIVE
+    SET "Resolution=coarse" "In situ/Pore pressure=${pore_pressure} MPa"
+    EXPECT "errors/equivalent_length/final < 0.019" "errors/inlet_aperture/final < 0.0045" # 0.0128, 0.0028
+           "errors/net_inlet_pressure/final < 0.03" # 0.0201
+           "fluid_balance/relative_error < 1e-8" "rejected_steps == 0"
+           "final/fracture_length = 14 within 0.02")
+endforeach()
+stockwork_case_test(NAME convergence/kgd/wang/permeable/damage DECK prm/kgd/wang/permeable/damage.prm
+  SET "Resolution=coarse" "Time/End time=2 s"
+  EXPECT "fluid_balance/relative_error < 1e-8" "final/fluid_balance_error < 1e-8"
+         "fluid_balance/leaked > 0" "final/fracture_length > 1.6" "rejected_steps == 0")
+stockwork_case_test(NAME convergence/kgd/carter/damage DECK prm/kgd/carter/damage.prm NEGATIVE
+  SET "Resolution=coarse"
+  EXPECT "errors/equivalent_length/final < 0.048" "errors/inlet_aperture/final < 0.022" # 0.0317, 0.0145
+         "errors/net_inlet_pressure/final < 0.07" "errors/leaked_volume/final < 0.0075" # 0.0465, 0.0049
+         "fluid_balance/relative_error < 1e-8")
+# A minifrac closes at the least in-situ stress, 4 MPa.
+stockwork_case_test(NAME convergence/minifrac/damage DECK prm/minifrac/damage.prm
+  EXPECT "closure/first_contact = 4e6 within 0.02" "closure/g_function = 4e6 within 0.02" # 0.0054, 0.013
+         "closure/isip > 4.4e6" "fluid_balance/relative_error < 1e-8")
+# From a notch at an angle to the mesh, which nothing but the mesh would turn: within 5 degrees of it. Seen at the
+# end of the case are 0, 15.3, 28.9 and 45.0; here the run ends half way.
+foreach(angle 0 15 30 45)
+  math(EXPR least "${angle} - 5")
+  math(EXPR most "${angle} + 5")
+  stockwork_case_test(NAME convergence/kgd/rotated/${angle}/damage DECK prm/kgd/rotated/${angle}/damage.prm
+    SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false"
+    EXPECT "direction > ${least}" "direction < ${most}" "final/fracture_length > 5.5"
+           "fluid_balance/relative_error < 1e-8")
+endforeach()
+# A disc that grows, in bilinear elements: with quadratic ones a step takes twenty seconds.
+stockwork_case_test(NAME convergence/radial/toughness/damage DECK prm/radial/toughness/damage.prm NEGATIVE
+  SET "Resolution=coarse" "Discretisation/Elements=Q1-Q1" "Output/Fields=false"
+  EXPECT "errors/equivalent_length/final < 0.048" "errors/inlet_aperture/final < 0.09" # 0.0321, 0.0590
+         "fluid_balance/relative_error < 1e-8" "final/extent_z < 1e-3" "rejected_steps == 0")
+# The same on two ranks, and after a restart on two, with refinement around the front and in three dimensions.
+stockwork_same_test(NAME parallel/damage DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8
+  SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" IGNORE "balance_error|error_fracture_volume")
+stockwork_same_test(NAME parallel/damage/disc DECK tests/contract/fracture_3d.prm RANKS 1,2 TOLERANCE 1e-8
+  SET "Fracture/Model=damage" "Wells/Well 1/Rate=1e-3" "Time/End time=3 s" IGNORE "balance_error|error_fracture_volume")
+stockwork_restart_test(NAME restart/damage DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 12
+  SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" IGNORE "balance_error|error_fracture_volume")
