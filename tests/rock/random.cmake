@@ -63,3 +63,25 @@ stockwork_rock_audit_test(random tests/rock/random_bar.prm "random rock: mean +0
 stockwork_rock_audit_test(random_regions tests/rock/random_bar.prm "random rock: mean, region 1 +0\\.951 .*seed 5"
   --set "Mesh/Region boxes=1: (8, 0) to (16, 2)" --set "Rock/Region 1/Random field/Weibull modulus=10"
   --set "Rock/Region 1/Random field/Seed=5")
+
+# A bar pulled apart where one place is cracked: it takes G_c and carries the strength of that place, whose factor is
+# 0.89549916107849761 (random_bar.py, seed 3, m = 10), in cells of a crack band and along a cohesive crack.
+set(apart "Rock/Random field/Properties=tensile strength, critical energy release rate"
+  "Rock/Random field/Weibull modulus=10" "Rock/Random field/Lattice spacing=1 m" "Rock/Random field/Seed=3")
+set(takes "final/dissipated_energy = 44.774958053924877 within 1e-9" "final/peak_load = 447749.58 within 1e-3"
+  "final/energy_balance_error < 2e-4" "final/broken_length = 0.5 within 1e-12")
+stockwork_case_test(NAME rock/random/apart/damage DECK tests/data/damaged_bar.prm LABELS quick SET ${apart} EXPECT ${takes})
+stockwork_case_test(NAME rock/random/apart/cohesive_xfem DECK tests/data/damaged_bar.prm LABELS quick
+  SET ${apart} "Fracture/Model=cohesive_xfem" "Fracture/damage/Growth=true" "Fracture/cohesive_xfem/Growth=false"
+      "Mesh/Box/Y spacing=3 cells"
+  EXPECT ${takes})
+# Of weaker rock with the same energy.
+stockwork_case_test(NAME rock/random/apart/strength DECK tests/data/damaged_bar.prm LABELS quick
+  SET ${apart} "Rock/Random field/Properties=tensile strength"
+  EXPECT "final/dissipated_energy = 50 within 1e-9" "final/peak_load = 447749.58 within 0.01")
+
+# In three dimensions a band of cracked cells, on one and two ranks.
+stockwork_same_test(NAME rock/random/damage/3d DECK tests/contract/fracture_3d.prm RANKS 1,2 TOLERANCE 1e-6
+  IGNORE balance_error
+  SET "Fracture/Model=damage" "Rock/Random field/Properties=Young modulus, tensile strength, critical energy release rate"
+      "Rock/Random field/Weibull modulus=10" "Rock/Random field/Lattice spacing=1 m")

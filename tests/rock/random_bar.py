@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""The force on the bar of random_bar.prm [N/m], from its factors by an implementation of its own.
-
-    random_bar.py [CORRELATION_LENGTH_IN_CELLS]"""
+"""Factors of random rock in the first cells of the lattice along x and y, by an implementation of its own, and the
+force on the bar of random_bar.prm that has them [N/m]."""
+import argparse
 import math
-import sys
 
 BITS = 2**64 - 1
 
@@ -44,7 +43,13 @@ def exceedance(seed, cell, length):
     return 0.5 * math.erfc(total / math.sqrt(2))
 
 
-LENGTH = float(sys.argv[1]) if len(sys.argv) > 1 else 0.
-FACTORS = [(-math.log(exceedance(3, (i, 0), LENGTH)))**(1 / 2) for i in range(8)]
-print(FACTORS, file=sys.stderr)
-print(repr(2. * 10e9 * 1e-3 / sum(2. / f for f in FACTORS)))
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--length", type=float, default=0., help="of correlation, in cells")
+parser.add_argument("--seed", type=int, default=3)
+parser.add_argument("--modulus", type=float, default=2., help="Weibull's")
+options = parser.parse_args()
+for name, cells in (("x", [(i, 0) for i in range(8)]), ("y", [(0, i) for i in range(8)])):
+    factors = [(-math.log(exceedance(options.seed, cell, options.length)))**(1 / options.modulus)
+               for cell in cells]
+    print(f"along {name}:", *factors)
+    print("  force:", repr(2. * 10e9 * 1e-3 / sum(2. / f for f in factors)))
