@@ -36,19 +36,27 @@ std::string body_in_two(const std::vector<InitialCrack<2>> &cracks, const Geomet
 
 
 /// Refuse what holds in a region, at the region's own entry or where that is inherited from.
+/// @param subsection of the rock's subsection; empty: the entry is in that itself
 /// @throws EntryError
 [[noreturn]] void refuse_in_region(ParameterHandler &prm,
                                    const types::material_id region,
                                    const std::string &name,
-                                   const std::string &allowed)
+                                   const std::string &allowed,
+                                   const std::string &subsection = "")
 {
-  if (region != 0)
+  const auto sections_in = [&](std::vector<std::string> sections)
   {
-    const std::string section = "Region " + std::to_string(region);
-    if (const std::string own = value_of(prm, {"Rock", section}, name); !own.empty())
-      throw EntryError("Rock/" + section + "/" + name, own, allowed);
-  }
-  throw EntryError("Rock/" + name, value_of(prm, {"Rock"}, name), allowed);
+    if (!subsection.empty())
+      sections.push_back(subsection);
+    return sections;
+  };
+  std::vector<std::string> sections = sections_in({"Rock", "Region " + std::to_string(region)});
+  if (region == 0 || value_of(prm, sections, name).empty())
+    sections = sections_in({"Rock"});
+  std::string path;
+  for (const std::string &section : sections)
+    path += section + "/";
+  throw EntryError(path + name, value_of(prm, sections, name), allowed);
 }
 
 
@@ -226,6 +234,39 @@ void check_permeability(ParameterHandler &prm, const Case<dim> &the_case)
 
 
 template <int dim>
+void check_random_rock(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  if (!the_case.rock.is_random())
+    return;
+  const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
+  for (const auto &[region, law] : the_case.laws.all())
+  {
+    const RockProperties &rock = the_case.rock(region);
+    if (!rock.is_random())
+      continue;
+    const auto refuse = [&, region = region](const std::string &allowed)
+    { refuse_in_region(prm, region, "Properties", allowed, "Random field"); };
+    if (!the_case.model->requirements().random_rock)
+      refuse("nothing (an empty entry) with the fracture model '" + the_case.model_name +
+             "', which knows the rock by its region and not by its place");
+    if (!law->is_linear() && rock.random->varies_in_bulk())
+      refuse(
+        "'tensile strength' or 'critical energy release rate' alone where the rock is not linear "
+        "(it may yield, or its permeability hangs on the stress): its law knows one modulus and "
+        "one permeability");
+    if (rock.random->varies(RandomField::permeability) &&
+        (leak_off == "resolved" || leak_off == "filter cake"))
+      refuse("a list without 'permeability' with 'Fracture flow/Leak-off = " + leak_off +
+             "', which knows one permeability; or another law of leak-off");
+  }
+  if (the_case.reference)
+    throw EntryError("Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+                     "'none' where 'Rock/Random field' says that the rock varies from place to "
+                     "place: the solution is of rock that is the same everywhere");
+}
+
+
+template <int dim>
 void check_reference(ParameterHandler &prm, const Case<dim> &the_case)
 {
   if (the_case.reference &&
@@ -305,6 +346,7 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
   template void check_layers<dim>(ParameterHandler & prm, const RockLaws &laws, const Rock &rock); \
   template void check_history(ParameterHandler &prm, const Case<dim> &the_case);                   \
   template void check_permeability(ParameterHandler &prm, const Case<dim> &the_case);              \
+  template void check_random_rock(ParameterHandler &prm, const Case<dim> &the_case);               \
   template void check_reference(ParameterHandler &prm, const Case<dim> &the_case);                 \
   template void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings);       \
   template void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case);

@@ -46,6 +46,10 @@ void check_history(dealii::ParameterHandler &prm, const Case<dim> &the_case);
 template <int dim>
 void check_permeability(dealii::ParameterHandler &prm, const Case<dim> &the_case);
 
+/// Rock that varies from place to place, where somebody takes it for uniform.
+template <int dim>
+void check_random_rock(dealii::ParameterHandler &prm, const Case<dim> &the_case);
+
 /// What a reference solution cannot be of.
 template <int dim>
 void check_reference(dealii::ParameterHandler &prm, const Case<dim> &the_case);

@@ -472,6 +472,33 @@ void add_leak_off(const Case<dim> &the_case,
 } // namespace
 
 
+namespace
+{
+/// How rock varies from place to place, and whether the cells follow it.
+template <int dim>
+void add_random_fields(const Case<dim> &the_case,
+                       const MeshSizes<dim> &mesh,
+                       std::vector<SceneNumber> &numbers)
+{
+  for (const auto &[region, law] : the_case.laws.all())
+  {
+    const RockProperties &rock = the_case.rock(region);
+    if (!rock.is_random())
+      continue;
+    std::ostringstream text;
+    text << std::setprecision(3) << "times the deck's value, deviation " << rock.random->deviation()
+         << "; " << rock.random->describe();
+    if (mesh.smallest > rock.random->lattice_spacing() * (1. + 1e-6))
+      text << "; the smallest cells, " << mesh.smallest
+           << " m, are larger than those of the lattice and take the value at their centre";
+    numbers.push_back(
+      {"random rock: mean" + (region == 0 ? std::string() : ", region " + std::to_string(region)),
+       rock.random->mean_factor(), text.str()});
+  }
+}
+} // namespace
+
+
 template <int dim>
 std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
@@ -483,6 +510,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
       add_strength(the_case, region, numbers);
   if (the_case.laws(0).changes_permeability())
     add_permeability(the_case, numbers);
+  add_random_fields(the_case, mesh, numbers);
   const RockProperties &rock = the_case.rock.main();
 
   if (the_case.elements.has_pore_pressure)

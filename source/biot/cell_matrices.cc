@@ -40,13 +40,24 @@ CellMatrices<dim>::CellMatrices(const Mapping<dim> &mapping,
 
 
 template <int dim>
-void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell,
-                               const StepContext &context)
+bool CellMatrices<dim>::find_rock(const typename DoFHandler<dim>::active_cell_iterator &cell)
 {
   const RockProperties *const before = rock_of_cell;
   rock_of_cell = &rock(cell->material_id());
-  const bool new_cell =
-    integrals.reinit(cell) || rock_of_cell != before || is_special || has_passed_over;
+  if (!rock_of_cell->is_random() || !rock_of_cell->random->varies_in_bulk())
+    return rock_of_cell != before;
+  rock_of_place = rock.at(cell->material_id(), cell->center());
+  rock_of_cell = &rock_of_place;
+  return true;
+}
+
+
+template <int dim>
+void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                               const StepContext &context)
+{
+  const bool new_rock = find_rock(cell);
+  const bool new_cell = integrals.reinit(cell) || new_rock || is_special || has_passed_over;
   has_passed_over = false;
   const CellRole<dim> role = role_of ? role_of(cell) : CellRole<dim>();
   is_special = role.skip_stiffness != nullptr || role.fracture_normal != nullptr;

@@ -35,7 +35,8 @@ struct BulkCoefficients
 };
 
 /// The matrices of one cell of linear rock. They are those of the last cell where that has the same
-/// shape, rock and time step, and neither has a role.
+/// shape, rock and time step, and neither has a role. Where the rock varies from place to place,
+/// the integrals at least are the last cell's.
 template <int dim>
 class CellMatrices
 {
@@ -87,6 +88,9 @@ public:
 private:
   void pressure_matrices();
 
+  /// Find the rock of a cell. Returns whether it is another than that of the last cell.
+  bool find_rock(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+
   /// Of anisotropic rock.
   void matrices_by_quadrature(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
                               const StepContext &context);
@@ -99,6 +103,7 @@ private:
   const Role role_of;
   dealii::FEValues<dim> fe_values; ///< for anisotropic rock
   const RockProperties *rock_of_cell = nullptr;
+  RockProperties rock_of_place; ///< of a cell whose rock is no other's
   bool is_special = false;      ///< the cell has a role, so its matrices are no other's
   bool has_passed_over = false; ///< a cell that has changed the integrals
   double rate = -1., pressure_rate = -1., acceleration = -1.; ///< of `whole`

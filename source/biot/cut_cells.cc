@@ -147,7 +147,7 @@ void BulkAssembly<dim>::cut_cells(const StepContext &context,
         cell->get_dof_indices(local.bulk);
         local.extra = cut->extra;
         local.reinit();
-        const RockProperties &properties = rock(cell->material_id());
+        const RockProperties properties = rock.at(cell->material_id(), cell->center());
         const double inertia = context.acceleration * properties.density;
         CutMatrix &kept = cut_matrices[cell->active_cell_index()];
         const std::size_t fingerprint = fingerprint_of(*cut);

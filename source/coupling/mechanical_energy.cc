@@ -139,7 +139,7 @@ MechanicalEnergy mechanical_energy(
       for (unsigned int k = 0; k < evaluator.layout.u.size(); ++k)
         if (constraints.is_constrained(evaluator.dofs()[evaluator.layout.u[k]]))
           held.push_back(k);
-      const RockProperties &properties = rock(cell->material_id());
+      const RockProperties properties = rock.at(cell->material_id(), cell->center());
       const LinearStiffness<dim> hooke(properties);
       double share = 1.; // of the cell, that belongs to nodes of the elements
       if (const std::vector<bool> *skipped = cell_role.skip_stiffness)

@@ -53,7 +53,7 @@ std::vector<RockAhead<dim>> average_ahead(const std::vector<HalfDisc<dim>> &disc
           fe_values[pore_pressure].get_function_values(state.current.bulk, pressures);
         evaluated = true;
       }
-      const RockProperties &rock = scene.rock(cell->material_id());
+      const RockProperties rock = scene.rock.at(cell->material_id(), cell->center());
       const LinearStiffness<dim> hooke(rock);
       for (unsigned int q = 0; q < quadrature.size(); ++q)
       {

@@ -85,7 +85,8 @@ void PointSource<dim>::look_at_cells(const MeshView<dim> &mesh,
     if (cell->is_locally_owned() && has_point<dim>(mesh.mapping, cell, entries.point))
     {
       size = std::max(size, cell_size(cell));
-      const auto k = scene.rock(cell->material_id()).template permeability_tensor<dim>();
+      const auto k =
+        scene.rock.at(cell->material_id(), cell->center()).template permeability_tensor<dim>();
       for (unsigned int i = 0; i < n; ++i)
         components[i] =
           std::max(components[i], k[SymmetricTensor<2, dim>::unrolled_to_component_indices(i)]);
@@ -168,7 +169,8 @@ void PointSource<dim>::integrate(const MeshView<dim> &mesh,
     if (in_cell == 0.)
       continue;
     share += in_cell;
-    const auto k = scene.rock(cell->material_id()).template permeability_tensor<dim>();
+    const auto k =
+      scene.rock.at(cell->material_id(), cell->center()).template permeability_tensor<dim>();
     other_rock = std::max(other_rock, difference(k, permeability));
     if (!permeability_is_constant(scene, cell->material_id()))
       changes = 1.;

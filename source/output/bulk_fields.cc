@@ -60,7 +60,7 @@ void BulkFields<dim>::evaluate_vector_field(const DataPostprocessorInputs::Vecto
                                             std::vector<Vector<double>> &quantities) const
 {
   const auto cell = inputs.template get_cell<dim>();
-  const RockProperties &rock = scene.rock(cell->material_id());
+  const RockProperties rock = scene.rock.at(cell->material_id(), cell->center());
   const BulkCoefficients<dim> linear(rock, scene.rock.fluid());
   const auto mean = mean_strain.find(cell->active_cell_index());
 

@@ -154,6 +154,36 @@ std::string write_bulk(const DataOut<dim> &output,
 } // namespace
 
 
+namespace
+{
+/// How constants of the rock vary from place to place, cell by cell, by name:
+/// "young_modulus_factor", that by which the deck's value is multiplied.
+template <int dim>
+std::vector<std::pair<std::string, Vector<float>>>
+random_fields(const Triangulation<dim> &triangulation, const Rock &rock)
+{
+  std::vector<std::pair<std::string, Vector<float>>> fields;
+  for (unsigned int p = 0; p < RandomField::n_properties; ++p)
+  {
+    const auto property = static_cast<RandomField::Property>(p);
+    if (!rock.varies(property))
+      continue;
+    std::string name = RandomField::name(property);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    name[0] = std::tolower(name[0]);
+    Vector<float> values(triangulation.n_active_cells());
+    values = 1.;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (const RockProperties &here = rock(cell->material_id());
+          cell->is_locally_owned() && here.is_random())
+        values(cell->active_cell_index()) = here.random->factors(cell->center())[property];
+    fields.emplace_back(name + "_factor", values);
+  }
+  return fields;
+}
+} // namespace
+
+
 template <int dim>
 void FieldOutput<dim>::write(const double time,
                              const MeshView<dim> &mesh_view,
@@ -175,6 +205,9 @@ void FieldOutput<dim>::write(const double time,
     if (cell->is_locally_owned())
       region(cell->active_cell_index()) = cell->material_id();
   output.add_data_vector(region, "region");
+  const auto of_rock = random_fields(mesh_view.triangulation, scene.rock);
+  for (const auto &field : of_rock)
+    output.add_data_vector(field.second, field.first, DataOut<dim>::type_cell_data);
   for (const auto &field : collector.cell_fields)
     output.add_data_vector(field.second, field.first, DataOut<dim>::type_cell_data);
 

@@ -4,6 +4,7 @@
 #include "stockwork/base/quantity.h"
 #include "stockwork/rock/linear_stiffness.h"
 
+#include "base/parameter_tree.h"
 #include "rock/plane_elasticity.h"
 
 #include <algorithm>
@@ -77,6 +78,27 @@ void declare_properties(ParameterHandler &prm, const bool is_region)
            "G_IIc; empty: as in mode I.");
   optional("Tensile strength", dimension::stress, Range::positive(),
            "Empty: chosen by the fracture model, which says so.");
+  RandomField::declare_parameters(prm, is_region);
+}
+
+
+/// What varies from place to place.
+void parse_random_field(ParameterHandler &prm, const std::string &path, RockProperties &rock)
+{
+  RandomField field;
+  field.parse_parameters(prm, path, rock.random ? *rock.random : RandomField());
+  rock.random = std::make_shared<const RandomField>(field);
+  const auto refuse_without = [&](const bool is_there, const RandomField::Property property)
+  {
+    if (field.varies(property) && !is_there)
+      throw EntryError(path + "/Random field/Properties",
+                       value_of(prm, {"Random field"}, "Properties"),
+                       std::string("a list without '") + RandomField::name(property) +
+                         "', which this rock does not have");
+  };
+  refuse_without(!rock.stiffness, RandomField::young_modulus);
+  refuse_without(!std::isnan(rock.energy_release_rate), RandomField::energy_release_rate);
+  refuse_without(rock.permeability > 0., RandomField::permeability);
 }
 
 
@@ -154,7 +176,7 @@ void parse_stiffness(const ParameterHandler &prm,
 
 
 /// @param rock what is inherited, or but the plane state
-RockProperties parse_properties(const ParameterHandler &prm,
+RockProperties parse_properties(ParameterHandler &prm,
                                 const std::string &path,
                                 const types::material_id region,
                                 const Rock::Stiffness &stiffness,
@@ -233,6 +255,7 @@ RockProperties parse_properties(const ParameterHandler &prm,
     get("Shear energy release rate", dimension::energy_release_rate,
         std::isnan(rock.shear_energy_release_rate) ? rock.energy_release_rate
                                                    : rock.shear_energy_release_rate);
+  parse_random_field(prm, path, rock);
   return rock;
 }
 } // namespace
@@ -320,6 +343,13 @@ void Rock::parse_parameters(ParameterHandler &prm, const Stiffness &stiffness)
     throw EntryError("Rock/Normal of the layers", prm.get("Normal of the layers"),
                      "nothing (an empty entry): neither 'Rock/Law' nor 'Permeability across the "
                      "layers' asks for layers");
+  prm.enter_subsection("Random field");
+  for (const char *const entry : {"Weibull modulus", "Lattice spacing", "Correlation length"})
+    if (!is_random() && !prm.get(entry).empty())
+      throw EntryError(std::string("Rock/Random field/") + entry, prm.get(entry),
+                       "nothing (an empty entry), for 'Properties' says of no rock that anything "
+                       "varies");
+  prm.leave_subsection();
   prm.leave_subsection();
 }
 
@@ -334,6 +364,42 @@ const RockProperties &Rock::operator()(const types::material_id region) const
                      ", but subsection Rock describes regions 1 to " + std::to_string(max_regions) +
                      " only.");
   return position->second;
+}
+
+
+template <int dim>
+RockProperties Rock::at(const types::material_id region, const Point<dim> &place) const
+{
+  RockProperties rock = (*this)(region);
+  if (!rock.is_random())
+    return rock;
+  const auto factors = rock.random->factors(place);
+  rock.young_modulus *= factors[RandomField::young_modulus];
+  rock.tensile_strength *= factors[RandomField::tensile_strength];
+  rock.energy_release_rate *= factors[RandomField::energy_release_rate];
+  rock.shear_energy_release_rate *= factors[RandomField::energy_release_rate];
+  rock.permeability *= factors[RandomField::permeability];
+  rock.permeability_across *= factors[RandomField::permeability];
+  rock.random.reset(); // nothing varies at a place
+  return rock;
+}
+
+
+bool Rock::varies(const RandomField::Property property) const
+{
+  const auto varies_in = [property](const RockProperties &rock)
+  { return rock.is_random() && rock.random->varies(property); };
+  return varies_in(default_region) ||
+         std::any_of(regions.begin(), regions.end(),
+                     [&](const auto &region) { return varies_in(region.second); });
+}
+
+
+bool Rock::is_random() const
+{
+  return default_region.is_random() ||
+         std::any_of(regions.begin(), regions.end(),
+                     [](const auto &region) { return region.second.is_random(); });
 }
 
 
@@ -353,4 +419,8 @@ const Fluid &Rock::fluid() const
 {
   return pore_fluid;
 }
+
+
+template RockProperties Rock::at(types::material_id, const Point<2> &) const;
+template RockProperties Rock::at(types::material_id, const Point<3> &) const;
 } // namespace stockwork

@@ -44,6 +44,7 @@ struct Requirements
 
   bool has_fracture = true; ///< else neither unknowns nor segments, ever
   RegionalRock regional_rock = RegionalRock::any;
+  bool random_rock = false; ///< it reads the constants of the place that it looks at: Rock::at()
 };
 
 /// What a model says about a converged solution.

@@ -4,10 +4,13 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/types.h>
 
+#include "stockwork/rock/random_field.h"
 #include <cstdint>
 #include <functional>
+
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -40,6 +43,14 @@ struct RockProperties
   double shear_energy_release_rate = std::numeric_limits<double>::quiet_NaN(); ///< G_IIc [J/m^2]
   double tensile_strength = std::numeric_limits<double>::quiet_NaN();          ///< [Pa]
   bool plane_stress = false;
+
+  /// How these vary from place to place, if they do: see Rock::at().
+  std::shared_ptr<const RandomField> random;
+
+  bool is_random() const
+  {
+    return random && random->is_random();
+  }
 
   double shear_modulus() const
   {
@@ -121,7 +132,18 @@ public:
 
   const RockProperties &operator()(const dealii::types::material_id region) const;
 
-  /// Constants of the region that the deck describes first (the only one of most decks).
+  /// Constants at a place in a region; in a cell of the mesh, that is its centre.
+  template <int dim>
+  RockProperties at(dealii::types::material_id region, const dealii::Point<dim> &place) const;
+
+  /// Whether a constant varies from place to place anywhere.
+  bool varies(RandomField::Property property) const;
+
+  /// Whether any does.
+  bool is_random() const;
+
+  /// Constants of the region that the deck describes first (the only one of most decks). Where they
+  /// vary from place to place, the scales of their distributions.
   const RockProperties &main() const;
 
   /// `auto`, `elastic` or `poroelastic`, as the deck says.

@@ -38,6 +38,7 @@ public:
     Requirements requirements;
     requirements.pore_pressure = false; // true: cannot run in dry rock
     requirements.law = nullptr;         // a law that role() puts in place of the rock's
+    requirements.random_rock = false;   // true: asks for the rock by place, Rock::at()
     return requirements;
   }
 

@@ -292,6 +292,7 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
       continue;
     const JumpShapes<dim> shapes(piece);
     const PointDamage history = damage(piece);
+    const CohesiveLaw law = law_at(piece);
     const Tensor<1, dim> n = piece.normal(), t = piece.along;
     const double weight = piece.length() / n_points;
 
@@ -343,6 +344,7 @@ bool CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
       const JumpShapes<dim> shapes(piece);
       contact.commit(discontinuity, c, i, state.current.extra, broken_share(piece));
       const PointDamage old = damage(piece);
+      const CohesiveLaw law = law_at(piece);
       PointDamage now = old;
       for (unsigned int q = 0; q < n_points; ++q)
         if (old[q] < 1.)
@@ -461,6 +463,7 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
       const auto &columns = discontinuity.enrichment().columns(c, i);
       const JumpShapes<dim> shapes(piece);
       const PointDamage history = damage(piece);
+      const CohesiveLaw law = law_at(piece);
       const auto at_end = committed_reach.find(discontinuity.key(c, spans[s]));
       const double reached = at_end == committed_reach.end() ? piece.length()
                                                              : piece.length() * at_end->second /

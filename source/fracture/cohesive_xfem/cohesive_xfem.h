@@ -30,6 +30,7 @@ public:
     Requirements needs;
     needs.symmetric = !contact.has_friction();
     needs.regional_rock = RegionalRock::of_uniform_strength;
+    needs.random_rock = true;
     return needs;
   }
 
@@ -159,12 +160,23 @@ private:
   /// Note what a tip has grown by. Returns as grow().
   std::string take_new_span(const GrowthPass &pass, unsigned int tip);
 
+  /// The law at a place. The strength is that of the whole rock times the factor of the place.
+  CohesiveLaw law_at(dealii::types::material_id region, const dealii::Point<dim> &place) const;
+
+  CohesiveLaw law_at(const CrackPiece<dim> &piece) const
+  {
+    return law_at(piece.region, piece.centre());
+  }
+
+  /// The strength of the rock half a cell ahead of an end of a crack [Pa].
+  double strength_ahead(unsigned int crack, CrackEnd end) const;
+
   /// E' G_c / T^2 in the rock of a region [m].
   double cohesive_length(dealii::types::material_id region) const;
 
   Parameters parameters;
   const Scene<dim> &scene;
-  CohesiveLaw law;
+  CohesiveLaw law; ///< where nothing varies; see law_at()
   Discontinuity<dim> discontinuity;
   FaceContact<dim> contact;
   std::unique_ptr<MeshView<dim>> mesh_view;

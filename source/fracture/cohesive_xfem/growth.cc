@@ -51,6 +51,7 @@ double CohesiveXFEM<dim>::distance_to_damage(const unsigned int crack,
     const auto &columns = discontinuity.enrichment().columns(crack, i);
     const JumpShapes<dim> shapes(pieces[i]);
     const PointDamage history = damage(pieces[i]);
+    const CohesiveLaw law = law_at(pieces[i]);
     for (unsigned int r = 0; r < n_points; ++r)
     {
       const unsigned int q = end == CrackEnd::first ? r : n_points - 1 - r;
@@ -81,7 +82,7 @@ bool CohesiveXFEM<dim>::fluid_overpowers(const unsigned int crack,
       std::max(most, std::abs(state.segment_pressure(discontinuity.key(crack, span)) -
                               closing_stress(discontinuity.paths()[crack].pieces[span.first])));
   }
-  return most > 10. * law.strength;
+  return most > 10. * law_at(discontinuity.paths()[crack].piece_at(end)).strength;
 }
 
 
@@ -139,13 +140,14 @@ void CohesiveXFEM<dim>::warn_of_arrested_tip(const unsigned int crack,
 {
   // A tip that waits for its turn is driven by the strength or a little more.
   constexpr double clearly = 2.;
-  if (drive < clearly * law.strength ||
+  const double strength = strength_ahead(crack, end);
+  if (drive < clearly * strength ||
       !limits.told_of_arrest.insert({crack, static_cast<unsigned int>(end)}).second)
     return;
   std::ostringstream text;
   text << "Crack " << crack + 1 << " at (" << discontinuity.paths()[crack].tip(end)
        << ") is arrested: pressure and tension ahead come to " << drive << " Pa, the strength is "
-       << law.strength << " Pa. " << cause << " What follows may be too short and its pressure too "
+       << strength << " Pa. " << cause << " What follows may be too short and its pressure too "
        << "high.";
   messages.push_back(text.str());
 }
@@ -170,6 +172,28 @@ bool CohesiveXFEM<dim>::press_faces(const State &state)
         contact.press(discontinuity, c, i, extra, opening, broken_share(paths[c].pieces[i]));
   n_presses += pressed;
   return pressed;
+}
+
+
+template <int dim>
+CohesiveLaw CohesiveXFEM<dim>::law_at(const dealii::types::material_id region,
+                                      const dealii::Point<dim> &place) const
+{
+  const RockProperties &rock = scene.rock(region);
+  if (!rock.is_random())
+    return law;
+  const auto factors = rock.random->factors(place);
+  return law.times(factors[RandomField::tensile_strength],
+                   factors[RandomField::energy_release_rate]);
+}
+
+
+template <int dim>
+double CohesiveXFEM<dim>::strength_ahead(const unsigned int crack, const CrackEnd end) const
+{
+  const CrackPath<dim> &path = discontinuity.paths()[crack];
+  const CrackPiece<dim> &last = path.piece_at(end);
+  return law_at(last.region, path.tip(end) + 0.5 * last.cell_size() * path.direction(end)).strength;
 }
 
 
@@ -259,8 +283,8 @@ CohesiveXFEM<dim>::judge(const TipAhead &tip, const State &state, GrowthPass &pa
     // And that was so when the step began.
     const bool arrested_before =
       committed_limits.told_of_arrest.count({c, static_cast<unsigned>(end)}) > 0;
-    return drive > hopeless * law.strength && arrested_before ? TipState::arrested
-                                                              : TipState::rests;
+    return drive > hopeless * strength_ahead(c, end) && arrested_before ? TipState::arrested
+                                                                        : TipState::rests;
   }
   if (!broken_here && fluid_overpowers(c, end, state))
     return TipState::rests;
@@ -268,7 +292,7 @@ CohesiveXFEM<dim>::judge(const TipAhead &tip, const State &state, GrowthPass &pa
   // that tells nothing: there the fluid has to have arrived.
   if (reached_length(c, end, state) < 0.8 * span)
     return TipState::rests;
-  if (drive < parameters.growth_threshold * law.strength * (1. - 1e-6))
+  if (drive < parameters.growth_threshold * strength_ahead(c, end) * (1. - 1e-6))
     return TipState::rests;
   if (advances[c][static_cast<int>(end)] >= parameters.most_advances)
   {
@@ -407,6 +431,9 @@ CohesiveXFEM<2>::warn_of_arrested_tip(unsigned int, CrackEnd, double, const std:
 template bool CohesiveXFEM<2>::fluid_overpowers(unsigned int, CrackEnd, const State &) const;
 template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const State &) const;
 template bool CohesiveXFEM<2>::press_faces(const State &);
+template CohesiveLaw CohesiveXFEM<2>::law_at(dealii::types::material_id,
+                                             const dealii::Point<2> &) const;
+template double CohesiveXFEM<2>::strength_ahead(unsigned int, CrackEnd) const;
 template double CohesiveXFEM<2>::cohesive_length(dealii::types::material_id) const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);
 } // namespace stockwork::cohesive_xfem

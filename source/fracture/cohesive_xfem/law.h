@@ -61,6 +61,18 @@ struct CohesiveLaw
             shear_energy, exponent,       strength * strength / (elastic_share * 2. * energy)};
   }
 
+  /// The law of rock with other strengths and energies, by these factors, and the peak at the same
+  /// share of the critical opening.
+  CohesiveLaw times(const double strengths, const double energies) const
+  {
+    return {strengths * strength,
+            strengths * shear_strength,
+            energies * energy,
+            energies * shear_energy,
+            exponent,
+            stiffness * strengths * strengths / energies};
+  }
+
   /// Dissipation of complete separation when the share @p mix of the work is shear [J/m^2].
   double fracture_energy(const double mix) const
   {

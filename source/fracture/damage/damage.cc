@@ -24,6 +24,14 @@ namespace
 /// Of faces that touch, in stiffnesses of the rock over a cell: about three times that of the
 /// unbroken seam.
 constexpr double contact_stiffness = 20.;
+
+
+/// A cell of this size holds no more energy than its crack takes; with more strength it would snap
+/// back (physics.md, 6) [Pa].
+double greatest_strength(const RockProperties &rock, const double size)
+{
+  return 0.9 * std::sqrt(2. * rock.plane_modulus() * rock.energy_release_rate / size);
+}
 } // namespace
 
 
@@ -70,8 +78,8 @@ template <int dim>
 double Damage<dim>::rock_stiffness(const CrackCell<dim> &crack) const
 {
   const auto across = dealii::symmetrize(dealii::outer_product(crack.normal, crack.normal));
-  return across * LinearStiffness<dim>(scene.rock(crack.region)).stress(across) /
-         crack.size_across();
+  const LinearStiffness<dim> hooke(scene.rock.at(crack.region, crack.centre()));
+  return across * hooke.stress(across) / crack.size_across();
 }
 
 
@@ -82,8 +90,7 @@ void Damage<dim>::choose_strength(const dealii::types::material_id region, const
   const double energy = rock.energy_release_rate, modulus = rock.plane_modulus();
   double strength = rock.tensile_strength;
   std::ostringstream message;
-  // A cell holds more energy than its crack can take: it would snap back (physics.md, 6).
-  const double most = 0.9 * std::sqrt(2. * modulus * energy / size);
+  const double most = greatest_strength(rock, size);
   if (std::isnan(strength))
   {
     // Fewer, and a crack advances by jumps; more, and the process zone is as long as the crack, in
@@ -108,18 +115,31 @@ void Damage<dim>::choose_strength(const dealii::types::material_id region, const
             << 0.25 * length << " m, or a lower tensile strength.";
   if (!message.str().empty())
     messages.push_back(message.str());
-  laws[region] = law_of(region, strength);
+  laws[region] = law_of(rock, strength);
 }
 
 
 template <int dim>
-SeamLaw Damage<dim>::law_of(const dealii::types::material_id region, const double strength) const
+SeamLaw Damage<dim>::law_of(const RockProperties &rock, const double strength) const
 {
-  const LinearStiffness<dim> hooke(scene.rock(region));
+  const LinearStiffness<dim> hooke(rock);
   const double shear = hooke.shear_modulus(),
                uniaxial = hooke.bulk_modulus() + (2. - 2. / dim) * shear;
-  return SeamLaw::of_rock(strength, scene.rock(region).energy_release_rate,
-                          parameters.elastic_share, shear / uniaxial);
+  return SeamLaw::of_rock(strength, rock.energy_release_rate, parameters.elastic_share,
+                          shear / uniaxial);
+}
+
+
+template <int dim>
+SeamLaw Damage<dim>::law(const CrackCell<dim> &crack) const
+{
+  const SeamLaw &of_region = laws.at(crack.region);
+  const RockProperties &scale = scene.rock(crack.region);
+  if (!scale.is_random())
+    return of_region;
+  const RockProperties here = scene.rock.at(crack.region, crack.centre());
+  const double factor = scale.random->factors(crack.centre())[RandomField::tensile_strength];
+  return law_of(here, std::min(factor * of_region.strength, greatest_strength(here, crack.size())));
 }
 
 
@@ -145,7 +165,7 @@ void Damage<dim>::start(const Collectives &collectives)
       if (laws.count(cell.region) == 0)
         choose_strength(cell.region, cell.size());
       if (crack.kind == InitialCrack<dim>::Kind::open)
-        cell.greatest.fill(laws[cell.region].critical);
+        cell.greatest.fill(law(cell).critical);
       all.push_back(cell);
     }
   }
@@ -325,7 +345,7 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening >> dissipated;
   laws.clear();
   for (const auto &[region, strength] : strengths)
-    laws[region] = law_of(region, strength);
+    laws[region] = law_of(scene.rock(region), strength);
   band.replace(committed);
   if (mesh_view)
   {

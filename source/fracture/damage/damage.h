@@ -22,6 +22,13 @@ public:
 
   Damage(const Parameters &parameters, const Scene<dim> &scene);
 
+  Requirements requirements() const override
+  {
+    Requirements needs;
+    needs.random_rock = true;
+    return needs;
+  }
+
   void setup(const MeshView<dim> &mesh_view, const Collectives &collectives) override;
 
   void begin_step(const StepContext &context) override;
@@ -69,12 +76,10 @@ private:
   /// The law of a region whose cells along the crack are of this size; says what is coarse.
   void choose_strength(dealii::types::material_id region, double size);
 
-  SeamLaw law_of(dealii::types::material_id region, double strength) const;
+  SeamLaw law_of(const RockProperties &rock, double strength) const;
 
-  const SeamLaw &law(const CrackCell<dim> &crack) const
-  {
-    return laws.at(crack.region);
-  }
+  /// The law of a crack: that of its region, where the rock varies that of its place.
+  SeamLaw law(const CrackCell<dim> &crack) const;
 
   /// Modulus of uniaxial strain across the crack over the size of the cell [Pa/m].
   double rock_stiffness(const CrackCell<dim> &crack) const;

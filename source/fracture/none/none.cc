@@ -17,6 +17,7 @@ public:
   {
     Requirements requirements;
     requirements.has_fracture = false;
+    requirements.random_rock = true;
     return requirements;
   }
 };

@@ -58,6 +58,7 @@ public:
   {
     Requirements needs;
     needs.symmetric = !contact.has_friction();
+    needs.random_rock = true;
     return needs;
   }
 
@@ -228,7 +229,10 @@ private:
     {
       const Point<dim> tip = first.tip(end);
       const auto here = LinearStiffness<dim>(scene.rock(first.piece_at(end).region)).tensor();
-      double nearest = std::numeric_limits<double>::max();
+      const RockProperties &rock = scene.rock(first.piece_at(end).region);
+      double nearest = rock.is_random() && rock.random->varies(RandomField::young_modulus)
+                         ? 0.
+                         : std::numeric_limits<double>::max();
       for (const auto &cell : mesh_view->triangulation.active_cell_iterators())
         if (cell->is_locally_owned() && cell->material_id() != first.piece_at(end).region &&
             (LinearStiffness<dim>(scene.rock(cell->material_id())).tensor() - here).norm() > 0.)
