@@ -9,6 +9,7 @@
 #include <deal.II/lac/solver_cg.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace stockwork
 {
@@ -28,13 +29,13 @@ public:
   BlockTriangular(const SystemOperator &op,
                   const MPI_Comm communicator,
                   const DisplacementMultigrid &displacement,
-                  const ExtraSchur &extra,
+                  std::function<void(std::vector<double> &)> solve_extra,
                   const AMG &pressure,
                   const double pressure_unit)
     : op(op)
     , communicator(communicator)
     , displacement(displacement)
-    , extra(extra)
+    , solve_extra(std::move(solve_extra))
     , pressure(pressure)
     , pressure_unit(pressure_unit)
     , coupling(op.scaling().bulk.block(0))
@@ -63,7 +64,7 @@ public:
       Utilities::MPI::sum(drained, communicator, drained);
       for (unsigned int i = 0; i < op.n_extra(); ++i)
         z.extra[i] = r.extra[i] - drained[i];
-      extra.solve(z.extra);
+      solve_extra(z.extra);
       for (const auto &e : op.bulk_extra())
       {
         const auto [block, local] = op.locate(e.row);
@@ -78,7 +79,7 @@ private:
   const SystemOperator &op;
   MPI_Comm communicator;
   const DisplacementMultigrid &displacement;
-  const ExtraSchur &extra;
+  const std::function<void(std::vector<double> &)> solve_extra;
   const AMG &pressure;
   double pressure_unit;
   TrilinosWrappers::MPI::Vector coupling;
@@ -91,6 +92,7 @@ BlockAmgSolver::BlockAmgSolver(const LinearSolverParameters &parameters,
   , communicator(communicator)
   , extra(communicator,
           [this](const auto &left, const auto &right) { return multiply(left, right); })
+  , many_extra(communicator)
 {
 }
 
@@ -151,6 +153,25 @@ void BlockAmgSolver::build(const LinearSystem &system,
   is_built = true;
 }
 
+void BlockAmgSolver::update_extra(const SystemOperator &op, const bool new_stiffness)
+{
+  if (new_stiffness)
+  {
+    extra.forget();
+    many_extra.forget();
+  }
+  if (op.n_extra() == 0)
+    return;
+  if (has_many_extra(op))
+  {
+    extra.forget();
+    many_extra.update(op, stiffness->trilinos_matrix());
+  }
+  else
+    // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
+    extra.update(op, op.border(), stiffness->m(), true);
+}
+
 LinearReport BlockAmgSolver::solve(const LinearSystem &system,
                                    const SystemStamps &stamps,
                                    const double tolerance,
@@ -170,11 +191,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   if (new_mesh || stamps.bulk_values != built_for.bulk_values)
     build(system, stamps, report.factorised);
   stiffness = &system.bulk.block(0, 0);
-  if (new_mesh || stamps.displacement_values != built_for.displacement_values)
-    extra.forget();
-  if (op.n_extra() > 0)
-    // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
-    extra.update(op, op.border(), stiffness->m(), true);
+  update_extra(op, new_mesh || stamps.displacement_values != built_for.displacement_values);
   built_for = stamps;
   report.setup_seconds = stopwatch.seconds();
 
@@ -184,7 +201,10 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   SystemVector dx = op.make_vector();
   const auto iterate = [&]()
   {
-    BlockTriangular preconditioner(op, communicator, displacement, extra, pressure, schur_unit);
+    const auto solve_extra = [&](std::vector<double> &x)
+    { has_many_extra(op) ? many_extra.solve(x) : extra.solve(x); };
+    BlockTriangular preconditioner(op, communicator, displacement, solve_extra, pressure,
+                                   schur_unit);
     solve_by_krylov(op, communicator, std::ref(preconditioner), limits, dx, report);
   };
   iterate();

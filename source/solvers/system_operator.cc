@@ -151,6 +151,18 @@ void SystemOperator::extend(Border &border,
   add(border.extra_extra, send_to_all(extra_extra, communicator), false);
 }
 
+Entries SystemOperator::to_owners_of_rows(const Triplets &triplets) const
+{
+  const Owners owner(linear_system->residual_bulk, offsets, communicator);
+  return send_to_owners(triplets, communicator, [&](const Entry &e) { return owner(e.row); });
+}
+
+Entries SystemOperator::to_hosts_of_columns(const Triplets &triplets,
+                                            const std::vector<unsigned int> &hosts) const
+{
+  return send_to_owners(triplets, communicator, [&](const Entry &e) { return hosts[e.column]; });
+}
+
 double &SystemOperator::entry(dealii::TrilinosWrappers::MPI::BlockVector &vector,
                               const unsigned int block,
                               const int local)
