@@ -24,11 +24,16 @@ namespace
 /// elements in three dimensions there are 4^3 nodes.
 constexpr std::size_t largest_patch = 400;
 
-/// C X, where C is sorted by row and X, too; n columns.
+/// Entries of the product that are smaller, after scaling, are left out: those of unknowns far
+/// apart.
+constexpr double smallest_entry = 0.02;
+
+/// C X, where C is sorted by row and X, too; what is small between scalings is left out.
 std::vector<SystemOperator::Entry> multiply(const std::vector<SystemOperator::Entry> &C,
                                             const std::vector<SystemOperator::Entry> &X,
-                                            const unsigned int n)
+                                            const std::vector<double> &scaling)
 {
+  const std::size_t n = scaling.size();
   std::vector<SystemOperator::Entry> result;
   std::vector<double> sum(n, 0.);
   std::vector<bool> is_used(n, false);
@@ -47,7 +52,8 @@ std::vector<SystemOperator::Entry> multiply(const std::vector<SystemOperator::En
       }
     for (const unsigned int column : used)
     {
-      result.push_back({C[first].row, column, sum[column]});
+      if (std::abs(sum[column]) * scaling[C[first].row] * scaling[column] >= smallest_entry)
+        result.push_back({C[first].row, column, sum[column]});
       sum[column] = 0.;
       is_used[column] = false;
     }
@@ -210,6 +216,7 @@ StiffnessPatches::solve(const Group &group, std::vector<int> patch, const Rows &
   matrix.compute_lu_factorization();
   matrix.solve(x);
   Solution solution{std::move(patch), {}};
+  solution.values.reserve(n * m);
   for (std::size_t c = 0; c < m; ++c)
     for (std::size_t i = 0; i < n; ++i)
       solution.values.push_back(static_cast<float>(x(i, c)));
@@ -287,6 +294,6 @@ std::vector<SystemOperator::Entry> StiffnessPatches::product(const SystemOperato
   auto X = op.to_owners_of_rows(solved);
   solved = {};
   std::sort(X.begin(), X.end(), [](const auto &a, const auto &b) { return a.row < b.row; });
-  return multiply(C, X, op.n_extra());
+  return multiply(C, X, op.scaling().extra);
 }
 } // namespace stockwork
