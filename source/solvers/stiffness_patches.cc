@@ -26,7 +26,7 @@ constexpr std::size_t largest_patch = 400;
 
 /// Entries of the product that are smaller, after scaling, are left out: those of unknowns far
 /// apart.
-constexpr double smallest_entry = 0.02;
+constexpr double smallest_entry = 0.03;
 
 /// C X, where C is sorted by row and X, too; what is small between scalings is left out.
 std::vector<SystemOperator::Entry> multiply(const std::vector<SystemOperator::Entry> &C,
