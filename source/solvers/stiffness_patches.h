@@ -11,10 +11,9 @@ class Epetra_CrsMatrix;
 namespace stockwork
 {
 /// C K^-1 B, sparse: the stiffness matrix K of the rock is inverted on a patch around each column
-/// of B alone, its unknowns and their neighbours, beyond which nothing moves (the study in
-/// doc/theory, "Many extra unknowns"). So it has the null vectors of the true product, of which
-/// a kernel of unbounded rock would know nothing, and errs with long waves, which a patch is too
-/// stiff for.
+/// of B alone, its unknowns and their neighbours, beyond which nothing moves (theory, section 6).
+/// So it has the null vectors of the true product, which a kernel of unbounded rock has not; it
+/// errs with long waves, for which a patch is too stiff.
 ///
 /// Columns that share their unknowns, such as the jump's components in a cell, share a patch. What
 /// has been solved is found again by the contents of its columns, so a growing fracture asks for
