@@ -281,6 +281,12 @@ std::vector<SystemOperator::Entry> StiffnessPatches::product(const SystemOperato
       is_read[K.LRID(static_cast<int>(e.column))] = true;
     }
   Triplets solved;
+  std::size_t most = 0;
+  for (const Group &group : groups)
+    most += known.at(group.key).values.size();
+  solved.rows.reserve(most);
+  solved.columns.reserve(most);
+  solved.values.reserve(most);
   for (const Group &group : groups)
   {
     const Solution &solution = known.at(group.key);

@@ -43,6 +43,7 @@ Entries send_to_owners(const Triplets &triplets, const MPI_Comm communicator, co
 {
   const unsigned int me = dealii::Utilities::MPI::this_mpi_process(communicator);
   Entries mine;
+  mine.reserve(triplets.values.size());
   std::map<unsigned int, std::vector<double>> others; // indices are exact in a double
   for (std::size_t i = 0; i < triplets.values.size(); ++i)
   {
