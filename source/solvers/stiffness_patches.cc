@@ -193,8 +193,18 @@ std::vector<int> StiffnessPatches::unknowns_of_patch(const Group &group, const R
 }
 
 
-StiffnessPatches::Solution
-StiffnessPatches::solve(const Group &group, std::vector<int> patch, const Rows &rows)
+/// One for all patches: freed after each, it would leave holes too small for the next, for what
+/// is kept would settle in them.
+struct StiffnessPatches::Workspace
+{
+  dealii::LAPACKFullMatrix<double> matrix, x;
+};
+
+
+StiffnessPatches::Solution StiffnessPatches::solve(const Group &group,
+                                                   std::vector<int> patch,
+                                                   const Rows &rows,
+                                                   Workspace &workspace)
 {
   const auto n = patch.size(), m = group.columns.size();
   const auto place = [&](const int unknown) -> std::size_t
@@ -202,7 +212,9 @@ StiffnessPatches::solve(const Group &group, std::vector<int> patch, const Rows &
     const auto i = std::lower_bound(patch.begin(), patch.end(), unknown);
     return i != patch.end() && *i == unknown ? i - patch.begin() : n;
   };
-  dealii::LAPACKFullMatrix<double> matrix(n, n), x(n, m);
+  auto &matrix = workspace.matrix, &x = workspace.x;
+  matrix.reinit(n, n);
+  x.reinit(n, m);
   for (std::size_t i = 0; i < n; ++i)
     rows.for_each(patch[i],
                   [&](const int column, const double value)
@@ -248,8 +260,9 @@ void StiffnessPatches::solve_new(const std::vector<Group> &groups, const Epetra_
         wanted.push_back(row);
   }
   rows.see(wanted);
+  Workspace workspace;
   for (std::size_t i = 0; i < unsolved.size(); ++i)
-    known.emplace(unsolved[i]->key, solve(*unsolved[i], std::move(patches[i]), rows));
+    known.emplace(unsolved[i]->key, solve(*unsolved[i], std::move(patches[i]), rows, workspace));
 }
 
 

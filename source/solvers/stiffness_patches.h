@@ -54,13 +54,14 @@ private:
   };
 
   class Rows;
+  struct Workspace;
 
   std::vector<Group> find_groups(const SystemOperator &) const;
 
   /// Unknowns of a group's patch.
   static std::vector<int> unknowns_of_patch(const Group &, const Rows &);
 
-  static Solution solve(const Group &, std::vector<int> patch, const Rows &);
+  static Solution solve(const Group &, std::vector<int> patch, const Rows &, Workspace &);
 
   void solve_new(const std::vector<Group> &, const Epetra_CrsMatrix &K);
 
