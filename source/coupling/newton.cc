@@ -26,7 +26,7 @@ void NewtonParameters::declare_parameters(ParameterHandler &prm)
                     "solve, if that is more.");
   prm.declare_entry("Show iterations", "false", Patterns::Bool(),
                     "Print the residuals of every iteration: forces of the bulk and of the "
-                    "fracture, mass in pores and in the fracture.");
+                    "fracture, mass in pores and in the fracture; and the linear iterations.");
   prm.leave_subsection();
 }
 
@@ -310,7 +310,8 @@ NonlinearReport Newton<dim>::solve()
     }
     if (parameters.show_iterations)
       run.out << "    iteration " << iteration << ": " << norms.momentum << ' ' << norms.extra
-              << ' ' << norms.mass << ' ' << norms.fracture_fluid << std::endl;
+              << ' ' << norms.mass << ' ' << norms.fracture_fluid << ", "
+              << report.linear_iterations << " linear so far" << std::endl;
     if (!std::isfinite(norms.momentum + norms.mass + norms.extra + norms.fracture_fluid))
     {
       report.reason = "the residual is not a number";

@@ -9,6 +9,7 @@
 #include <deal.II/lac/solver_cg.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace stockwork
 {
@@ -29,14 +30,14 @@ public:
                   const MPI_Comm communicator,
                   const DisplacementMultigrid &displacement,
                   const PatchSolver &patch,
-                  const ExtraSchur &extra,
+                  std::function<void(std::vector<double> &)> solve_extra,
                   const AMG &pressure,
                   const double pressure_unit)
     : op(op)
     , communicator(communicator)
     , displacement(displacement)
     , patch(patch)
-    , extra(extra)
+    , solve_extra(std::move(solve_extra))
     , pressure(pressure)
     , pressure_unit(pressure_unit)
     , coupling(op.scaling().bulk.block(0))
@@ -65,7 +66,7 @@ public:
       Utilities::MPI::sum(drained, communicator, drained);
       for (unsigned int i = 0; i < op.n_extra(); ++i)
         z.extra[i] = r.extra[i] - drained[i];
-      extra.solve(z.extra);
+      solve_extra(z.extra);
       for (const auto &e : op.bulk_extra())
       {
         const auto [block, local] = op.locate(e.row);
@@ -82,7 +83,7 @@ private:
   MPI_Comm communicator;
   const DisplacementMultigrid &displacement;
   const PatchSolver &patch;
-  const ExtraSchur &extra;
+  const std::function<void(std::vector<double> &)> solve_extra;
   const AMG &pressure;
   double pressure_unit;
   TrilinosWrappers::MPI::Vector coupling;
@@ -96,6 +97,7 @@ BlockAmgSolver::BlockAmgSolver(const LinearSolverParameters &parameters,
   , patch(communicator)
   , extra(communicator,
           [this](const auto &left, const auto &right) { return multiply(left, right); })
+  , many_extra(communicator)
 {
 }
 
@@ -156,6 +158,25 @@ void BlockAmgSolver::build(const LinearSystem &system,
   is_built = true;
 }
 
+void BlockAmgSolver::update_extra(const SystemOperator &op, const bool new_stiffness)
+{
+  if (new_stiffness)
+  {
+    extra.forget();
+    many_extra.forget();
+  }
+  if (op.n_extra() == 0)
+    return;
+  if (has_many_extra(op))
+  {
+    extra.forget();
+    many_extra.update(op, stiffness->trilinos_matrix());
+  }
+  else
+    // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
+    extra.update(op, op.border(), stiffness->m(), true);
+}
+
 LinearReport BlockAmgSolver::solve(const LinearSystem &system,
                                    const SystemStamps &stamps,
                                    const double tolerance,
@@ -175,11 +196,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   if (new_mesh || stamps.bulk_values != built_for.bulk_values)
     build(system, stamps, report.factorised);
   stiffness = &system.bulk.block(0, 0);
-  if (new_mesh || stamps.displacement_values != built_for.displacement_values)
-    extra.forget();
-  if (op.n_extra() > 0)
-    // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
-    extra.update(op, op.border(), stiffness->m(), true);
+  update_extra(op, new_mesh || stamps.displacement_values != built_for.displacement_values);
   if (system.rock_change != nullptr)
     // In two dimensions a factor is never too dear.
     patch.build(system.bulk.block(0, 0), system.rock_change->block(0, 0),
@@ -195,7 +212,9 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   SystemVector dx = op.make_vector();
   const auto iterate = [&]()
   {
-    BlockTriangular preconditioner(op, communicator, displacement, patch, extra, pressure,
+    const auto solve_extra = [&](std::vector<double> &x)
+    { has_many_extra(op) ? many_extra.solve(x) : extra.solve(x); };
+    BlockTriangular preconditioner(op, communicator, displacement, patch, solve_extra, pressure,
                                    schur_unit);
     solve_by_krylov(op, communicator, std::ref(preconditioner), limits, dx, report);
   };

@@ -43,6 +43,7 @@ Entries send_to_owners(const Triplets &triplets, const MPI_Comm communicator, co
 {
   const unsigned int me = dealii::Utilities::MPI::this_mpi_process(communicator);
   Entries mine;
+  mine.reserve(triplets.values.size());
   std::map<unsigned int, std::vector<double>> others; // indices are exact in a double
   for (std::size_t i = 0; i < triplets.values.size(); ++i)
   {
@@ -149,6 +150,18 @@ void SystemOperator::extend(Border &border,
       send_to_owners(extra_bulk, communicator, [&](const Entry &e) { return owner(e.column); }),
       false);
   add(border.extra_extra, send_to_all(extra_extra, communicator), false);
+}
+
+Entries SystemOperator::to_owners_of_rows(const Triplets &triplets) const
+{
+  const Owners owner(linear_system->residual_bulk, offsets, communicator);
+  return send_to_owners(triplets, communicator, [&](const Entry &e) { return owner(e.row); });
+}
+
+Entries SystemOperator::to_hosts_of_columns(const Triplets &triplets,
+                                            const std::vector<unsigned int> &hosts) const
+{
+  return send_to_owners(triplets, communicator, [&](const Entry &e) { return hosts[e.column]; });
 }
 
 double &SystemOperator::entry(dealii::TrilinosWrappers::MPI::BlockVector &vector,

@@ -85,6 +85,14 @@ public:
               const Triplets &extra_bulk,
               const Triplets &extra_extra) const;
 
+  /// Entries where they belong: with the rank that owns their row, an unknown of the bulk.
+  /// Collective.
+  std::vector<Entry> to_owners_of_rows(const Triplets &) const;
+
+  /// The same, with the rank that `hosts` names for their column.
+  std::vector<Entry> to_hosts_of_columns(const Triplets &,
+                                         const std::vector<unsigned int> &hosts) const;
+
   /// Entries in rows of this rank, by column, then row.
   const std::vector<Entry> &bulk_extra() const
   {
