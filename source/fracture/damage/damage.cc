@@ -27,7 +27,7 @@ constexpr double contact_stiffness = 20.;
 
 
 /// A cell of this size holds no more energy than its crack takes; with more strength it would snap
-/// back (physics.md, 6) [Pa].
+/// back (Bazant and Oh 1983) [Pa].
 double greatest_strength(const RockProperties &rock, const double size)
 {
   return 0.9 * std::sqrt(2. * rock.plane_modulus() * rock.energy_release_rate / size);
@@ -171,6 +171,7 @@ void Damage<dim>::start(const Collectives &collectives)
   }
   band.replace(all);
   committed = all;
+  n_initial = all.size();
 }
 
 
@@ -334,7 +335,8 @@ void Damage<dim>::save(boost::archive::binary_oarchive &archive) const
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
   for (const auto &[region, law] : laws)
     strengths.emplace_back(region, law.strength);
-  archive << committed << strengths << started << waits_for_mesh << greatest_opening << dissipated;
+  archive << committed << n_initial << strengths << started << waits_for_mesh << greatest_opening
+          << dissipated;
 }
 
 
@@ -342,7 +344,8 @@ template <int dim>
 void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
-  archive >> committed >> strengths >> started >> waits_for_mesh >> greatest_opening >> dissipated;
+  archive >> committed >> n_initial >> strengths >> started >> waits_for_mesh >> greatest_opening >>
+    dissipated;
   laws.clear();
   for (const auto &[region, strength] : strengths)
     laws[region] = law_of(scene.rock(region), strength);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "discontinuity/stress_ahead.h"
 #include "fracture/damage/band.h"
 #include "fracture/damage/law.h"
 #include "fracture/damage/parameters.h"
@@ -136,6 +137,19 @@ private:
   };
   Behind look_behind(const Candidate &candidate, const State &state) const;
 
+  /// The rock ahead of each candidate, twice: for whether it cracks, and for the direction.
+  std::vector<RockAhead<dim>> look_ahead(const std::vector<Candidate> &all,
+                                         const State &state,
+                                         const Collectives &collectives) const;
+
+  /// Whether a candidate cracks.
+  bool is_driven(const Candidate &candidate,
+                 const Behind &behind,
+                 const dealii::SymmetricTensor<2, dim> &stress);
+
+  /// A fracture that the fluid has grown has nowhere to go, and takes more of it all the same.
+  bool swells_in_vain(const State &state) const;
+
   /// Put the crack into a candidate, across this direction of greatest tension.
   void crack(Candidate &candidate, const dealii::Tensor<1, dim> &across) const;
 
@@ -149,6 +163,7 @@ private:
 
   // History, the same on all ranks.
   std::vector<CrackCell<dim>> committed;
+  unsigned int n_initial = 0;   ///< cells of the scene's own cracks
   bool started = false;         ///< a step has been accepted
   bool waits_for_mesh = false;  ///< cells ahead were of another size
   double greatest_opening = 0.; ///< of all cells so far [m]

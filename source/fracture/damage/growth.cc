@@ -1,4 +1,3 @@
-#include "discontinuity/stress_ahead.h"
 #include "fracture/damage/damage.h"
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 namespace stockwork::damage
 {
 using dealii::Point;
+using dealii::SymmetricTensor;
 using dealii::Tensor;
 
 template <int dim>
@@ -155,21 +155,11 @@ Tensor<1, dim> rounded(const Tensor<1, dim> &v)
 
 
 template <int dim>
-Verdict
-Damage<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
+std::vector<RockAhead<dim>> Damage<dim>::look_ahead(const std::vector<Candidate> &all,
+                                                    const State &state,
+                                                    const Collectives &collectives) const
 {
-  Verdict verdict;
-  verdict.advances = n_advances;
-  if (press_faces(state))
-  {
-    verdict.kind = Verdict::Kind::topology_changed;
-    return verdict;
-  }
-  if (!parameters.growth)
-    return verdict;
-
-  std::vector<Candidate> all = candidates(collectives);
-  std::vector<HalfDisc<dim>> discs; // for whether each cracks, and for the direction
+  std::vector<HalfDisc<dim>> discs;
   for (const Candidate &candidate : all)
   {
     Tensor<1, dim> ahead;
@@ -187,61 +177,105 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
     discs.push_back({entry, ahead, parameters.averaging_radius * h});
     discs.push_back({entry, ahead, parameters.direction_radius * h});
   }
-  const auto averages = average_ahead<dim>(
+  return average_ahead<dim>(
     discs, *mesh_view, [this](const unsigned int cell) { return band.is_cracked(cell); }, scene,
     state, collectives);
+}
 
+
+template <int dim>
+bool Damage<dim>::is_driven(const Candidate &candidate,
+                            const Behind &behind,
+                            const SymmetricTensor<2, dim> &stress)
+{
+  if (laws.count(candidate.cell.region) == 0)
+    choose_strength(candidate.cell.region, candidate.cell.size());
+  const double strength = law(candidate.cell).strength;
+  // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
+  // exceeds the strength there would be no end to it. Where it does so by far, there is no process
+  // zone worth the name. A dry crack goes on at the threshold: the seam's compliance ahead of the
+  // damage counts.
+  if ((!behind.opens && behind.pressure != 0.) || (!behind.broken && behind.net > 10. * strength))
+    return false;
+  // Suction at the front and the tension ahead, both many times the strength, leave a difference
+  // that tells nothing: there the fluid has to have arrived.
+  if (behind.reached < 1.)
+    return false;
+  const Tensor<1, dim> &normal = band.cells[candidate.behind[0]].normal;
+  const double drive = behind.pressure + (parameters.straight ? normal * (stress * normal)
+                                                              : dealii::eigenvalues(stress)[0]);
+  return drive >= parameters.growth_threshold * strength * (1. - 1e-6);
+}
+
+
+template <int dim>
+bool Damage<dim>::swells_in_vain(const State &state) const
+{
+  if (!std::isnan(scene.crack_pressure) || band.cells.size() == n_initial)
+    return false;
+  double now = 0., before = 0.;
+  for (unsigned int i = 0; i < band.cells.size(); ++i)
+  {
+    if (band.is_front(i))
+      return false;
+    const CrackCell<dim> &crack = band.cells[i];
+    now += crack.area() * (crack.normal * band.jump(i, state.current.extra));
+    before += crack.area() * (crack.normal * band.jump(i, state.committed.extra));
+  }
+  return now > before * (1. + 1e-9);
+}
+
+
+template <int dim>
+Verdict
+Damage<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
+{
+  Verdict verdict;
+  verdict.advances = n_advances;
+  const auto stop = [&verdict](const std::string &reason)
+  {
+    verdict.kind = Verdict::Kind::stop;
+    verdict.reason = reason;
+    return verdict;
+  };
+  if (press_faces(state))
+  {
+    verdict.kind = Verdict::Kind::topology_changed;
+    return verdict;
+  }
+  if (!parameters.growth)
+    return verdict;
+  // In the step in which it gets there it is accepted.
+  if (committed.size() == band.cells.size() && swells_in_vain(state))
+    return stop("the fracture has come to the boundary of the domain, or to another one, on all "
+                "sides, and more is pumped into it.");
+
+  std::vector<Candidate> all = candidates(collectives);
+  const auto rock = look_ahead(all, state, collectives);
   std::vector<CrackCell<dim>> more;
   for (unsigned int i = 0; i < all.size(); ++i)
   {
     Candidate &candidate = all[i];
     const Behind behind = look_behind(candidate, state);
-    if (laws.count(candidate.cell.region) == 0)
-      choose_strength(candidate.cell.region, candidate.cell.size());
-    const double strength = law(candidate.cell).strength;
-    // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
-    // exceeds the strength there would be no end to it. Where it does so by far, there is no
-    // process zone worth the name. A dry crack goes on at the threshold: the seam's compliance
-    // ahead of the damage counts.
-    if ((!behind.opens && behind.pressure != 0.) || (!behind.broken && behind.net > 10. * strength))
+    if (!is_driven(candidate, behind, rock[2 * i].stress))
       continue;
-    // Suction at the front and the tension ahead, both many times the strength, leave a difference
-    // that tells nothing: there the fluid has to have arrived.
-    if (behind.reached < 1.)
-      continue;
-    const Tensor<1, dim> &straight_on = band.cells[candidate.behind[0]].normal;
-    const auto &stress = averages[2 * i].stress;
-    const double drive =
-      behind.pressure +
-      (parameters.straight ? straight_on * (stress * straight_on) : dealii::eigenvalues(stress)[0]);
-    if (drive < parameters.growth_threshold * strength * (1. - 1e-6))
-      continue;
-    if (n_advances >= parameters.most_advances)
+    if (n_advances >= parameters.most_advances || !candidate.fits)
     {
-      verdict.held_back = true;
-      continue;
-    }
-    if (!candidate.fits)
-    {
-      needs_mesh = true;
+      needs_mesh |= !candidate.fits;
       verdict.held_back = true;
       continue;
     }
     crack(candidate, parameters.straight
-                       ? straight_on
-                       : rounded(dealii::eigenvectors(averages[2 * i + 1].stress)[0].second));
+                       ? band.cells[candidate.behind[0]].normal
+                       : rounded(dealii::eigenvectors(rock[2 * i + 1].stress)[0].second));
     candidate.cell.bare = behind.broken;
     candidate.cell.reached = behind.broken ? 0. : 1.;
     if (candidate.cell.is_cut() && candidate.cell.area() > 0.)
       more.push_back(candidate.cell);
   }
   if (needs_mesh && waits_for_mesh)
-  {
-    verdict.kind = Verdict::Kind::stop;
-    verdict.reason = "the crack has come to cells of another size, and refining the mesh has not "
-                     "changed that. Make the cells alike as far as the fracture shall run.";
-    return verdict;
-  }
+    return stop("the crack has come to cells of another size, and refining the mesh has not "
+                "changed that. Make the cells alike as far as the fracture shall run.");
   if (!more.empty())
   {
     ++n_advances;
