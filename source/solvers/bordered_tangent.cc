@@ -45,6 +45,8 @@ public:
   unsigned int
   solve(std::vector<double> &half, const std::vector<double> &r_extra, const double allowed)
   {
+    if (unknowns.empty())
+      return 0; // the rock is on its surface, and has not moved on it
     Vector y(unknowns.size()), load(unknowns.size()), x(unknowns.size());
     inverse->backward_to_few(half, x);
     answer_of_extra(x, r_extra);

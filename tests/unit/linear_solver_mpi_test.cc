@@ -595,6 +595,7 @@ TEST_CASE("many extra unknowns: the sparse block follows a fracture that grows a
   auto d = make_dense(400, 0, 60, 0., 0., 0.4);
   const auto check = [&]()
   {
+    ++stamps.bulk_values; // each system has a matrix of its own, which multigrid refers to
     const auto run = solve(*solver, d, stamps);
     CHECK(run.report.converged);
     CHECK(run.report.iterations <= 30); // of 460 or 480, to twelve digits
@@ -612,7 +613,6 @@ TEST_CASE("many extra unknowns: the sparse block follows a fracture that grows a
     d.J(402, i) *= 1.2;
   check();
   ++stamps.displacement_values;
-  ++stamps.bulk_values;
   for (unsigned int i = 0; i < 400; ++i)
     d.J(i, i) *= 1.5;
   check();

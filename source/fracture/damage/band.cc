@@ -339,7 +339,7 @@ void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) cons
     if (links[i][f] != none)
     {
       // Lengths along the crack and not along the stairs of cells.
-      const Tensor<1, dim> to_face = crack.face_centre(f) - segment.centre;
+      const Tensor<1, dim> to_face = crack.face_centre(f) - crack.centre();
       const double along = (to_face - (to_face * crack.normal) * crack.normal).norm();
       const CrackCell<dim> &other = cells[links[i][f]];
       segment.neighbours.push_back(
@@ -380,7 +380,7 @@ Band<dim>::segments(const std::function<double(const Point<dim> &)> &in_situ_por
     const CrackCell<dim> &crack = cells[owned.number];
     Segment<dim> segment;
     segment.key = crack.key();
-    segment.centre = crack.centre();
+    segment.centre = crack.middle();
     segment.normal = crack.normal;
     segment.area = crack.area();
     segment.at_tip = crack.bare && is_front(owned.number);

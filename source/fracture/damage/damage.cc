@@ -157,16 +157,33 @@ void Damage<dim>::start(const Collectives &collectives)
     if (passed.empty())
       throw EntryError(crack.entry, crack.text,
                        "a crack that is longer than half a cell; this one passes none");
+    unsigned int n_shared = 0;
+    double length = 0.;
     for (CrackCell<dim> &cell : passed)
     {
+      length += cell.area();
       if (std::any_of(all.begin(), all.end(),
                       [&](const auto &other) { return other.id == cell.id; }))
+      {
+        ++n_shared;
         continue;
+      }
       if (laws.count(cell.region) == 0)
         choose_strength(cell.region, cell.size());
       if (crack.kind == InitialCrack<dim>::Kind::open)
         cell.greatest.fill(law(cell).critical);
       all.push_back(cell);
+    }
+    if (2 * n_shared >= passed.size())
+      throw EntryError(crack.entry, crack.text,
+                       "cracks with cells of their own; half of this one's or more hold another. "
+                       "Smaller cells, or cracks further apart, will do");
+    if (dim == 2 && std::abs(length - crack.size()) > 0.02 * crack.size())
+    {
+      std::ostringstream text;
+      text << "A crack is " << length << " m long, not " << crack.size()
+           << " m as in the deck: cracks of this model have whole cells.";
+      messages.push_back(text.str());
     }
   }
   band.replace(all);
@@ -180,7 +197,7 @@ void Damage<dim>::begin_step(const StepContext &)
 {
   n_presses = 0;
   n_advances = 0;
-  needs_mesh = false;
+  needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
 }
@@ -302,6 +319,7 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
                            : 0.;
     }
   }
+  n_arrested = arrested && n_advances == 0 && std::isnan(scene.crack_pressure) ? n_arrested + 1 : 0;
   committed = band.cells;
   waits_for_mesh = needs_mesh;
   return false;
@@ -335,8 +353,8 @@ void Damage<dim>::save(boost::archive::binary_oarchive &archive) const
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
   for (const auto &[region, law] : laws)
     strengths.emplace_back(region, law.strength);
-  archive << committed << n_initial << strengths << started << waits_for_mesh << greatest_opening
-          << dissipated;
+  archive << committed << n_initial << n_arrested << strengths << started << waits_for_mesh
+          << greatest_opening << dissipated;
 }
 
 
@@ -344,8 +362,8 @@ template <int dim>
 void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
-  archive >> committed >> n_initial >> strengths >> started >> waits_for_mesh >> greatest_opening >>
-    dissipated;
+  archive >> committed >> n_initial >> n_arrested >> strengths >> started >> waits_for_mesh >>
+    greatest_opening >> dissipated;
   laws.clear();
   for (const auto &[region, strength] : strengths)
     laws[region] = law_of(scene.rock(region), strength);

@@ -143,6 +143,7 @@ private:
                                          const Collectives &collectives) const;
 
   /// Whether a candidate cracks.
+  /// Notes in `arrested` if it does not although pressure and tension are hopelessly much.
   bool is_driven(const Candidate &candidate,
                  const Behind &behind,
                  const dealii::SymmetricTensor<2, dim> &stress);
@@ -165,13 +166,14 @@ private:
   std::vector<CrackCell<dim>> committed;
   unsigned int n_initial = 0;   ///< cells of the scene's own cracks
   bool started = false;         ///< a step has been accepted
+  unsigned int n_arrested = 0;  ///< steps for which nothing has grown, though hopelessly driven
   bool waits_for_mesh = false;  ///< cells ahead were of another size
   double greatest_opening = 0.; ///< of all cells so far [m]
   double dissipated = 0.;       ///< since the start [J], [J/m] in 2-D
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
-  bool needs_mesh = false;
+  bool needs_mesh = false, arrested = false;
   std::size_t n_messages_before = 0;
   std::map<dealii::types::material_id, SeamLaw>
     laws_before; ///< so that what was said is said again

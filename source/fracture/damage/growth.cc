@@ -196,7 +196,10 @@ bool Damage<dim>::is_driven(const Candidate &candidate,
   // zone worth the name. A dry crack goes on at the threshold: the seam's compliance ahead of the
   // damage counts.
   if ((!behind.opens && behind.pressure != 0.) || (!behind.broken && behind.net > 10. * strength))
+  {
+    arrested |= behind.net > 20. * strength;
     return false;
+  }
   // Suction at the front and the tension ahead, both many times the strength, leave a difference
   // that tells nothing: there the fluid has to have arrived.
   if (behind.reached < 1.)
@@ -252,6 +255,7 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
 
   std::vector<Candidate> all = candidates(collectives);
   const auto rock = look_ahead(all, state, collectives);
+  arrested = false;
   std::vector<CrackCell<dim>> more;
   for (unsigned int i = 0; i < all.size(); ++i)
   {
@@ -276,6 +280,12 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   if (needs_mesh && waits_for_mesh)
     return stop("the crack has come to cells of another size, and refining the mesh has not "
                 "changed that. Make the cells alike as far as the fracture shall run.");
+  constexpr unsigned int enough = 10;
+  if (arrested && n_advances == 0 && more.empty() && n_arrested >= enough)
+    return stop("no fracture has grown for " + std::to_string(enough) +
+                " steps, although the fluid's net pressure is more than 20 times the strength of "
+                "the rock: its process zone is longer than the fracture. A greater 'Tensile "
+                "strength', or none, which lets the model choose one for the cells, may do.");
   if (!more.empty())
   {
     ++n_advances;
