@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "stockwork/base/scrambled.h"
 #include "stockwork/exchange/segment.h"
 
 namespace stockwork
@@ -44,9 +45,6 @@ struct NetworkSegment
 /// pressures never share a key, and one of a fracture model only by an accident of 1 in 2^64.
 inline std::uint64_t flow_key(const std::uint64_t key, const std::uint64_t kind)
 {
-  std::uint64_t z = key + kind * 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
+  return scrambled(key + kind * scrambling_step);
 }
 } // namespace stockwork

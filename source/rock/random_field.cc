@@ -2,6 +2,7 @@
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
+#include "stockwork/base/scrambled.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +14,10 @@ using namespace dealii;
 
 namespace
 {
-/// Mix a number into another: every bit of both reaches every bit of the result (SplitMix64;
-/// Steele, Lea and Flood 2014). As Key does, which is of the mesh.
-std::uint64_t mixed(std::uint64_t state, const std::uint64_t number)
+/// A number mixed into another.
+std::uint64_t mixed(const std::uint64_t state, const std::uint64_t number)
 {
-  state += 0x9e3779b97f4a7c15ull + number;
-  state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9ull;
-  state = (state ^ (state >> 27)) * 0x94d049bb133111ebull;
-  return state ^ (state >> 31);
+  return scrambled(state + scrambling_step + number);
 }
 
 

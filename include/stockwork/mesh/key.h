@@ -3,6 +3,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/grid/cell_id.h>
 
+#include "stockwork/base/scrambled.h"
+
 #include <cmath>
 #include <cstdint>
 
@@ -19,11 +21,7 @@ public:
   /// Mix in a number.
   Key &add(const std::uint64_t number)
   {
-    // SplitMix64 (Steele, Lea, Flood 2014): every bit of the input reaches every bit of the key.
-    state += 0x9e3779b97f4a7c15ull + number;
-    state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9ull;
-    state = (state ^ (state >> 27)) * 0x94d049bb133111ebull;
-    state ^= state >> 31;
+    state = scrambled(state + scrambling_step + number);
     return *this;
   }
 

@@ -20,9 +20,8 @@ namespace stockwork::damage
 /// -sym(a grad phi) to that of the nodes. Two bodies that move apart as they are then leave no
 /// stress in the cells between them, along whatever stairs these lie; a strain -sym(a n)/h, which
 /// is what a damaged stiffness makes of it, would leave some wherever n is not normal to the mesh.
-/// The jump may be that of a rigid body that turns as well; then that holds in the mean over the
-/// cell, where both sides have as many vertices (Linder and Armero
-/// 2007 call such jumps linear).
+/// The jump may be that of a rigid body that turns as well (Linder and Armero 2007 call such jumps
+/// linear); then that holds in the mean over a cell where both sides have as many vertices.
 template <int dim>
 struct CrackCell
 {

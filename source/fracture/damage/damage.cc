@@ -55,11 +55,38 @@ Damage<dim>::Damage(const Parameters &parameters, const Scene<dim> &scene)
       "nothing (an empty entry), or the critical one, with 'Fracture/Model = damage', "
       "whose cracks have one energy, whatever the mode");
   }
+  check_strengths();
   if (scene.cracks.empty())
     throw InputError("The damage model needs an initial crack or notch to grow from.");
   for (const auto &crack : scene.cracks)
     if (crack.kind == InitialCrack<dim>::Kind::propped)
       throw EntryError(crack.entry, crack.text, "no propped crack with 'Fracture/Model = damage'");
+}
+
+
+template <int dim>
+void Damage<dim>::check_strengths() const
+{
+  // A fluid's pressure far above the strength breaks no cell whose opening must be so large.
+  if (!std::isnan(scene.crack_pressure))
+    return;
+  for (unsigned int region = 0; region <= Rock::max_regions; ++region)
+  {
+    const RockProperties &rock = scene.rock(region);
+    const double length = rock.plane_modulus() * rock.energy_release_rate /
+                          (rock.tensile_strength * rock.tensile_strength);
+    if (!(length > scene.domain_size))
+      continue;
+    const double least =
+      std::sqrt(rock.plane_modulus() * rock.energy_release_rate / scene.domain_size);
+    throw EntryError(region == 0 ? "Rock/Tensile strength"
+                                 : "Rock/Region " + std::to_string(region) + "/Tensile strength",
+                     to_string(rock.tensile_strength, dimension::stress),
+                     "nothing (an empty entry: the model chooses), or more than " +
+                       to_string(least, dimension::stress) +
+                       ", with 'Fracture/Model = damage' and fluid: below, the process zone "
+                       "E'G_c/T^2 is longer than the domain");
+  }
 }
 
 
@@ -189,6 +216,19 @@ void Damage<dim>::start(const Collectives &collectives)
   band.replace(all);
   committed = all;
   n_initial = all.size();
+  initial_size = 0.;
+  for (const CrackCell<dim> &cell : all)
+    initial_size = std::max(initial_size, cell.size());
+}
+
+
+template <int dim>
+double Damage<dim>::largest_cell(const CrackCell<dim> &crack) const
+{
+  const RockProperties &rock = scene.rock(crack.region);
+  const double strength = laws.at(crack.region).strength,
+               length = rock.plane_modulus() * rock.energy_release_rate / (strength * strength);
+  return std::max(initial_size, (dim == 2 ? 0.5 : 1.) * length) * (1. + 1e-6);
 }
 
 
@@ -353,8 +393,8 @@ void Damage<dim>::save(boost::archive::binary_oarchive &archive) const
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
   for (const auto &[region, law] : laws)
     strengths.emplace_back(region, law.strength);
-  archive << committed << n_initial << n_arrested << strengths << started << waits_for_mesh
-          << greatest_opening << dissipated;
+  archive << committed << n_initial << initial_size << n_arrested << strengths << started
+          << waits_for_mesh << greatest_opening << dissipated;
 }
 
 
@@ -362,8 +402,8 @@ template <int dim>
 void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
-  archive >> committed >> n_initial >> n_arrested >> strengths >> started >> waits_for_mesh >>
-    greatest_opening >> dissipated;
+  archive >> committed >> n_initial >> initial_size >> n_arrested >> strengths >> started >>
+    waits_for_mesh >> greatest_opening >> dissipated;
   laws.clear();
   for (const auto &[region, strength] : strengths)
     laws[region] = law_of(scene.rock(region), strength);

@@ -74,6 +74,9 @@ public:
 private:
   void start(const Collectives &collectives);
 
+  /// Refuse rock so weak that its process zone is longer than the domain.
+  void check_strengths() const;
+
   /// The law of a region whose cells along the crack are of this size; says what is coarse.
   void choose_strength(dealii::types::material_id region, double size);
 
@@ -152,7 +155,13 @@ private:
   bool swells_in_vain(const State &state) const;
 
   /// Put the crack into a candidate, across this direction of greatest tension.
-  void crack(Candidate &candidate, const dealii::Tensor<1, dim> &across) const;
+  /// @param beside that crack in the same pass
+  void crack(Candidate &candidate,
+             const dealii::Tensor<1, dim> &across,
+             const std::vector<CrackCell<dim>> &beside) const;
+
+  /// A larger cell does not resolve the process zone, unless it was so from the start [m].
+  double largest_cell(const CrackCell<dim> &crack) const;
 
   Parameters parameters;
   const Scene<dim> &scene;
@@ -165,6 +174,7 @@ private:
   // History, the same on all ranks.
   std::vector<CrackCell<dim>> committed;
   unsigned int n_initial = 0;   ///< cells of the scene's own cracks
+  double initial_size = 0.;     ///< of the largest of them [m]
   bool started = false;         ///< a step has been accepted
   unsigned int n_arrested = 0;  ///< steps for which nothing has grown, though hopelessly driven
   bool waits_for_mesh = false;  ///< cells ahead were of another size

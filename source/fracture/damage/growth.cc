@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace stockwork::damage
 {
@@ -45,7 +46,9 @@ Damage<dim>::candidates(const Collectives &collectives) const
 
 
 template <int dim>
-void Damage<dim>::crack(Candidate &candidate, const Tensor<1, dim> &across) const
+void Damage<dim>::crack(Candidate &candidate,
+                        const Tensor<1, dim> &across,
+                        const std::vector<CrackCell<dim>> &beside) const
 {
   CrackCell<dim> &cell = candidate.cell;
   Tensor<1, dim> of_others;
@@ -60,16 +63,21 @@ void Damage<dim>::crack(Candidate &candidate, const Tensor<1, dim> &across) cons
   cell.normal = across * of_others < 0. ? -across : across;
   cell.on_plane = entry;
   cell.part_by_plane();
-  // A vertex is on the side on which the cracked cells behind have it.
-  for (unsigned int k = 0; k < candidate.behind.size(); ++k)
+  // A vertex is on the side on which the cracked cells have it: those beside, and before them those
+  // behind.
+  std::vector<const CrackCell<dim> *> others;
+  for (const CrackCell<dim> &other : beside)
+    others.push_back(&other);
+  for (const unsigned int number : candidate.behind)
+    others.push_back(&band.cells[number]);
+  for (const CrackCell<dim> *const other : others)
   {
-    const CrackCell<dim> &other = band.cells[candidate.behind[k]];
-    const bool turned = other.normal * cell.normal < 0.;
+    const bool turned = other->normal * cell.normal < 0.;
     for (unsigned int v = 0; v < CrackCell<dim>::n_vertices; ++v)
       for (unsigned int w = 0; w < CrackCell<dim>::n_vertices; ++w)
-        if (cell.vertices[v].distance(other.vertices[w]) < 1e-6 * other.size())
+        if (cell.vertices[v].distance(other->vertices[w]) < 1e-6 * other->size())
         {
-          const bool is_plus = other.is_on_plus_side(w) != turned;
+          const bool is_plus = other->is_on_plus_side(w) != turned;
           cell.plus = is_plus ? cell.plus | (1u << v) : cell.plus & ~(1u << v);
         }
   }
@@ -269,11 +277,21 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       verdict.held_back = true;
       continue;
     }
-    crack(candidate, parameters.straight
-                       ? band.cells[candidate.behind[0]].normal
-                       : rounded(dealii::eigenvectors(rock[2 * i + 1].stress)[0].second));
+    crack(candidate,
+          parameters.straight ? band.cells[candidate.behind[0]].normal
+                              : rounded(dealii::eigenvectors(rock[2 * i + 1].stress)[0].second),
+          more);
     candidate.cell.bare = behind.broken;
     candidate.cell.reached = behind.broken ? 0. : 1.;
+    if (const double size = candidate.cell.size(); size > largest_cell(candidate.cell))
+    {
+      std::ostringstream reason;
+      reason << "the crack at (" << candidate.cell.centre() << ") has come to cells of " << size
+             << " m. Larger ones than " << largest_cell(candidate.cell)
+             << " m do not resolve the process zone. Make the cells alike as far as the fracture "
+                "shall run.";
+      return stop(reason.str());
+    }
     if (candidate.cell.is_cut() && candidate.cell.area() > 0.)
       more.push_back(candidate.cell);
   }
