@@ -97,7 +97,33 @@ void Damage<dim>::setup(const MeshView<dim> &d, const Collectives &collectives)
   band.setup(d);
   if (!started)
     start(collectives);
+  make_segments();
+}
+
+
+template <int dim>
+void Damage<dim>::make_segments()
+{
   all_segments = band.segments(scene.in_situ_pore_pressure);
+  // Zhang et al., Eqs 23 and 24: with D the compressibility of the pores grows by 1/(1 - D). That
+  // of the rock is 1/K for grains that are not compressed. At D = 1 it would be infinite.
+  for (unsigned int k = 0; k < all_segments.size(); ++k)
+  {
+    const CrackCell<dim> &crack = band.cells[band.owned()[k].number];
+    const double integrity = std::max(1. - damage(crack), parameters.least_integrity);
+    all_segments[k].damaged_storage =
+      crack.size_across() /
+      (scene.rock.at(crack.region, crack.centre()).bulk_modulus() * integrity);
+  }
+}
+
+
+template <int dim>
+double Damage<dim>::damage(const CrackCell<dim> &crack) const
+{
+  const double mean =
+    std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
+  return law(crack).damage(mean, rock_stiffness(crack));
 }
 
 
@@ -240,6 +266,7 @@ void Damage<dim>::begin_step(const StepContext &)
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
+  make_segments();
 }
 
 
@@ -373,7 +400,6 @@ void Damage<dim>::rollback()
   laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
-  all_segments = band.segments(scene.in_situ_pore_pressure);
 }
 
 
@@ -411,7 +437,6 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   if (mesh_view)
   {
     begin_step({});
-    all_segments = band.segments(scene.in_situ_pore_pressure);
   }
 }
 
@@ -451,9 +476,7 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
     const CrackCell<dim> &crack = band.cells[owned.number];
     const unsigned int index = owned.cell->active_cell_index();
     const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    const double mean =
-      std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
-    damage[index] = law(crack).damage(mean, rock_stiffness(crack));
+    damage[index] = this->damage(crack);
     opening[index] = jump * crack.normal;
     if constexpr (dim == 2)
     {

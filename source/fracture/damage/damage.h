@@ -27,6 +27,7 @@ public:
   {
     Requirements needs;
     needs.random_rock = true;
+    needs.breaks_between_steps = true;
     return needs;
   }
 
@@ -74,6 +75,8 @@ public:
 private:
   void start(const Collectives &collectives);
 
+  void make_segments();
+
   /// Refuse rock so weak that its process zone is longer than the domain.
   void check_strengths() const;
 
@@ -84,6 +87,9 @@ private:
 
   /// The law of a crack: that of its region, where the rock varies that of its place.
   SeamLaw law(const CrackCell<dim> &crack) const;
+
+  /// D of the whole cell.
+  double damage(const CrackCell<dim> &crack) const;
 
   /// Modulus of uniaxial strain across the crack over the size of the cell [Pa/m].
   double rock_stiffness(const CrackCell<dim> &crack) const;
