@@ -219,6 +219,14 @@ void Damage<dim>::start(const Collectives &collectives)
   initial_size = 0.;
   for (const CrackCell<dim> &cell : all)
     initial_size = std::max(initial_size, cell.size());
+  if (parameters.cell_size > 1.5 * initial_size)
+  {
+    std::ostringstream text;
+    text << "'Cell size' = " << parameters.cell_size
+         << " m is without effect: the cells of the mesh "
+         << "along the cracks are smaller already, " << initial_size << " m.";
+    messages.push_back(text.str());
+  }
 }
 
 
