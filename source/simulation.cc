@@ -180,7 +180,7 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.network,
            the_case.elements,
            prm)
-  , adaptation(the_case.geometry, triangulation, *the_case.model)
+  , adaptation(run, the_case.geometry, triangulation, *the_case.model)
   , stepper(run, system, *the_case.model, the_case.network, the_case.scheme, the_case.control)
   , report(run,
            system,
@@ -240,8 +240,11 @@ template <int dim>
 void Simulation<dim>::start(ParameterHandler &prm)
 {
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
-  the_case.geometry.create(triangulation);
-  adaptation.refine_initial_mesh();
+  {
+    const auto scope = run.timers.scope("adaptation");
+    the_case.geometry.create(triangulation);
+    adaptation.refine_initial_mesh();
+  }
   the_case.geometry.check_boxes(triangulation);
   refuse_too_large();
   the_case.boundary_conditions.check(triangulation,
@@ -509,7 +512,10 @@ void Simulation<dim>::march()
                    stepper.last_state(), system.nonlinear_rock());
     }
     if (!finished())
+    {
+      const auto scope = run.timers.scope("adaptation");
       adaptation.adapt(system, stepper);
+    }
     if (stop_requested(run.communicator))
     {
       save();
