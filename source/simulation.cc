@@ -73,6 +73,19 @@ double unsplit_cell_size(const parallel::distributed::Triangulation<dim> &triang
 }
 
 
+/// Region of the cell at a place; 0 if there is none.
+template <int dim>
+types::material_id region_at(const parallel::distributed::Triangulation<dim> &triangulation,
+                             const Point<dim> &point)
+{
+  types::material_id region = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->point_inside(point))
+      region = std::max(region, cell->material_id());
+  return Utilities::MPI::max(region, triangulation.get_communicator());
+}
+
+
 /// Entries that a restart may give another value.
 const std::vector<std::string> may_change = {"Time/End time", "Output directory", "Output",
                                              "Checkpoint"};
@@ -377,8 +390,10 @@ void Simulation<dim>::refuse_too_large() const
 template <int dim>
 void Simulation<dim>::announce()
 {
-  const MeshSizes<dim> mesh{smallest_cell_size(triangulation), [this](const Point<dim> &point)
-                            { return unsplit_cell_size(triangulation, point); }};
+  const MeshSizes<dim> mesh{
+    smallest_cell_size(triangulation),
+    [this](const Point<dim> &point) { return unsplit_cell_size(triangulation, point); },
+    [this](const Point<dim> &point) { return region_at(triangulation, point); }};
   print_scene_audit(run, the_case, mesh);
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);

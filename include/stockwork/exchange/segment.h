@@ -84,6 +84,10 @@ struct Segment
   /// Zero: the pressure at the segment itself.
   double pore_distance = 0.;
 
+  /// The pressure is that of `pore_pressure`, whatever flows from one to the other: the elements of
+  /// the pore pressure carry the fluid of the fracture, too, and the segment has no neighbours.
+  bool has_pressure_of_pores = false;
+
   /// Aperture from which on the faces are bare and leak in full, for Carter's law; below, bridges
   /// of rock still hold them together [m]. The minimum aperture of the flow if that is larger.
   double bare_aperture = 0.;

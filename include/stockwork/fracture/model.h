@@ -36,7 +36,12 @@ enum class RegionalRock
 struct Requirements
 {
   bool pore_pressure = false; ///< cannot run in dry, elastic rock
-  bool symmetric = true;      ///< its own terms keep the matrix symmetric
+
+  /// The elements of the pore pressure carry the fluid of the fractures, which has no pressure of
+  /// its own.
+  bool fluid_in_pores = false;
+
+  bool symmetric = true; ///< its own terms keep the matrix symmetric
 
   /// One of the laws that role() may put in place of the rock's; all of them have its history.
   /// Null: there are none. It lives as long as the model.
