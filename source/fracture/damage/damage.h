@@ -195,6 +195,7 @@ private:
   unsigned int n_moving = 0; ///< candidates that were near to cracking as it began
   std::map<dealii::CellId, unsigned int> generations; ///< of the cells that have cracked
   bool needs_mesh = false, arrested = false;
+  dealii::Point<dim> misfit; ///< where cells of another size are in the crack's way
   std::size_t n_messages_before = 0;
   std::map<dealii::types::material_id, SeamLaw>
     laws_before; ///< so that what was said is said again
