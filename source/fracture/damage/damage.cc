@@ -255,7 +255,8 @@ template <int dim>
 void Damage<dim>::begin_step(const StepContext &)
 {
   n_presses = 0;
-  n_advances = 0;
+  n_advances = n_moving = 0;
+  generations.clear();
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
@@ -474,7 +475,8 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &) co
 template <int dim>
 void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
 {
-  std::vector<double> damage(mesh_view->triangulation.n_active_cells(), 0.), opening(damage);
+  std::vector<double> damage(mesh_view->triangulation.n_active_cells(), 0.), opening(damage),
+    pressure(damage);
   for (const auto &owned : band.owned())
   {
     const CrackCell<dim> &crack = band.cells[owned.number];
@@ -484,6 +486,8 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
       std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
     damage[index] = law(crack).damage(mean, rock_stiffness(crack));
     opening[index] = jump * crack.normal;
+    if (state.segment_pressure)
+      pressure[index] = state.segment_pressure(crack.key());
     if constexpr (dim == 2)
     {
       const Tensor<1, dim> along = crack.axes()[0];
@@ -491,13 +495,15 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
       std::vector<std::pair<std::string, double>> values{
         {"aperture", opening[index]}, {"slip", jump * along}, {"damage", damage[index]}};
       if (state.segment_pressure)
-        values.emplace_back("fluid_pressure", state.segment_pressure(crack.key()));
+        values.emplace_back("fluid_pressure", pressure[index]);
       sink.add_fracture_piece(
         {centre - 0.5 * crack.area() * along, centre + 0.5 * crack.area() * along}, values);
     }
   }
   sink.add_cell_field("damage", damage);
   sink.add_cell_field("opening", opening);
+  if (dim == 3 && state.segment_pressure)
+    sink.add_cell_field("fluid_pressure", pressure);
 }
 
 

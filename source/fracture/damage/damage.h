@@ -150,11 +150,20 @@ private:
                                          const State &state,
                                          const Collectives &collectives) const;
 
-  /// Whether a candidate cracks.
+  /// Stress and pressure that drive a candidate, over the threshold at which it cracks.
+  double drive(const Candidate &candidate,
+               const Behind &behind,
+               const dealii::SymmetricTensor<2, dim> &stress);
+
+  /// Whether a candidate driven by so much cracks.
   /// Notes in `arrested` if it does not although pressure and tension are hopelessly much.
-  bool is_driven(const Candidate &candidate,
-                 const Behind &behind,
-                 const dealii::SymmetricTensor<2, dim> &stress);
+  bool may_crack(const Candidate &candidate, const Behind &behind, double drive);
+
+  /// By how many cells the front has moved in this step, as the length of steps should see it.
+  unsigned int front_advance() const;
+
+  /// Generation of a candidate within this step: 1 where it grows out of a crack from before.
+  unsigned int generation(const Candidate &candidate) const;
 
   /// A fracture that the fluid has grown has nowhere to go, and takes more of it all the same.
   bool swells_in_vain(const State &state) const;
@@ -188,7 +197,10 @@ private:
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
+  unsigned int n_moving = 0; ///< candidates that were near to cracking as it began
+  std::map<dealii::CellId, unsigned int> generations; ///< of the cells that have cracked
   bool needs_mesh = false, arrested = false;
+  dealii::Point<dim> misfit; ///< where cells of another size are in the crack's way
   std::size_t n_messages_before = 0;
   std::map<dealii::types::material_id, SeamLaw>
     laws_before; ///< so that what was said is said again

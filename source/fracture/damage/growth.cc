@@ -192,12 +192,22 @@ std::vector<RockAhead<dim>> Damage<dim>::look_ahead(const std::vector<Candidate>
 
 
 template <int dim>
-bool Damage<dim>::is_driven(const Candidate &candidate,
-                            const Behind &behind,
-                            const SymmetricTensor<2, dim> &stress)
+double Damage<dim>::drive(const Candidate &candidate,
+                          const Behind &behind,
+                          const SymmetricTensor<2, dim> &stress)
 {
   if (laws.count(candidate.cell.region) == 0)
     choose_strength(candidate.cell.region, candidate.cell.size());
+  const Tensor<1, dim> &normal = band.cells[candidate.behind[0]].normal;
+  const double tension =
+    parameters.straight ? normal * (stress * normal) : dealii::eigenvalues(stress)[0];
+  return (behind.pressure + tension) / (parameters.growth_threshold * law(candidate.cell).strength);
+}
+
+
+template <int dim>
+bool Damage<dim>::may_crack(const Candidate &candidate, const Behind &behind, const double drive)
+{
   const double strength = law(candidate.cell).strength;
   // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
   // exceeds the strength there would be no end to it. Where it does so by far, there is no process
@@ -210,12 +220,31 @@ bool Damage<dim>::is_driven(const Candidate &candidate,
   }
   // Suction at the front and the tension ahead, both many times the strength, leave a difference
   // that tells nothing: there the fluid has to have arrived.
-  if (behind.reached < 1.)
-    return false;
-  const Tensor<1, dim> &normal = band.cells[candidate.behind[0]].normal;
-  const double drive = behind.pressure + (parameters.straight ? normal * (stress * normal)
-                                                              : dealii::eigenvalues(stress)[0]);
-  return drive >= parameters.growth_threshold * strength * (1. - 1e-6);
+  return behind.reached >= 1. && drive >= 1. - 1e-6;
+}
+
+
+template <int dim>
+unsigned int Damage<dim>::generation(const Candidate &candidate) const
+{
+  unsigned int before = 0;
+  for (const unsigned int number : candidate.behind)
+    if (const auto it = generations.find(band.cells[number].id); it != generations.end())
+      before = std::max(before, it->second);
+  return before + 1;
+}
+
+
+/// A front of many cells advances here and there in every step. As long as few of those that are
+/// about to crack do, and none of them by several cells, that is no advance of the front.
+template <int dim>
+unsigned int Damage<dim>::front_advance() const
+{
+  unsigned int most = 0;
+  for (const auto &[id, generation] : generations)
+    most = std::max(most, generation);
+  const bool is_few = 2 * generations.size() < n_moving;
+  return is_few && most > 0 ? most - 1 : most;
 }
 
 
@@ -242,7 +271,7 @@ Verdict
 Damage<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
 {
   Verdict verdict;
-  verdict.advances = n_advances;
+  verdict.advances = front_advance();
   const auto stop = [&verdict](const std::string &reason)
   {
     verdict.kind = Verdict::Kind::stop;
@@ -269,10 +298,14 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   {
     Candidate &candidate = all[i];
     const Behind behind = look_behind(candidate, state);
-    if (!is_driven(candidate, behind, rock[2 * i].stress))
+    const double driven = drive(candidate, behind, rock[2 * i].stress);
+    n_moving += n_advances == 0 && driven > 0.5;
+    if (!may_crack(candidate, behind, driven))
       continue;
-    if (n_advances >= parameters.most_advances || !candidate.fits)
+    if (generation(candidate) > parameters.most_advances || !candidate.fits)
     {
+      if (!candidate.fits && !needs_mesh)
+        misfit = candidate.cell.centre();
       needs_mesh |= !candidate.fits;
       verdict.held_back = true;
       continue;
@@ -293,11 +326,19 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       return stop(reason.str());
     }
     if (candidate.cell.is_cut() && candidate.cell.area() > 0.)
+    {
       more.push_back(candidate.cell);
+      generations[candidate.cell.id] = generation(candidate);
+    }
   }
   if (needs_mesh && waits_for_mesh)
-    return stop("the crack has come to cells of another size, and refining the mesh has not "
-                "changed that. Make the cells alike as far as the fracture shall run.");
+  {
+    std::ostringstream reason;
+    reason << "the crack has come to cells of another size at (" << misfit
+           << "), and refining the mesh has not changed that. Make the cells alike as far as the "
+              "fracture shall run: 'Cell size' halves some of those that it lies between.";
+    return stop(reason.str());
+  }
   constexpr unsigned int enough = 10;
   if (arrested && n_advances == 0 && more.empty() && n_arrested >= enough)
     return stop("no fracture has grown for " + std::to_string(enough) +
@@ -310,7 +351,7 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
     band.add(more);
     find_segments();
     verdict.kind = Verdict::Kind::topology_changed;
-    verdict.advances = n_advances;
+    verdict.advances = front_advance();
   }
   return verdict;
 }
