@@ -255,8 +255,7 @@ template <int dim>
 void Damage<dim>::begin_step(const StepContext &)
 {
   n_presses = 0;
-  n_advances = n_moving = 0;
-  generations.clear();
+  n_advances = n_grown = ages_behind = 0;
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
@@ -378,6 +377,7 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     const auto jumps = band.jumps(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
+    ++crack.age;
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
       const double before = crack.greatest[q];
