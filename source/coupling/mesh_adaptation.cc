@@ -115,6 +115,8 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
     NonlinearRock<dim> *const rock = system.nonlinear_rock();
     if (rock != nullptr)
       rock->history().prepare_for_refinement(triangulation);
+    if (NodalFields<dim> *const fields = system.nodal_fields())
+      fields->prepare_for_refinement();
     triangulation.execute_coarsening_and_refinement();
     if (rock != nullptr)
       rock->history().finish_refinement(triangulation);
