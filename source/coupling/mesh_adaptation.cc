@@ -114,6 +114,8 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
   NonlinearRock<dim> *const rock = system.nonlinear_rock();
   if (rock != nullptr)
     rock->history().prepare_for_refinement(triangulation);
+  if (NodalFields<dim> *const fields = system.nodal_fields())
+    fields->prepare_for_refinement();
   change_mesh();
   if (rock != nullptr)
     rock->history().finish_refinement(triangulation);

@@ -39,6 +39,11 @@ inline double value(const LinearFunctional &functional, const Unknowns &unknowns
 /// transposed, the load A p_f on the rock, so work and volume are conserved by construction. A
 /// model whose fluid loads the rock in another way adds the difference itself
 /// (FractureModel::assemble(), State::segment_unknown).
+///
+/// A segment wider than a cell may reach over several ranks: each of them then lists it, the same
+/// but for `opening`, of which it has the part of its own cells; the parts add up. What is of the
+/// segment as a whole (`opening_by_pressure`, `pore_pressure`) counts where it stands, so only one
+/// rank gives it.
 template <int dim>
 struct Segment
 {

@@ -16,6 +16,7 @@
 #include "stockwork/fracture/kept_terms.h"
 #include "stockwork/fracture/summary.h"
 #include "stockwork/mesh/mesh_view.h"
+#include "stockwork/mesh/nodal_fields.h"
 
 #include <cstdint>
 #include <optional>
@@ -103,6 +104,13 @@ public:
   /// The mesh or the numbering of the bulk unknowns is new.
   virtual void setup(const MeshView<dim> &, const Collectives &)
   {
+  }
+
+  /// Fields of the model's own, which move with the mesh, are saved and are written for people.
+  /// Null: there are none, ever.
+  virtual NodalFields<dim> *nodal_fields()
+  {
+    return nullptr;
   }
 
   virtual void begin_step(const StepContext &)
