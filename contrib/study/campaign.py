@@ -14,16 +14,15 @@ def run_jobs(jobs, options, output):
     """Records of all jobs, in their order, also of those that had run before; None after --estimate."""
     cores = Cores(options.cores)
     os.makedirs(output, exist_ok=True)
-    with concurrent.futures.ThreadPoolExecutor(len(cores.all)) as pool:
-        checks = dict(zip([job.name for job in jobs], pool.map(
-            lambda job: check(options.program, job) if job.deck else
-            {"audit": "", "fingerprint": "no deck", "seconds": 0.}, jobs)))
     records = {job.name: study.record.read(os.path.join(output, job.name)) for job in jobs}
+    print(f"asking the program about {len(jobs)} runs", file=sys.stderr, flush=True)
+    with concurrent.futures.ThreadPoolExecutor(len(cores.all)) as pool:
+        checks = dict(zip(records, pool.map(lambda job: check(options.program, job, records[job.name]), jobs)))
     changed = [name for name, record in records.items()
                if record and record["fingerprint"] != checks[name]["fingerprint"]]
     left = [job for job in jobs if records[job.name] is None or job.name in changed or options.again == "all"
             or options.again == "failed" and records[job.name]["status"] == "failed"]
-    announce(jobs, left, changed, options, checks, [r for r in records.values() if r], cores)
+    announce(jobs, left, changed, checks, earlier(records), cores)
     if options.estimate:
         return None
     expected = {job.name: max(0.5, guess(job, checks[job.name], earlier(records))[0] or 60.) for job in left}
@@ -37,8 +36,7 @@ def earlier(records):
     return [r for r in records.values() if r and r["status"] == "finished"]
 
 
-def announce(jobs, left, changed, options, checks, records, cores):
-    finished = [r for r in records if r["status"] == "finished"]
+def announce(jobs, left, changed, checks, finished, cores):
     guesses = [guess(job, checks[job.name], finished) for job in left]
     known = [seconds for seconds, _ in guesses if seconds is not None]
     text = f"{len(jobs)} runs, {len(left)} of them to do"

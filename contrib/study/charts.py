@@ -15,7 +15,7 @@ COSTS = (("cpu_seconds", "CPU time [s]"), ("unknowns", "unknowns"))
 
 def error_against_cost(rows, error, label, styles):
     """Log-log, one line per model and variant; the Pareto front, and the cheapest for each accuracy wanted."""
-    figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(10, 3.4), sharey=True)
     for ax, (cost, cost_label) in zip(axes, COSTS):
         for curve, of_curve in rows.groupby("curve", sort=False):
             there = sorted(points(of_curve, cost, error), key=lambda p: p[0])
@@ -40,6 +40,7 @@ def error_against_cost(rows, error, label, styles):
         for axis in (ax.xaxis, ax.yaxis):
             few_decades(axis)
         ax.margins(0.12)
+        ax.grid(which="both")
     axes[0].set_ylabel(label)
     return legend_below(figure)
 
@@ -140,13 +141,14 @@ def paths(results, styles):
     if not there:
         return None
     figure, ax = plt.subplots(figsize=(7, 3.6))
-    for result, time, grid in there:
+    for i, (result, time, grid) in enumerate(there):
         ends, _ = grid.cells(vtu.LINE)
         pieces = grid.points[ends][:, :, :2]
         line = np.full((len(pieces), 3, 2), np.nan)
         line[:, :2] = pieces
         style = styles[result.curve]
-        ax.plot(*line.reshape(-1, 2).T, lw=1.4, color=style["color"], linestyle=style["linestyle"],
+        # Those that lie over one another are all seen: the first is the widest.
+        ax.plot(*line.reshape(-1, 2).T, lw=1.2 + 1.8 * (len(there) - 1 - i), color=style["color"],
                 label=f"{result.label}, {time:.4g} s")
     points_there = np.concatenate([g.points[:, :2] for _, _, g in there])
     low, high = points_there.min(axis=0), points_there.max(axis=0)

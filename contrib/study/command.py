@@ -17,7 +17,13 @@ ABOUT = """Run decks over models, resolutions and settings, and report what accu
 
 def run(options):
     from study.study_file import find, read
-    return run_study(options, read(find(options.study)))
+    study = read(find(options.study))
+    for block in study.blocks if options.resolutions else []:
+        block.resolutions = [r for r in block.resolutions if r in options.resolutions]
+    study.blocks = [block for block in study.blocks if block.resolutions]
+    if not study.blocks:
+        raise ResultError(f"the study has no runs at the resolutions {', '.join(options.resolutions)}")
+    return run_study(options, study)
 
 
 def compare(options):
@@ -82,9 +88,9 @@ def main():
                          "does not touch")
         sub.add_argument("--again", choices=("failed", "all"), help="run these once more")
         sub.add_argument("--estimate", action="store_true", help="say how long it will take, and run nothing")
+        sub.add_argument("--resolutions", nargs="+", help="only these" if name == "run" else "otherwise the deck's")
         if name == "compare":
             sub.add_argument("--models", nargs="+")
-            sub.add_argument("--resolutions", nargs="+")
             sub.add_argument("--set", action="append", default=[], metavar="Section/Entry=value")
     sub = commands.add_parser("report")
     sub.set_defaults(call=report)

@@ -7,19 +7,25 @@ import subprocess
 SECONDS = {"s": 1., "min": 60., "h": 3600., "days": 86400.}
 
 
-def check(program, job):
-    """{"audit": what --check prints, "fingerprint": of the deck as the program reads it, "seconds": or None}."""
-    arguments = [job.deck]
-    for setting in job.settings():
-        arguments += ["--set", setting]
-    audit = said([program, *arguments, "--check"])
-    deck = said([program, *arguments, "--print-parameters", "prm"])
+def check(program, job, record):
+    """{"audit": what --check prints, "fingerprint": of the deck as the program reads it, "seconds": or None}. The
+    record of an earlier run saves asking, if the deck is still the same."""
+    if not job.deck:
+        return {"audit": "", "fingerprint": "no deck", "seconds": 0.}
+    deck = said(program, job, "--print-parameters", "prm")
+    fingerprint = hashlib.sha256(deck.encode()).hexdigest()
+    if record and record["fingerprint"] == fingerprint:
+        return {"audit": record["audit"], "fingerprint": fingerprint, "seconds": record["estimate"]}
+    audit = said(program, job, "--check")
     found = re.search(r"would take (\S+) (s|min|h|days) on one core", audit)
-    return {"audit": audit, "fingerprint": hashlib.sha256(deck.encode()).hexdigest(),
+    return {"audit": audit, "fingerprint": fingerprint,
             "seconds": float(found[1]) * SECONDS[found[2]] if found else None}
 
 
-def said(command):
+def said(program, job, *asked):
+    command = [program, job.deck, *asked]
+    for setting in job.settings():
+        command += ["--set", setting]
     return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                           check=False, text=True, errors="replace").stdout
 

@@ -7,7 +7,7 @@ import os
 from study.look import plt
 
 STYLE = """
-body { font: 16px/1.45 system-ui, sans-serif; margin: 0 auto; max-width: 72rem; padding: 0 1rem 3rem; color: #1a1a1a;
+body { font: 16px/1.45 system-ui, sans-serif; margin: 0 auto; max-width: 80rem; padding: 0 1rem 3rem; color: #1a1a1a;
        background: #fff; }
 h1 { font-size: 1.6rem; } h2 { border-bottom: 2px solid #0072B2; margin-top: 2.5rem; } h3 { margin-top: 1.8rem; }
 nav { display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; }

@@ -77,8 +77,7 @@ def table_of_runs(page, rows, wanted):
         against = next((a for a in here["against"] if a), "")
         page.text(("Measured against: " + against + ". " if against else "Nothing to compare with. ")
                   + "Errors are relative, at the end and, in brackets, on average over the history. CPU: seconds of "
-                  "the processor on all ranks. A core is a run's own for all that the study has started; how much others "
-                  "have used of it was measured.", note=True)
+                  "the processor on all ranks. " + verdict.ALONE, note=True)
 
 
 def cost(page, rows, wanted, look):
@@ -95,12 +94,16 @@ def cost(page, rows, wanted, look):
         if len(names) > 1:
             here[WORST] = worst_of(here, names)
             charted.insert(0, (WORST, "the worst of " + ", ".join(n.replace("_", " ") for n in names)))
+        disturbed = (here["others_share"].fillna(0.) > verdict.ALONE_BELOW).sum()
+        if disturbed:
+            page.text(f"Of {len(here)} runs, {disturbed} had to share their core with others while they ran: their times are "
+                      "too long, and not fit to be compared.")
         for error, name in charted:
             figure = charts.error_against_cost(
                 here, error, f"mean {what} [%]" if error == WORST else f"mean {what} of the\n{name} [%]", look)
             page.picture(file_name(case, "cost", error[len("error_mean_"):]), figure,
                          f"{case}: mean {what} of {name} against CPU time and unknowns. Circles: the cheapest setting for "
-                         "the accuracy beside it. Grey: the Pareto front.")
+                         f"the {what} beside it. Grey: the Pareto front.")
         error, name = charted[0]
         page.text(f"The cheapest setting for a mean {what} of {name}:")
         page.table(["wanted [%]", "setting", f"{what} [%]", "CPU [s]", "unknowns"],

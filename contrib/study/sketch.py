@@ -1,7 +1,9 @@
 """The problem to scale: the domain, the fractures at the start and at the end, the stress and the boundary conditions."""
 import numpy as np
+from matplotlib.collections import PolyCollection
 
 from plot import vtu
+from plot.field import pascals
 from results import ResultError
 from study.look import plt
 
@@ -43,6 +45,7 @@ def sketch(result):
     if cracks:
         axes[0][1].legend(fontsize=8, loc="upper right")
     boundary(axes[0][0], domain, result.deck)
+    stress(axes[0][-1], result.deck)
     figure.tight_layout()
     return figure
 
@@ -56,7 +59,6 @@ def window(ax, points, margin):
 
 
 def mesh(ax, polygons):
-    from matplotlib.collections import PolyCollection
     ax.add_collection(PolyCollection(polygons, facecolors="0.96", edgecolors="0.8", linewidths=0.2, rasterized=True))
 
 
@@ -72,3 +74,17 @@ def boundary(ax, domain, deck):
         if said:
             ax.text(x, y, ", ".join(said), rotation=turned, ha="center", va="center", fontsize=7,
                     bbox=dict(facecolor="white", edgecolor="0.7", boxstyle="round,pad=0.2", alpha=0.9))
+
+
+def stress(ax, deck):
+    """The stress in situ as arrows in the corner of a picture; compression points inwards."""
+    given = [pascals(text) for text in deck.get("In situ/Stress", "").split(",")][:2]
+    if len(given) < 2 or not any(given):
+        return
+    for value, (along, across) in zip(given, ((0.06, 0.), (0., 0.1))):
+        for side in (1, -1):
+            near, far = ((0.14 + side * r * along, 0.2 + side * r * across) for r in (0.5, 1.4))
+            ax.annotate("", near if value < 0. else far, far if value < 0. else near, xycoords="axes fraction",
+                        textcoords="axes fraction", arrowprops=dict(arrowstyle="-|>", color="0.2"))
+    ax.text(0.24, 0.2, "\n".join(f"{name} {1e-6 * value:g} MPa" for name, value in zip(("xx", "yy"), given)),
+            transform=ax.transAxes, fontsize=7, va="center", bbox=dict(facecolor="white", edgecolor="none", alpha=0.8))

@@ -97,6 +97,9 @@ def block(path, shared, own):
             raise ResultError(f"{path}: {key} = {data[key]!r} names something twice")
     if "cases" not in data:
         raise ResultError(f"{path}: no cases are named; 'cases' is a list of names below {DECKS}, or of decks")
+    for case in data["cases"]:
+        if not case.endswith(".prm") and (os.path.isabs(case) or ".." in case.split("/")):
+            raise ResultError(f"{path}: '{case}' is not a case below {DECKS}; a deck of one's own ends in .prm")
     for entry, values in data["set"].items():
         values = values if isinstance(values, list) else [values]
         if not values or not all(isinstance(v, (str, int, float)) for v in values):

@@ -8,6 +8,13 @@ from study.difference import differences
 # An error below this is that of the arithmetic, or of a quantity that is imposed.
 IMPOSED = 1e-9
 
+ALONE = ("Alone: whether the run had its core for itself, and its time can be compared. 'yes, 2': on a core of its own, beside "
+         "another run of the study at most; 'no, 40 %': others have used this much of the core, so the time is too long; "
+         "'?': not measured.")
+
+# What others may have used of a core.
+ALONE_BELOW = 0.05
+
 LENGTHS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1., "km": 1e3, "ft": 0.3048, "in": 0.0254, "": 1.}
 
 
@@ -73,12 +80,12 @@ def count(value):
 
 
 def alone(row):
-    """Whether the times of a run can be compared with others'."""
+    """Whether the times of a run can be compared with others'; ALONE says what is meant."""
     if row["others_share"] is None or row["others_share"] != row["others_share"]:
-        return "not known"
-    if row["others_share"] > 0.05:
-        return f"no: others used {100 * row['others_share']:.0f} %"
-    return "yes" if row["at_once"] == 1 else f"own core, up to {int(row['at_once'])} at a time"
+        return "?"
+    if row["others_share"] > ALONE_BELOW:
+        return f"no, {100 * row['others_share']:.0f} %"
+    return "yes" if row["at_once"] == 1 else f"yes, {int(row['at_once'])}"
 
 
 def shown(rows, wanted=()):
@@ -98,11 +105,12 @@ def shown(rows, wanted=()):
             for end, mean in zip(rows["error_end_" + name], rows["error_mean_" + name])]
     for name, heading in (("unknowns", "unknowns"), ("steps", "steps"), ("rejected", "rejected"),
                           ("nonlinear", "nonlinear it."), ("linear", "linear it.")):
-        texts[heading] = [count(v) for v in rows[name]]
+        if name in ("unknowns", "steps") or (rows[name].fillna(0) != 0).any():
+            texts[heading] = [count(v) for v in rows[name]]
     texts["CPU [s]"] = ["" if v is None or v != v else f"{v:.3g}" for v in rows["cpu_seconds"]]
     texts["memory [MB]"] = ["" if v is None or v != v else f"{v / 1e6:.0f}" for v in rows["memory_bytes"]]
     texts["balance"] = ["" if v is None or v != v else f"{v:.0e}" for v in rows["balance"]]
-    texts["alone on its core"] = [alone(row) for _, row in rows.iterrows()]
+    texts["alone"] = [alone(row) for _, row in rows.iterrows()]
     return texts
 
 
