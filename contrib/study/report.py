@@ -6,6 +6,7 @@ from study import audit, charts, verdict
 from study.cost import WANTED, cheapest, orders, worst_of
 from study.fields import fields
 from study.look import styles
+from study.maps import maps
 from study.page import Page
 from study.sketch import sketch
 
@@ -24,7 +25,7 @@ def write(results, folder, title, text="", wanted=()):
     table_of_runs(page, rows, wanted)
     cost(page, rows, wanted, look)
     curves(page, cases, look)
-    assumptions(page, cases)
+    assumptions(page, cases, rows)
     repeat(page, results)
     rows.drop(columns=["curve"]).to_csv(os.path.join(folder, "results.csv"), index=False)
     with open(os.path.join(folder, "results.md"), "w", encoding="utf-8") as file:
@@ -144,8 +145,10 @@ def curves(page, cases, look):
             page.text("No run has written histories or fields.")
 
 
-def assumptions(page, cases):
-    page.section("assumptions", "Assumptions that did not hold, and warnings")
+def assumptions(page, cases, rows):
+    page.section("assumptions", "Assumptions that did not hold, warnings, stability")
+    names = verdict.quantities(rows)
+    errors = dict(zip(rows["directory"], worst_of(rows, names))) if names else {}
     for case, results in cases.items():
         page.heading(case)
         said = {}
@@ -156,6 +159,8 @@ def assumptions(page, cases):
                 said.setdefault(text, []).append(r.label)
         page.items([f"{text} ({len(labels)} of {len(results)} runs: {'; '.join(labels)})"
                     for text, labels in said.items()] or ["Nothing: all assumptions held, and nothing was warned of."])
+        for title, figure in maps(results, errors):
+            page.picture(file_name(case, "map", title), figure, f"{case}, {title}: which runs end, and with what error.")
 
 
 def repeat(page, results):

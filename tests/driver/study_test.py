@@ -182,6 +182,11 @@ class StandIn(InADirectory):
         self.assertIn("2 runs, 1 of them to do", self.call(*command, status=0))
         self.assertEqual(self.started(), ["good", "slow", "good"])
 
+    def test_map(self):
+        study = self.file("study.toml", 'cases = ["good.prm"]\n[set]\nX = [1, 2, 3]\nY = [0.1, 1e-2, 1e-3]\n')
+        self.call("run", study, "--program", self.program, "--output", "out", status=0)
+        self.assertIn("good, good: which runs end, and with what error", self.page("out/report")[0])
+
     def test_time_limit_and_too_many_ranks(self):
         text = self.call("run", self.study("slow.prm", time_limit=0.2), "--program", self.program, "--output", "a",
                          status=1)
