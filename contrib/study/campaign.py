@@ -20,8 +20,7 @@ def run_jobs(jobs, options, output):
         checks = dict(zip(records, pool.map(lambda job: check(options.program, job, records[job.name]), jobs)))
     changed = [name for name, record in records.items()
                if record and record["fingerprint"] != checks[name]["fingerprint"]]
-    left = [job for job in jobs if records[job.name] is None or job.name in changed or options.again == "all"
-            or options.again == "failed" and records[job.name]["status"] == "failed"]
+    left = [job for job in jobs if job.name in changed or to_do(records[job.name], options.again)]
     announce(jobs, left, changed, checks, earlier(records), cores)
     if options.estimate:
         return None
@@ -30,6 +29,11 @@ def run_jobs(jobs, options, output):
     for job, record in zip(left, runner.run_all(left, checks)):
         records[job.name] = record
     return [records[job.name] for job in jobs]
+
+
+def to_do(record, again):
+    return (record is None or "not_tried" in record or again == "all"
+            or again == "failed" and record["status"] == "failed")
 
 
 def earlier(records):

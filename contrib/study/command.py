@@ -42,23 +42,26 @@ def compare(options):
 def run_study(options, study):
     from study.campaign import run_jobs
     from study.matrix import jobs
+    from study.record import write_about
     output = os.path.abspath(options.output or os.path.join("studies", study.name))
     planned = jobs(study)
     records = run_jobs(planned, options, output)
     if records is None:  # only the estimate was asked for
         return 0
-    show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), study.title or study.name,
-         study.text, study.quantities)
+    title = study.title or study.name
+    write_about(output, {"title": title, "text": study.text, "quantities": study.quantities})
+    show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), title, study.text,
+         study.quantities)
     return 1 if any(record["status"] == "failed" for record in records) else 0
 
 
 def report(options):
-    found = show(options.directories, options.output or os.path.join(options.directories[0], "report"), options.title
-                 or os.path.basename(os.path.abspath(options.directories[0])), "", options.quantities or [])
-    missing = [name for name in options.quantities or [] if f"error_end_{name}" not in found.columns]
-    if missing:
-        there = [c[len("error_end_"):] for c in found.columns if c.startswith("error_end_")]
-        raise ResultError(f"no run has an error of '{missing[0]}'; there is: {', '.join(there) or 'none'}")
+    from study.record import about
+    first = options.directories[0]
+    study = about(first) if len(options.directories) == 1 else {}
+    show(options.directories, options.output or os.path.join(first, "report"),
+         options.title or study.get("title") or os.path.basename(os.path.abspath(first)), study.get("text", ""),
+         options.quantities or study.get("quantities", []))
     return 0
 
 
@@ -68,9 +71,11 @@ def show(directories, folder, title, text, quantities):
     from study import verdict
     from study.collect import results
     path, rows = pages.write(results(directories), folder, title, text, quantities)
-    print(verdict.plain(verdict.shown(rows, quantities)))
-    print(path)
-    return rows
+    print(verdict.by_case(rows, quantities, verdict.plain) + "\n\n" + path)
+    there = [c[len("error_end_"):] for c in rows.columns if c.startswith("error_end_")]
+    missing = [name for name in quantities if name not in there]
+    if missing and there:
+        raise ResultError(f"no run has an error of '{missing[0]}'; there is: {', '.join(there)}")
 
 
 def main():

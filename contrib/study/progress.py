@@ -1,4 +1,5 @@
 """A bar on a terminal, a line for each run elsewhere."""
+import shutil
 import sys
 import threading
 import time
@@ -50,8 +51,9 @@ class Progress:
         text = f"[{bar:.<{WIDTH}}] {self.done}/{self.total}" + (f", {self.failed} failed" if self.failed else "")
         text += f", {in_time(self.left())} left: {', '.join(self.running)}"
         self.clear()
-        print(text[:150], end="", file=self.stream, flush=True)
+        if self.expected:
+            print(text[:shutil.get_terminal_size().columns - 1], end="", file=self.stream, flush=True)
 
     def clear(self):
         if self.stream.isatty():
-            print("\r\033[K", end="", file=self.stream)
+            print("\r\033[K", end="", file=self.stream, flush=True)

@@ -29,7 +29,7 @@ def write(results, folder, title, text="", wanted=()):
     repeat(page, results)
     rows.drop(columns=["curve"]).to_csv(os.path.join(folder, "results.csv"), index=False)
     with open(os.path.join(folder, "results.md"), "w", encoding="utf-8") as file:
-        file.write(verdict.markdown(verdict.shown(rows, wanted)) + "\n")
+        file.write(verdict.by_case(rows, wanted, verdict.markdown) + "\n")
     return page.write(), rows
 
 

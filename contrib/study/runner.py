@@ -59,8 +59,8 @@ class Runner:
         if not job.deck:
             record.update(status="failed", reason=f"The case has no deck for {job.model}.")
         elif job.ranks > len(self.cores.all):
-            record.update(status="failed", reason=f"{job.ranks} ranks need as many cores; "
-                                                  f"{len(self.cores.all)} were given (--cores).")
+            record.update(status="failed", not_tried=True,
+                          reason=f"{job.ranks} ranks need as many cores; {len(self.cores.all)} were given (--cores).")
         else:
             taken = self.cores.take(job.ranks)
             try:

@@ -36,12 +36,11 @@ def table(results):
 
 def row(result, errors, against, differs):
     summary, record = result.summary, result.record
-    steps = summary.get("steps")
     cells = {"case": result.case, "model": result.model, "variant": result.variant, "resolution": result.resolution,
              "ranks": result.ranks, "status": result.status, "reason": result.reason, "curve": result.curve,
              "against": against, "differs": differs,
              "unknowns": summary.get("unknowns"), "cells": summary.get("cells"), "cell_size": cell_size(result),
-             "steps": steps, "rejected": summary.get("rejected_steps"),
+             "reached": (summary.get("final") or {}).get("time"), "steps": summary.get("steps"), "rejected": summary.get("rejected_steps"),
              "nonlinear": summary.get("nonlinear_iterations"), "linear": summary.get("linear_iterations"),
              "cpu_seconds": summary.get("cpu_seconds") or record.get("cpu_seconds"),
              "wall_seconds": (summary.get("wall_seconds") or {}).get("total") or record.get("wall_seconds"),
@@ -79,6 +78,10 @@ def count(value):
     return "" if value is None or value != value else f"{int(value)}"
 
 
+def at(time):
+    return "" if time is None or time != time else f" at {time:.4g} s"
+
+
 def alone(row):
     """Whether the times of a run can be compared with others'; ALONE says what is meant."""
     if row["others_share"] is None or row["others_share"] != row["others_share"]:
@@ -98,7 +101,8 @@ def shown(rows, wanted=()):
     texts["resolution"] = rows["resolution"]
     if (rows["ranks"] != 1).any():
         texts["ranks"] = rows["ranks"].astype(str)
-    texts["status"] = [s if s == "finished" else f"FAILED: {r}" for s, r in zip(rows["status"], rows["reason"])]
+    texts["status"] = [s if s == "finished" else f"FAILED{at(t)}: {r}"
+                       for s, t, r in zip(rows["status"], rows["reached"], rows["reason"])]
     for name in quantities(rows, wanted):
         texts[name.replace("_", " ") + " end (mean) [%]"] = [
             f"{per_cent(end)} ({per_cent(mean)})" if per_cent(end) or per_cent(mean) else ""
@@ -119,6 +123,12 @@ def markdown(texts):
     for _, cells in texts.iterrows():
         lines.append("| " + " | ".join(str(c).replace("|", "\\|").replace("\n", " ") for c in cells) + " |")
     return "\n".join(lines)
+
+
+def by_case(rows, wanted, write):
+    """The tables of the cases, each with the quantities that it has, below its name."""
+    return "\n\n".join(f"{case}\n\n" + write(shown(here, wanted).drop(columns=["case"]))
+                       for case, here in rows.groupby("case", sort=False))
 
 
 def plain(texts, width=48):

@@ -194,6 +194,8 @@ class StandIn(InADirectory):
         text = self.call("run", self.study("good.prm", ranks=[2]), "--program", self.program, "--output", "b",
                          "--cores", "1", status=1)
         self.assertIn("2 ranks need as many cores; 1 were given", text)
+        self.assertIn("1 runs, 1 of them to do", self.call("run", "study.toml", "--program", self.program, "--output", "b",
+                                                           "--cores", "1", "--estimate", status=0))
 
     def test_finished_directories(self):
         for name, resolution in (("one", "coarse"), ("two", "medium")):
@@ -201,8 +203,14 @@ class StandIn(InADirectory):
             subprocess.run([self.program, "good.prm", "--output", name, "--set", "Resolution=" + resolution,
                             "--set", "No reference=true"], check=True)
         text = self.call("report", "one", "two", "--output", "page", status=0)
-        self.assertRegex(text, r"case +good +one +.* 4.8 \(2.9\)")  # 0.05 t of 5.25; the mean of t is 3
+        self.assertRegex(text, r"case\n\nmodel .*\ngood +one +.* 4.8 \(2.9\)")  # 0.05 t of 5.25; the mean of t is 3
         self.assertIn("no reference: differences", self.page("page")[0])
+        self.call("run", self.study("good.prm", title="A title", quantities=["inlet_aperture"]), "--program", self.program,
+                  "--output", "out", status=0)
+        self.call("report", "out", "--output", "titled", status=0)
+        self.assertIn("<h1>A title</h1>", self.page("titled")[0])
+        self.assertIn("no run has an error of 'foo'", self.call(
+            "run", self.study("good.prm", quantities=["foo"]), "--program", self.program, "--output", "out", status=1))
         self.assertIn("there is no directory 'three'", self.call("report", "three", status=1))
         os.makedirs("empty")
         self.assertIn("no run has ended in 'empty'", self.call("report", "empty", status=1))
@@ -282,7 +290,7 @@ class Real(InADirectory):
         study = self.file("splits.toml", 'cases = ["mandel"]\nresolutions = ["coarse"]\n[set]\n'
                           '"Coupling/Scheme" = ["monolithic", "drained"]\n"Time/End time" = "600"\n')
         text = self.call("run", study, "--program", PROGRAM, "--output", "out", status=1)
-        self.assertRegex(text, "mandel +none +drained +coarse +FAILED: ")
+        self.assertRegex(text, "none +drained +coarse +FAILED: ")
         self.assertIn("this split diverges above 1", text)
         table = pandas.read_csv("out/report/results.csv")
         self.assertLess(table["error_mean_pore_pressure"][0], 0.05)
