@@ -27,6 +27,8 @@ public:
   {
     Requirements needs;
     needs.random_rock = true;
+    needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
+    needs.symmetric = !parameters.tensor_fluid;
     return needs;
   }
 
@@ -72,6 +74,9 @@ public:
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
 
 private:
+  /// The segments of the band, as the network is to see them.
+  void find_segments();
+
   void start(const Collectives &collectives);
 
   /// Refuse rock so weak that its process zone is longer than the domain.

@@ -330,7 +330,7 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   {
     ++n_advances;
     band.add(more);
-    all_segments = band.segments(scene.in_situ_pore_pressure);
+    find_segments();
     verdict.kind = Verdict::Kind::topology_changed;
     verdict.advances = pace();
   }
