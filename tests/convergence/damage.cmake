@@ -116,3 +116,10 @@ stockwork_same_test(NAME parallel/damage/disc DECK tests/contract/fracture_3d.pr
   SET "Fracture/Model=damage" "Wells/Well 1/Rate=1e-3" "Time/End time=3 s" IGNORE "balance_error|error_fracture_volume")
 stockwork_restart_test(NAME restart/damage DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 12
   SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" IGNORE "balance_error|error_fracture_volume")
+# The same in three dimensions, where cells are refined ahead of the front and shared out anew.
+foreach(ranks 2 4)
+  stockwork_same_test(NAME parallel/damage_3d_${ranks} DECK tests/data/adaptive_disc.prm RANKS 1,${ranks} TOLERANCE 1e-8
+    IGNORE "balance_error|error_fracture_volume")
+endforeach()
+stockwork_restart_test(NAME restart/damage_3d DECK tests/data/adaptive_disc.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 8
+  IGNORE "balance_error|error_fracture_volume")
