@@ -97,7 +97,18 @@ void Damage<dim>::setup(const MeshView<dim> &d, const Collectives &collectives)
   band.setup(d);
   if (!started)
     start(collectives);
+  refresh_segments();
+}
+
+
+template <int dim>
+void Damage<dim>::refresh_segments()
+{
   all_segments = band.segments(scene.in_situ_pore_pressure);
+  // Half of Carter's leak-off in the middle of the process zone, where the tip of an elastic
+  // fracture with the same toughness would be.
+  for (unsigned int i = 0; i < all_segments.size(); ++i)
+    all_segments[i].bare_aperture = 0.7 * law(band.cells[band.owned()[i].number]).critical;
 }
 
 
@@ -236,7 +247,7 @@ template <int dim>
 void Damage<dim>::begin_step(const StepContext &)
 {
   n_presses = 0;
-  n_advances = n_grown = ages_behind = 0;
+  n_advances = 0;
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
@@ -348,7 +359,6 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     const auto jumps = band.jumps(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
-    ++crack.age;
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
       const double before = crack.greatest[q];
@@ -374,7 +384,7 @@ void Damage<dim>::rollback()
   laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
-  all_segments = band.segments(scene.in_situ_pore_pressure);
+  refresh_segments();
 }
 
 
@@ -412,7 +422,7 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   if (mesh_view)
   {
     begin_step({});
-    all_segments = band.segments(scene.in_situ_pore_pressure);
+    refresh_segments();
   }
 }
 

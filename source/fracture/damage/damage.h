@@ -129,6 +129,9 @@ private:
   /// In-situ compression across a cracked cell [Pa].
   double closing_stress(const CrackCell<dim> &crack) const;
 
+  /// The fluid's segments, after the band has changed.
+  void refresh_segments();
+
   /// What a candidate grows out of.
   struct Behind
   {
@@ -137,7 +140,6 @@ private:
     double pressure = 0.; ///< of the fluid [Pa]
     double net = 0.;      ///< magnitude, over the stress that closes the crack [Pa]
     double reached = 0.;  ///< see reached_share()
-    unsigned int age = 0; ///< of the oldest cell
   };
   Behind look_behind(const Candidate &candidate, const State &state) const;
 
@@ -160,12 +162,6 @@ private:
   void crack(Candidate &candidate,
              const dealii::Tensor<1, dim> &across,
              const std::vector<CrackCell<dim>> &beside) const;
-
-  /// How many cells the crack's front has gone in the step, in the mean in three dimensions: there
-  /// a few of a front's many cells go on in nearly every step, whatever its length. Each does so in
-  /// every n-th step if the cells behind are n steps old. Four is taken for slow: with two, the
-  /// area of `radial/small` would be another 4 % off.
-  unsigned int pace() const;
 
   /// A larger cell does not resolve the process zone, unless it was so from the start [m].
   double largest_cell(const CrackCell<dim> &crack) const;
@@ -190,7 +186,6 @@ private:
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
-  unsigned int n_grown = 0, ages_behind = 0; ///< new cells, and the sum of ages of those behind
   bool needs_mesh = false, arrested = false;
   std::size_t n_messages_before = 0;
   std::map<dealii::types::material_id, SeamLaw>
