@@ -106,9 +106,15 @@ template <int dim>
 void Damage<dim>::find_segments()
 {
   all_segments = band.segments(scene.in_situ_pore_pressure);
-  if (parameters.tensor_fluid)
-    for (Segment<dim> &segment : all_segments)
+  for (unsigned int i = 0; i < all_segments.size(); ++i)
+  {
+    Segment<dim> &segment = all_segments[i];
+    // Half of Carter's leak-off in the middle of the process zone, where the tip of an elastic
+    // fracture with the same toughness would be.
+    segment.bare_aperture = 0.7 * law(band.cells[band.owned()[i].number]).critical;
+    if (parameters.tensor_fluid)
       permeability_tensor::leave_to_pores(segment);
+  }
 }
 
 
@@ -255,7 +261,7 @@ template <int dim>
 void Damage<dim>::begin_step(const StepContext &)
 {
   n_presses = 0;
-  n_advances = n_grown = ages_behind = 0;
+  n_advances = 0;
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
@@ -377,7 +383,6 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     const auto jumps = band.jumps(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
-    ++crack.age;
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
       const double before = crack.greatest[q];
