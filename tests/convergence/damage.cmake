@@ -146,3 +146,22 @@ foreach(ranks 2 4)
 endforeach()
 stockwork_restart_test(NAME restart/damage_3d DECK tests/data/adaptive_disc.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 8
   IGNORE "balance_error|error_fracture_volume")
+# The sequence as published. What is said to be lost is what the reference, which is injected, has more than the
+# fracture; with twice the time to the full rate than there is, half of it is injected (Eq. 39).
+set(published prm/kgd/wang/as_published/damage.prm)
+stockwork_case_test(NAME convergence/damage/as_published DECK ${published} LABELS quick SET "Resolution=coarse"
+  EXPECT "final/fluid_balance_error > 0.5" # 0.80
+         "final/fluid_balance_error = errors/fracture_volume/final within 1e-9"
+         "final/lost_volume > 0.005" "final/fracture_length < 8" "warnings == 2")
+stockwork_case_test(NAME convergence/damage/as_published/half DECK ${published} LABELS quick
+  SET "Resolution=coarse" "Coupling/Time of full rate=80 s"
+  EXPECT "final/injected_volume = 0.005 within 1e-9" "final/well_1_rate = 1.25e-4 within 1e-9")
+# With what the crack opens by as storage, one pass loses nothing, and is near the answer.
+stockwork_case_test(NAME convergence/damage/as_published/compliance DECK ${published} LABELS quick NEGATIVE
+  SET "Resolution=coarse" "Coupling/Storage=compliance"
+  EXPECT "errors/inlet_aperture/final < 0.03" # 0.0186
+         "fluid_balance/relative_error < 1e-9" "final/fracture_length = 14 within 0.04")
+stockwork_same_test(NAME parallel/damage/as_published DECK ${published} RANKS 1,2 TOLERANCE 1e-8
+  SET "Resolution=coarse" "Output/Fields=false")
+stockwork_restart_test(NAME restart/damage/as_published DECK ${published} RANKS 1,2 TOLERANCE 1e-8 AFTER 30
+  SET "Resolution=coarse" "Output/Fields=false")

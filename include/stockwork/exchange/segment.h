@@ -79,6 +79,11 @@ struct Segment
   /// spring between its faces. Same rank.
   double opening_by_pressure = 0.;
 
+  /// Where the flow is solved with apertures that are held and the pores of damaged rock are to
+  /// take up what is injected: the volume per area that they do with pressure [m/Pa]. It is no part
+  /// of the opening, and nothing comes back from it. Same rank.
+  double damaged_storage = 0.;
+
   /// Pore pressure of the rock at the segment [Pa], the mean of both faces, for leak-off. Where the
   /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.
   LinearFunctional pore_pressure;

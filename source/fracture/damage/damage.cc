@@ -109,12 +109,28 @@ void Damage<dim>::find_segments()
   for (unsigned int i = 0; i < all_segments.size(); ++i)
   {
     Segment<dim> &segment = all_segments[i];
+    const CrackCell<dim> &crack = band.cells[band.owned()[i].number];
     // Half of Carter's leak-off in the middle of the process zone, where the tip of an elastic
     // fracture with the same toughness would be.
-    segment.bare_aperture = 0.7 * law(band.cells[band.owned()[i].number]).critical;
+    segment.bare_aperture = 0.7 * law(crack).critical;
+    // Zhang et al., Eqs 23 and 24: with D the compressibility of the pores grows by 1/(1 - D). That
+    // of the rock is 1/K for grains that are not compressed. At D = 1 it would be infinite.
+    const double integrity = std::max(1. - damage(crack), parameters.least_integrity);
+    segment.damaged_storage =
+      crack.size_across() /
+      (scene.rock.at(crack.region, crack.centre()).bulk_modulus() * integrity);
     if (parameters.tensor_fluid)
       permeability_tensor::leave_to_pores(segment);
   }
+}
+
+
+template <int dim>
+double Damage<dim>::damage(const CrackCell<dim> &crack) const
+{
+  const double mean =
+    std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
+  return law(crack).damage(mean, rock_stiffness(crack));
 }
 
 
@@ -265,6 +281,7 @@ void Damage<dim>::begin_step(const StepContext &)
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
+  find_segments();
 }
 
 
@@ -408,7 +425,6 @@ void Damage<dim>::rollback()
   laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
-  find_segments();
 }
 
 
@@ -446,7 +462,6 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   if (mesh_view)
   {
     begin_step({});
-    find_segments();
   }
 }
 
@@ -487,9 +502,7 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
     const CrackCell<dim> &crack = band.cells[owned.number];
     const unsigned int index = owned.cell->active_cell_index();
     const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    const double mean =
-      std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
-    damage[index] = law(crack).damage(mean, rock_stiffness(crack));
+    damage[index] = this->damage(crack);
     opening[index] = jump * crack.normal;
     if (state.segment_pressure)
       pressure[index] = state.segment_pressure(crack.key());

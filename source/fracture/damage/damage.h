@@ -29,6 +29,7 @@ public:
     needs.random_rock = true;
     needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
     needs.symmetric = !parameters.tensor_fluid;
+    needs.breaks_between_steps = true;
     return needs;
   }
 
@@ -89,6 +90,9 @@ private:
 
   /// The law of a crack: that of its region, where the rock varies that of its place.
   SeamLaw law(const CrackCell<dim> &crack) const;
+
+  /// D of the whole cell.
+  double damage(const CrackCell<dim> &crack) const;
 
   /// Modulus of uniaxial strain across the crack over the size of the cell [Pa/m].
   double rock_stiffness(const CrackCell<dim> &crack) const;
