@@ -49,8 +49,8 @@ class Run:
 
     def stages(self):
         """Times at which stage II, III and IV begin; NaN where one does not. The pressure falls in II, from
-        breakdown to where it rises again by a fifth of that; in IV the fracture's length stays within a hundredth of what it is at the end, if that is at
-        least a fifth of the run."""
+        breakdown to where it rises again by a fifth of that; in IV the fracture's length stays within a hundredth of
+        what it is at the end, if that is at least a fifth of the run."""
         peak = self.breakdown()
         after = self.pressure[peak:]
         least = np.minimum.accumulate(after)
@@ -112,16 +112,11 @@ def zones(runs, output):
         _vertical(axes[1, column], found, vmax)
         axes[1, column].set_xlabel("along the greatest stress [m]")
         figure.colorbar(drawn, ax=axes[0, column], label="opening [mm]", shrink=0.8)
-        in_coal = cells.layer(0.)
-        pressure = cells.fields["pore_pressure"].copy()
-        cracked = cells.fields["damage"] > 0.
-        if "fluid_pressure" in cells.fields:
-            pressure[cracked] = cells.fields["fluid_pressure"][cracked]
-        drawn = _rectangles(cells, in_coal, 1e-6 * pressure, axes[2, column], cmap="magma")
+        drawn = _rectangles(cells, cells.layer(0.), 1e-6 * cells.fields["pore_pressure"], axes[2, column], cmap="magma")
         axes[2, column].set_xlim(-100., 100.)
         axes[2, column].set_ylim(-100., 100.)
         axes[2, column].set_aspect("equal")
-        figure.colorbar(drawn, ax=axes[2, column], label="fluid pressure [MPa]", shrink=0.8)
+        figure.colorbar(drawn, ax=axes[2, column], label="pore pressure [MPa]", shrink=0.8)
         axes[2, column].set_xlabel("x [m]")
     axes[0, 0].set_ylabel("y [m]")
     axes[1, 0].set_ylabel("z [m]")
@@ -155,7 +150,7 @@ def histories(runs, output):
         axes[0].plot(run.time, run.half_length, color=f"C{i}", label=f"θ = {run.angle:g}°")
         axes[1].plot(run.time, 1e3 * run.width, color=f"C{i}")
         axes[2].plot(run.time, 1e-6 * run.pressure, color=f"C{i}")
-        for name, begin in zip(STAGES[1:], run.stages()):
+        for name, begin in zip(STAGES, (run.time[0], *run.stages())):
             axes[2].axvline(begin, color=f"C{i}", lw=0.5, ls=":")
             if i == 0 and not math.isnan(begin):
                 axes[2].text(begin, 1.0, name, transform=axes[2].get_xaxis_transform(), fontsize=8, va="bottom")
@@ -174,6 +169,7 @@ def histories(runs, output):
     plane = [formulas.pressure(RATE, x, HEIGHT, SHEAR, POISSON, VISCOSITY) for x in runs[0].half_length]
     axes[2].plot(runs[0].time, 1e-6 * (LEAST_STRESS + np.array(plane)), color="0.6", ls="-.",
                  label="Eq. 42, third line, G³ and h put back")
+    axes[2].set_xscale("log")
     axes[2].legend(frameon=False, fontsize=8)
     for ax, label in zip(axes, ("half-length [m]", "width at the well [mm]", "pressure in the well [MPa]")):
         ax.set_xlabel("time [s]")
@@ -184,9 +180,9 @@ def histories(runs, output):
 
 
 def wing(run):
-    """(distance from the well, opening, fluid pressure or None) of the coal's middle, averaged over both wings
+    """(time, distance from the well, opening, fluid pressure or None) of the coal's middle, averaged over both wings
     and the thickness of two cells, in bins of a cell; and the half-length."""
-    _, cells = zone.at(run.directory)
+    time, cells = zone.at(run.directory)
     found = zone.Zone(cells, run.angle)
     h = found.size[:, 0].min()
     middle = np.abs(found.centre[:, 2]) < h
@@ -198,22 +194,21 @@ def wing(run):
     # A line that leaves the mesh's directions passes more than one cell in places.
     steps = np.array([[place[number == i].mean(), opening[number == i].mean(),
                        math.nan if pressure is None else pressure[middle][number == i].mean()] for i in filled])
-    return steps[:, 0], steps[:, 1], steps[:, 2], place.max() + 0.5 * h
+    return time, steps[:, 0], steps[:, 1], steps[:, 2], place.max() + 0.5 * h
 
 
 def profiles(run, output):
     """Figures 13, 14 and 15: pressure and half-width along the fracture."""
-    place, opening, pressure, tip = wing(run)
+    time, place, opening, pressure, tip = wing(run)
     late = run.time > 0.7 * run.time[-1]
     speed = np.polyfit(run.time[late], run.half_length[late], 1)[0]
     distance = np.linspace(0.01, 0.5, 100) * HEIGHT  # further off, a fracture of this height is not in plane strain
     asymptote = np.array([formulas.tip_width(x, speed, PLANE, VISCOSITY) for x in distance])
     suction = np.array([formulas.tip_pressure(x, speed, PLANE, VISCOSITY) for x in distance])
     figure, axes = plt.subplots(1, 3, figsize=(13., 3.8), layout="constrained")
-    axes[0].plot(place, 1e-6 * pressure, ".-", label=f"θ = {run.angle:g}°, t = {run.time[-1]:.3g} s")
+    axes[0].plot(place, 1e-6 * pressure, ".-", label=f"θ = {run.angle:g}°, t = {time:.3g} s")
     axes[0].plot(tip - distance, 1e-6 * (LEAST_STRESS + suction), color="0.3", ls="--", label="tip, Eq. 43")
-    low = np.nanmin(1e-6 * pressure) if np.isfinite(pressure).any() else 7.
-    axes[0].set_ylim(max(4., low - 0.3), None)
+    axes[0].set_ylim(7., None)
     axes[0].set_ylabel("fluid pressure [MPa]")
     axes[1].plot(place, 0.5e3 * opening, ".-")
     axes[1].plot(tip - distance, 0.5e3 * asymptote, color="0.3", ls="--", label=f"tip, Eq. 43, {speed:.2g} m/s")
@@ -236,6 +231,6 @@ def profiles(run, output):
 
 
 def _save(figure, output):
-    figure.savefig(output, dpi=75)
+    figure.savefig(output, dpi=75, bbox_inches="tight")
     plt.close(figure)
     print(output)
