@@ -41,9 +41,8 @@ inline double value(const LinearFunctional &functional, const Unknowns &unknowns
 /// (FractureModel::assemble(), State::segment_unknown).
 ///
 /// A segment wider than a cell may reach over several ranks: each of them then lists it, the same
-/// but for `opening`, of which it has the part of its own cells; the parts add up. What is of the
-/// segment as a whole (`opening_by_pressure`, `pore_pressure`) counts where it stands, so only one
-/// rank gives it.
+/// but for `opening` and `pore_pressure`, of which it has the part of its own cells: parts add up.
+/// (It may have neither an `opening_by_pressure` nor a pore pressure among the unknowns then.)
 template <int dim>
 struct Segment
 {
