@@ -27,6 +27,8 @@ public:
   {
     Requirements needs;
     needs.random_rock = true;
+    needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
+    needs.symmetric = !parameters.tensor_fluid;
     needs.breaks_between_steps = true;
     return needs;
   }
@@ -73,9 +75,10 @@ public:
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
 
 private:
-  void start(const Collectives &collectives);
+  /// The segments of the band as the fluid is to see them, after the band has changed.
+  void find_segments();
 
-  void make_segments();
+  void start(const Collectives &collectives);
 
   /// Refuse rock so weak that its process zone is longer than the domain.
   void check_strengths() const;
@@ -190,6 +193,7 @@ private:
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
   bool needs_mesh = false, arrested = false;
+  dealii::Point<dim> misfit; ///< where cells of another size are in the crack's way
   std::size_t n_messages_before = 0;
   std::map<dealii::types::material_id, SeamLaw>
     laws_before; ///< so that what was said is said again
