@@ -518,12 +518,13 @@ void add_random_fields(const Case<dim> &the_case,
     std::ostringstream text;
     text << std::setprecision(3) << "times the deck's value, deviation " << rock.random->deviation()
          << "; " << rock.random->describe();
-    if (mesh.smallest > rock.random->lattice_spacing() * (1. + 1e-6))
+    const bool skips = mesh.smallest > rock.random->lattice_spacing() * (1. + 1e-6);
+    if (skips)
       text << "; the smallest cells, " << mesh.smallest
            << " m, are larger than those of the lattice and take the value at their centre";
     numbers.push_back(
       {"random rock: mean" + (region == 0 ? std::string() : ", region " + std::to_string(region)),
-       rock.random->mean_factor(), text.str()});
+       rock.random->mean_factor(), text.str(), skips});
   }
 }
 } // namespace

@@ -128,8 +128,12 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
                     segment.bare_aperture, segment.propped_conductivity, collectives.rank(),
                     segment.at_tip, segment.neighbours});
   network = collectives.gather(mine);
-  std::sort(network.begin(), network.end(),
-            [](const auto &a, const auto &b) { return a.key < b.key; });
+  std::stable_sort(network.begin(), network.end(),
+                   [](const auto &a, const auto &b) { return a.key < b.key; });
+  // Of a segment that several ranks have parts of, the first is the owner.
+  network.erase(std::unique(network.begin(), network.end(),
+                            [](const auto &a, const auto &b) { return a.key == b.key; }),
+                network.end());
   for (NetworkSegment<dim> &segment : network)
     segment.initial_pressure = initial_pressure(segment, earlier);
 
@@ -250,6 +254,19 @@ std::vector<ExtraUnknown> Network<dim>::unknowns() const
 
 
 template <int dim>
+void Network<dim>::set_start(std::vector<double> &extra) const
+{
+  const std::vector<ExtraUnknown> all = unknowns();
+  for (unsigned int k = 0; k < all.size(); ++k)
+    extra[extra.size() - all.size() + k] = all[k].initial;
+  const auto nothing = [](std::uint64_t) { return std::optional<double>(); };
+  for (unsigned int i = 0; i < network.size(); ++i)
+    if (rows[i] != no_row)
+      extra[rows[i]] = initial_pressure(network[i], nothing);
+}
+
+
+template <int dim>
 void Network<dim>::begin_step(const StepContext &)
 {
   in_step = true;
@@ -323,7 +340,7 @@ std::vector<double> Network<dim>::apertures(const Unknowns &unknowns,
 {
   std::vector<double> result(network.size());
   for (unsigned int k = 0; k < owned.size(); ++k)
-    result[owned_index[k]] = opening(k, unknowns);
+    result[owned_index[k]] += opening(k, unknowns);
   collectives.sum(result);
   return result;
 }
@@ -397,11 +414,11 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
     const unsigned int i = owned_index[k];
-    all[i] = opening(k, state.current);
-    all[n + i] = opening(k, reference_state);
-    all[2 * n + i] = value(owned[k].pore_pressure, state.current);
+    all[i] += opening(k, state.current);
+    all[n + i] += opening(k, reference_state);
+    all[2 * n + i] += value(owned[k].pore_pressure, state.current);
     if (!from_committed)
-      all[3 * n + i] = opening(k, state.committed);
+      all[3 * n + i] += opening(k, state.committed);
   }
   collectives.sum(all);
 
@@ -496,7 +513,10 @@ void Network<dim>::assemble(const StepContext &context,
   LocalSystem local;
   for (unsigned int k = 0; k < owned.size(); ++k)
   {
-    assemble_segment(owned_index[k], owned[k], context, values, local);
+    const unsigned int i = owned_index[k];
+    assemble_segment(i, owned[k], context, values, local);
+    if (network[i].owner != collectives.rank())
+      keep_part_of_opening(owned[k], local);
     sink.add(local);
   }
   all_wells.assemble(context, state,
