@@ -1,5 +1,6 @@
 #include "fracture/damage/parameters.h"
 
+#include "discontinuity/contact.h"
 #include "stockwork/base/quantity.h"
 
 namespace stockwork::damage
@@ -32,6 +33,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
                     "changes along the crack, and fails where the rock beside it bends: a beam, a "
                     "shallow crack. auto: linear in two, constant in three dimensions, where it "
                     "costs two more unknowns in each cell.");
+  declare_friction(prm);
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
                     "Cracks go straight on when the stress across their plane is enough, whatever "
                     "the stress along it: for a weak seam, or the joint of two beams.");
@@ -49,6 +51,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.most_advances = prm.get_integer("Most advances per step");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.rings_ahead = prm.get_integer("Rings ahead");
+  p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   p.linear_jumps = prm.get("Jump") == "linear" || (prm.get("Jump") == "auto" && dim == 2);
