@@ -36,6 +36,13 @@ stockwork_case_test(NAME convergence/damage/at_rest/seam DECK tests/contract/fra
 stockwork_case_test(NAME convergence/damage/at_rest/slips DECK tests/contract/fracture.prm LABELS quick
   SET "In situ/Stress=-37.5 MPa, -18.75 MPa, 8 MPa" "Fracture/damage/Friction coefficient=0.6" ${at_rest} ${porous}
   EXPECT "final/dissipated_energy > 8000")
+# Pumped, flowed back until the faces touch and rub, and pumped again until it grows on: nothing is lost, and the
+# faces overlap by no more than half a per cent of what it has been open (8.6e-8).
+stockwork_case_test(NAME convergence/damage/reopened DECK tests/data/reopened_crack.prm
+  SET "Fracture/Model=damage" "Fracture/damage/Friction coefficient=0.6"
+  WARNS "The coefficient of their friction is 0.6"
+  EXPECT "fluid_balance/relative_error < 1e-12" "minimum/minimum_aperture > -1.6e-7" "final/fracture_length > 6"
+         "rejected_steps == 0")
 
 # Static cracks: half a cell is not known at each tip.
 stockwork_case_test(NAME convergence/sneddon/damage DECK prm/sneddon/damage.prm NEGATIVE
