@@ -15,9 +15,12 @@ struct Parameters
   double cell_size;           ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;   ///< cells of that size ahead of the front
   double friction;            ///< Coulomb's coefficient, of faces that touch
+  double least_integrity;     ///< of 1 - D, in storage as published
   bool straight;              ///< cracks keep their normal
   bool growth;
   bool linear_jumps; ///< else constant in a cell
+  bool tensor_fluid; ///< the elements of the pore pressure carry the fluid of the fracture
+  double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
 
   static void declare(dealii::ParameterHandler &prm);
 
