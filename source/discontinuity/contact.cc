@@ -9,12 +9,23 @@ namespace stockwork
 {
 using dealii::Tensor;
 
-template <int dim>
-void FaceContact<dim>::declare_parameters(dealii::ParameterHandler &prm)
+void declare_friction(dealii::ParameterHandler &prm)
 {
   prm.declare_entry("Friction coefficient", "0", Quantity(dimension::number, Range::non_negative()),
                     "Coulomb's, between the faces of a crack that touch: shear traction over what "
                     "presses them together beyond the fluid's pressure. 0: they slide freely.");
+}
+
+
+std::string faces_touch(const double friction)
+{
+  std::ostringstream text;
+  text << "Faces of a crack touch. ";
+  if (friction > 0.)
+    text << "The coefficient of their friction is " << friction << ".";
+  else
+    text << "They slide without friction, for 'Friction coefficient' is 0.";
+  return text.str();
 }
 
 
@@ -66,10 +77,10 @@ typename FaceContact<dim>::Patch FaceContact<dim>::patch(const Discontinuity<dim
 
 
 template <int dim>
-double FaceContact<dim>::slip(const CrackPiece<dim> &piece) const
+Tensor<1, dim> FaceContact<dim>::slip(const CrackPiece<dim> &piece) const
 {
   const auto found = slips.find(piece.key(domain_size));
-  return found == slips.end() ? 0. : found->second;
+  return found == slips.end() ? Tensor<1, dim>() : found->second;
 }
 
 
@@ -82,11 +93,11 @@ double FaceContact<dim>::carried_by(const CrackPiece<dim> &piece) const
 
 
 template <int dim>
-ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinuity,
-                                           const unsigned int crack,
-                                           const unsigned int index,
-                                           const std::vector<double> &extra,
-                                           const double broken) const
+ContactResponse<dim> FaceContact<dim>::traction(const Discontinuity<dim> &discontinuity,
+                                                const unsigned int crack,
+                                                const unsigned int index,
+                                                const std::vector<double> &extra,
+                                                const double broken) const
 {
   const Patch patch = this->patch(discontinuity, crack, index);
   const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[patch.first];
@@ -99,8 +110,8 @@ ContactResponse FaceContact<dim>::traction(const Discontinuity<dim> &discontinui
   const double seam = broken < 1. && closing ? 10. : 1.;
   const double plane_modulus = rock(piece.region).plane_modulus();
   const ContactLaw law{seam * stiffness * plane_modulus / piece.cell_size(), friction};
-  return law.evaluate(jump * piece.normal() - patch.minimum_gap, jump * piece.along,
-                      has_friction() ? slip(piece) : 0., broken, carried_by(piece));
+  return law.evaluate(piece.normal(), jump - patch.minimum_gap * piece.normal(), slip(piece),
+                      broken, carried_by(piece));
 }
 
 
@@ -113,18 +124,12 @@ void FaceContact<dim>::assemble(const Discontinuity<dim> &discontinuity,
                                 const double broken) const
 {
   const Patch patch = this->patch(discontinuity, crack, index);
-  const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  const ContactResponse<dim> response = traction(discontinuity, crack, index, extra, broken);
   if (index != patch.first || response.normal == 0.)
     return;
-  const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[index];
-  const Tensor<1, dim> n = piece.normal(), t = piece.along;
-  const Tensor<1, dim> force = patch.length * (response.normal * n + response.shear * t);
-  Tensor<2, dim> stiffness;
-  const auto &k = response.tangent;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = 0; j < dim; ++j)
-      stiffness[i][j] = patch.length * (n[i] * (k[0][0] * n[j] + k[0][1] * t[j]) +
-                                        t[i] * (k[1][0] * n[j] + k[1][1] * t[j]));
+  const Tensor<1, dim> n = discontinuity.paths()[crack].pieces[index].normal();
+  const Tensor<1, dim> force = patch.length * (response.normal * n + response.shear);
+  const Tensor<2, dim> stiffness = patch.length * response.tangent;
   const auto &jumps = patch.jumps;
   LocalSystem local;
   for (const auto &[unknown, unit] : jumps)
@@ -150,11 +155,12 @@ bool FaceContact<dim>::press(const Discontinuity<dim> &discontinuity,
 {
   if (broken < 1. || index != patch(discontinuity, crack, index).first)
     return false;
-  const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  const ContactResponse<dim> response = traction(discontinuity, crack, index, extra, broken);
+  const Tensor<1, dim> n = discontinuity.paths()[crack].pieces[index].normal();
   const double gap = std::abs(response.gap);
   // Where faces have not parted yet, what is left of a penalty's overlap is the measure.
   if (response.normal == 0. || gap <= 0.005 * std::max(opening, maximum_opening) ||
-      gap * response.tangent[0][0] <= -0.01 * response.normal)
+      gap * (n * (response.tangent * n)) <= -0.01 * response.normal)
     return false;
   carried[discontinuity.paths()[crack].pieces[index].key(domain_size)] = response.normal;
   return true;
@@ -168,7 +174,7 @@ void FaceContact<dim>::commit(const Discontinuity<dim> &discontinuity,
                               const std::vector<double> &extra,
                               const double broken)
 {
-  const ContactResponse response = traction(discontinuity, crack, index, extra, broken);
+  const ContactResponse<dim> response = traction(discontinuity, crack, index, extra, broken);
   maximum_opening = std::max(maximum_opening, response.gap);
   touched = touched || (response.normal < 0. && broken >= 1.);
   const Patch patch = this->patch(discontinuity, crack, index);
@@ -182,8 +188,8 @@ void FaceContact<dim>::commit(const Discontinuity<dim> &discontinuity,
     pressed.erase(key);
   if (!has_friction())
     return;
-  double &committed = slips[key];
-  friction_work += patch.length * response.shear * (response.slip - committed);
+  Tensor<1, dim> &committed = slips[key];
+  friction_work += patch.length * (response.shear * (response.slip - committed));
   committed = response.slip;
 }
 
@@ -194,13 +200,7 @@ std::vector<std::string> FaceContact<dim>::take_messages()
   if (!touched || said)
     return {};
   said = true;
-  std::ostringstream text;
-  text << "Faces of a crack touch. ";
-  if (has_friction())
-    text << "The coefficient of their friction is " << friction << ".";
-  else
-    text << "They slide without friction, for 'Friction coefficient' is 0.";
-  return {text.str()};
+  return {faces_touch(friction)};
 }
 
 

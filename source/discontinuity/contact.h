@@ -15,6 +15,12 @@
 
 namespace stockwork
 {
+/// "Friction coefficient" of a model's subsection.
+void declare_friction(dealii::ParameterHandler &prm);
+
+/// That faces have touched, and how they slide, for the user.
+std::string faces_touch(double friction);
+
 /// Keeps the faces of cracks from passing through one another, and lets them rub (contact_law.h).
 ///
 /// Each span has one gap, its mean aperture, which is the fluid's as well: as many conditions as
@@ -41,9 +47,6 @@ public:
   {
   }
 
-  /// "Friction coefficient" of a model's subsection.
-  static void declare_parameters(dealii::ParameterHandler &prm);
-
   /// Proppant keeps faces this far apart [m], by crack and piece; null: nothing does.
   void keep_apart(std::function<double(unsigned int, unsigned int)> minimum_gap)
   {
@@ -57,11 +60,11 @@ public:
 
   /// What the faces of a piece exert on one another.
   /// @param broken see ContactLaw::evaluate
-  ContactResponse traction(const Discontinuity<dim> &discontinuity,
-                           unsigned int crack,
-                           unsigned int piece,
-                           const std::vector<double> &extra,
-                           double broken = 1.) const;
+  ContactResponse<dim> traction(const Discontinuity<dim> &discontinuity,
+                                unsigned int crack,
+                                unsigned int piece,
+                                const std::vector<double> &extra,
+                                double broken = 1.) const;
 
   /// Add the tractions of a piece.
   void assemble(const Discontinuity<dim> &discontinuity,
@@ -124,7 +127,7 @@ private:
   Patch
   patch(const Discontinuity<dim> &discontinuity, unsigned int crack, unsigned int piece) const;
 
-  double slip(const CrackPiece<dim> &first_of_patch) const;
+  dealii::Tensor<1, dim> slip(const CrackPiece<dim> &first_of_patch) const;
   double carried_by(const CrackPiece<dim> &first_of_patch) const;
 
   double friction, stiffness;
@@ -133,7 +136,7 @@ private:
   std::function<double(unsigned int, unsigned int)> minimum_gap;
 
   // Committed, the same on all ranks.
-  std::unordered_map<std::uint64_t, double> slips;   ///< by key of the first piece [m]
+  std::unordered_map<std::uint64_t, dealii::Tensor<1, dim>> slips; ///< by first piece's key [m]
   std::unordered_map<std::uint64_t, double> pressed; ///< likewise, where faces touch [Pa]
   double friction_work = 0.;
   double maximum_opening = 0.; ///< so far [m]

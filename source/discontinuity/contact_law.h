@@ -1,24 +1,26 @@
 #pragma once
 
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace stockwork
 {
-/// Traction between the faces of a crack that touch, on the plus side, positive in tension and
-/// along the crack.
+/// Traction between the faces of a crack that touch, on the plus side.
+template <int dim>
 struct ContactResponse
 {
-  double normal = 0.;                           ///< never positive [Pa]
-  double shear = 0.;                            ///< [Pa]
-  std::array<std::array<double, 2>, 2> tangent; ///< d(normal, shear)/d(gap, shear gap) [Pa/m]
-  double slip = 0.;                             ///< trial value of the irreversible shear gap [m]
-  double gap = 0.;                              ///< as given [m]
+  double normal = 0.;             ///< positive in tension, so never positive [Pa]
+  dealii::Tensor<1, dim> shear;   ///< along the crack [Pa]
+  dealii::Tensor<2, dim> tangent; ///< of both by the jump [Pa/m]
+  dealii::Tensor<1, dim> slip;    ///< trial value of the irreversible shear gap [m]
+  double gap = 0.;                ///< as given [m]
 };
 
 /// Unilateral contact with Coulomb's friction, by a penalty K and what the faces carried after the
-/// step before, t_0 (augmented Lagrange with one update per step; Wriggers 2006, section 6.3),
+/// step before, t_0 (augmented Lagrange with one update per step; Wriggers 2006, section 6.3), for
+/// the gap g across the crack and s along it,
 ///
 ///   t_n = min(t_0 + K g, 0),   t_s = K (s - s_p),   |t_s| <= mu |t_n|,
 ///
@@ -31,37 +33,44 @@ struct ContactLaw
   double stiffness; ///< K [Pa/m]
   double friction;  ///< mu
 
-  /// @param gap, shear_gap of the faces [m]
+  /// @param n unit, from the minus to the plus side
+  /// @param jump of the displacement, plus less minus side [m]
   /// @param slip the committed one [m]
-  /// @param carried t_0, never positive [Pa]
   /// @param broken share of the area that rubs; the rest holds by other laws (Alfano and Sacco
   /// 2006)
-  ContactResponse evaluate(const double gap,
-                           const double shear_gap,
-                           const double slip,
-                           const double broken = 1.,
-                           const double carried = 0.) const
+  /// @param carried t_0, never positive [Pa]
+  template <int dim>
+  ContactResponse<dim> evaluate(const dealii::Tensor<1, dim> &n,
+                                const dealii::Tensor<1, dim> &jump,
+                                const dealii::Tensor<1, dim> &slip,
+                                const double broken = 1.,
+                                const double carried = 0.) const
   {
-    ContactResponse response;
-    response.gap = gap;
-    response.normal = std::min(carried + stiffness * gap, 0.);
+    ContactResponse<dim> response;
+    response.gap = jump * n;
+    response.normal = std::min(carried + stiffness * response.gap, 0.);
     const bool closed = response.normal < 0.;
-    response.tangent = {{{{closed ? stiffness : 0., 0.}}, {{0., 0.}}}};
+    const dealii::Tensor<2, dim> across = outer_product(n, n),
+                                 along = dealii::unit_symmetric_tensor<dim>() - across;
+    if (closed)
+      response.tangent = stiffness * across;
     const double bound = -broken * friction * response.normal;
-    const double trial = stiffness * (shear_gap - slip);
-    if (std::abs(trial) < bound)
+    const dealii::Tensor<1, dim> shear_gap = along * jump, trial = stiffness * (shear_gap - slip);
+    if (trial.norm() < bound)
     {
       response.shear = trial;
-      response.tangent[1][1] = stiffness;
+      response.tangent += stiffness * along;
       response.slip = slip;
+      return response;
     }
-    else
+    if (const double size = trial.norm(); closed && size > 0.)
     {
-      response.shear = std::copysign(bound, trial);
-      if (closed)
-        response.tangent[1][0] = -std::copysign(broken * friction * stiffness, trial);
-      response.slip = shear_gap - response.shear / stiffness;
+      const dealii::Tensor<1, dim> direction = trial / size;
+      response.shear = bound * direction;
+      response.tangent -= broken * friction * stiffness * outer_product(direction, n);
+      response.tangent += stiffness * bound / size * (along - outer_product(direction, direction));
     }
+    response.slip = shear_gap - response.shear / stiffness;
     return response;
   }
 };

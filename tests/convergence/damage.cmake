@@ -15,21 +15,34 @@ stockwork_case_test(NAME convergence/damage/bar/once DECK ${deck}
 # metre, and gives the rest back.
 stockwork_case_test(NAME convergence/damage/bar/unloaded DECK ${deck} LABELS quick SET "Time/End time=360 s"
   EXPECT "final/dissipated_energy = 35.0075 within 1e-6" "final/energy_balance_error < 2e-4" "final/broken_length == 0")
-# At rest at 750 m, one stress twice the other: nothing is damaged, nothing opens or closes.
-# TODO In the first step the faces overlap by 7e-8 m before they have found the stress that they carry.
-set(at_rest "Wells/Well 1/Rate=0" "In situ/Pore pressure=7.5 MPa" "Rock/Poisson ratio=0.3")
-set(nothing "final/dissipated_energy == 0" "final/maximum_aperture < 1e-10" "final/minimum_aperture > -1e-10"
-  "maximum/maximum_aperture < 2e-9" "minimum/minimum_aperture > -1.1e-7") # 1.2e-9, -7.2e-8
+# At rest at 750 m, one stress twice the other: nothing is damaged, nothing opens, closes or slips, whether the
+# crack's faces touch and rub or a seam holds them, whatever the shear stress along it.
+set(at_rest "Fracture/Model=damage" "Wells/Well 1/Rate=0" "In situ/Pore pressure=7.5 MPa" "Rock/Poisson ratio=0.3")
+set(nothing "final/dissipated_energy == 0" "maximum/maximum_aperture < 1e-15" "minimum/minimum_aperture > -1e-15") # 1e-18
 set(porous "Rock/Bulk model=poroelastic" "Rock/Biot coefficient=0.9" "Rock/Biot modulus=10 GPa" "Rock/Permeability=1e-17"
   "Boundary conditions/Drained=right" "Fracture flow/Leak-off=resolved" "Discretisation/Elements=Q1-Q1 stabilised")
-foreach(state "along:-37.5 MPa, -18.75 MPa" "across:-18.75 MPa, -37.5 MPa")
+foreach(state "along:-37.5 MPa, -18.75 MPa" "across:-18.75 MPa, -37.5 MPa" "rubs:-37.5 MPa, -18.75 MPa, 5 MPa")
   string(REPLACE ":" ";" state "${state}")
   list(GET state 0 name)
   list(GET state 1 stress)
   stockwork_case_test(NAME convergence/damage/at_rest/${name} DECK tests/contract/fracture.prm LABELS quick
-    SET "Fracture/Model=damage" "In situ/Stress=${stress}" ${at_rest} ${porous}
+    SET "In situ/Stress=${stress}" "Fracture/damage/Friction coefficient=0.6" ${at_rest} ${porous}
     EXPECT ${nothing} "final/fracture_length = 4 within 1e-12")
 endforeach()
+stockwork_case_test(NAME convergence/damage/at_rest/seam DECK tests/contract/fracture.prm LABELS quick
+  SET "In situ/Stress=-37.5 MPa, -18.75 MPa, 5 MPa" "Cracks/Open=" "Cracks/Cohesive=0, 0.3 -> 4, 0.3" ${at_rest} ${porous}
+  EXPECT ${nothing} "final/fracture_length == 0")
+# A twin: beyond 0.6 of the 11.25 MPa that press it, it slips.
+stockwork_case_test(NAME convergence/damage/at_rest/slips DECK tests/contract/fracture.prm LABELS quick
+  SET "In situ/Stress=-37.5 MPa, -18.75 MPa, 8 MPa" "Fracture/damage/Friction coefficient=0.6" ${at_rest} ${porous}
+  EXPECT "final/dissipated_energy > 8000")
+# Pumped, flowed back until the faces touch and rub, and pumped again until it grows on: nothing is lost, and the
+# faces overlap by no more than half a per cent of what it has been open (8.6e-8).
+stockwork_case_test(NAME convergence/damage/reopened DECK tests/data/reopened_crack.prm
+  SET "Fracture/Model=damage" "Fracture/damage/Friction coefficient=0.6"
+  WARNS "The coefficient of their friction is 0.6"
+  EXPECT "fluid_balance/relative_error < 1e-12" "minimum/minimum_aperture > -1.6e-7" "final/fracture_length > 6"
+         "rejected_steps == 0")
 
 # Static cracks: half a cell is not known at each tip.
 stockwork_case_test(NAME convergence/sneddon/damage DECK prm/sneddon/damage.prm NEGATIVE

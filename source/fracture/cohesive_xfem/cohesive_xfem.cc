@@ -509,10 +509,10 @@ void CohesiveXFEM<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
                                                        {"slip", shear},
                                                        {"damage", mean_damage},
                                                        {"crack", owned.crack + 1.}};
-    const ContactResponse touching = contact.traction(discontinuity, owned.crack, owned.piece,
-                                                      state.current.extra, broken_share(piece));
+    const ContactResponse<dim> touching = contact.traction(
+      discontinuity, owned.crack, owned.piece, state.current.extra, broken_share(piece));
     values.emplace_back("contact_pressure", -touching.normal);
-    values.emplace_back("friction", touching.shear);
+    values.emplace_back("friction", touching.shear * piece.along);
     if (state.segment_pressure)
       values.emplace_back("fluid_pressure", state.segment_pressure(
                                               discontinuity.segment_key(owned.crack, owned.piece)));

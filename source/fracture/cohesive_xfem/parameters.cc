@@ -43,7 +43,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
     "of the given mesh.");
   prm.declare_entry("Rings ahead", "8", dealii::Patterns::Integer(1),
                     "Cells of this size kept ready around a tip.");
-  FaceContact<2>::declare_parameters(prm);
+  declare_friction(prm);
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
                     "Cracks go straight on when the stress across their direction is enough, "
                     "whatever the stress along it: for a weak seam, or the joint of two beams.");

@@ -31,13 +31,14 @@ struct CrackCell
   dealii::CellId id;
   dealii::types::material_id region = 0;
   std::array<dealii::Point<dim>, n_vertices> vertices;
-  dealii::Tensor<1, dim> normal; ///< unit, to the plus side; fixed once cracked
-  dealii::Point<dim> on_plane;   ///< a point of the crack in or near the cell
-  unsigned int plus = 0;         ///< vertices on the plus side, one bit each
-  /// At each of points(), committed: equivalent opening reached [m], and normal traction of faces
-  /// that touch [Pa].
-  std::array<double, n_points> greatest{}, carried{};
-  double reached = 1.;       ///< committed: share to which the fluid has come
+  dealii::Tensor<1, dim> normal;           ///< unit, to the plus side; fixed once cracked
+  dealii::Point<dim> on_plane;             ///< a point of the crack in or near the cell
+  unsigned int plus = 0;                   ///< vertices on the plus side, one bit each
+  std::array<double, n_points> greatest{}; ///< equivalent opening reached, committed [m]
+  double carried = 0.;                     ///< by faces that touch: normal traction, committed [Pa]
+  dealii::Tensor<1, dim> slip; ///< by which they have rubbed, committed, see ContactLaw [m]
+  dealii::Tensor<1, dim> held; ///< shear traction in situ, which the seam holds while intact [Pa]
+  double reached = 1.;         ///< committed: share to which the fluid has come
   bool bare = false;         ///< no strength was left behind it when it cracked, nor a process zone
   unsigned int boundary = 0; ///< faces on the domain's boundary, one bit each
 
@@ -113,7 +114,7 @@ struct CrackCell
   void serialize(Archive &ar, const unsigned int)
   {
     ar &id &region &vertices &normal &on_plane &plus &greatest;
-    ar &carried &reached &bare &boundary;
+    ar &carried &slip &held &reached &bare &boundary;
   }
 
 private:

@@ -2,6 +2,7 @@
 
 #include <boost/serialization/vector.hpp>
 
+#include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -232,6 +233,7 @@ void Damage<dim>::start(const Collectives &collectives)
         choose_strength(cell.region, cell.size());
       if (crack.kind == InitialCrack<dim>::Kind::open)
         cell.greatest.fill(law(cell).critical);
+      press_in_situ(cell);
       all.push_back(cell);
     }
     if (2 * n_shared >= passed.size())
@@ -286,13 +288,53 @@ void Damage<dim>::begin_step(const StepContext &)
 
 
 template <int dim>
-typename Damage<dim>::Touch Damage<dim>::touch(const CrackCell<dim> &crack,
-                                               const unsigned int point,
-                                               const double opening) const
+ContactLaw Damage<dim>::contact_law(const CrackCell<dim> &crack) const
 {
-  const double stiffness = contact_stiffness * rock_stiffness(crack);
-  const double traction = std::min(crack.carried[point] + stiffness * opening, 0.);
-  return {traction, traction < 0. ? stiffness : 0.};
+  return {contact_stiffness * rock_stiffness(crack), parameters.friction};
+}
+
+
+template <int dim>
+void Damage<dim>::press_in_situ(CrackCell<dim> &crack) const
+{
+  const Tensor<1, dim> traction = scene.in_situ_stress(crack.middle()) * crack.normal;
+  const double across = traction * crack.normal,
+               pressure = std::isnan(scene.crack_pressure)
+                            ? scene.in_situ_pore_pressure(crack.middle())
+                            : scene.crack_pressure;
+  const Tensor<1, dim> shear = traction - across * crack.normal;
+  crack.carried = std::min(across + pressure, 0.);
+  if (crack.greatest[0] < law(crack).critical)
+    crack.held = shear;
+  else
+    crack.slip = -shear / contact_law(crack).stiffness;
+}
+
+
+template <int dim>
+double Damage<dim>::broken_share(const CrackCell<dim> &crack) const
+{
+  const SeamLaw of_rock = law(crack);
+  double sum = 0.;
+  for (const double greatest : crack.greatest)
+    sum += 1. - of_rock.kept(greatest);
+  return sum / crack.greatest.size();
+}
+
+
+template <int dim>
+ContactResponse<dim> Damage<dim>::contact(const CrackCell<dim> &crack,
+                                          const Tensor<1, dim> &jump) const
+{
+  return contact_law(crack).template evaluate<dim>(crack.normal, jump, crack.slip,
+                                                   broken_share(crack), crack.carried);
+}
+
+
+template <int dim>
+Tensor<1, dim> Damage<dim>::seam_jump(const CrackCell<dim> &crack, const Tensor<1, dim> &jump) const
+{
+  return jump + crack.carried / contact_law(crack).stiffness * crack.normal;
 }
 
 
@@ -301,7 +343,8 @@ SeamResponse<dim> Damage<dim>::seam(const CrackCell<dim> &crack,
                                     const unsigned int point,
                                     const Tensor<1, dim> &jump) const
 {
-  return law(crack).template evaluate<dim>(crack.normal, jump, crack.greatest[point]);
+  return law(crack).template evaluate<dim>(crack.normal, seam_jump(crack, jump),
+                                           crack.greatest[point]);
 }
 
 
@@ -342,16 +385,23 @@ void Damage<dim>::assemble(const StepContext &context, const State &state, Sink 
       for (unsigned int k = 0; k < motions.size(); ++k)
         moved[k] = motions[k].at(points[q]);
       const SeamResponse<dim> held = seam(crack, q, jumps[q]);
-      const Touch touching = touch(crack, q, jumps[q] * crack.normal);
-      const Tensor<1, dim> traction = held.traction + touching.traction * crack.normal;
+      const Tensor<1, dim> traction =
+        held.traction + law(crack).kept(crack.greatest[q]) * crack.held;
       for (unsigned int i = 0; i < moved.size(); ++i)
       {
         local.residual(i) += share * (traction * moved[i]);
         for (unsigned int j = 0; j < moved.size(); ++j)
-          local.matrix(i, j) +=
-            share * (moved[i] * (held.tangent * moved[j]) +
-                     touching.slope * (moved[i] * crack.normal) * (moved[j] * crack.normal));
+          local.matrix(i, j) += share * (moved[i] * (held.tangent * moved[j]));
       }
+    }
+    const ContactResponse<dim> touching =
+      contact(crack, band.jump(owned.number, state.current.extra));
+    const Tensor<1, dim> traction = touching.normal * crack.normal + touching.shear;
+    for (unsigned int i = 0; i < at_middle.size(); ++i)
+    {
+      local.residual(i) += area * (traction * at_middle[i]);
+      for (unsigned int j = 0; j < at_middle.size(); ++j)
+        local.matrix(i, j) += area * (at_middle[i] * (touching.tangent * at_middle[j]));
     }
     sink.add(local);
   }
@@ -371,19 +421,15 @@ bool Damage<dim>::press_faces(const State &state)
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     CrackCell<dim> &crack = band.cells[i];
-    const auto jumps = band.jumps(i, state.current.extra);
-    for (unsigned int q = 0; q < jumps.size(); ++q)
-    {
-      if (crack.greatest[q] < law(crack).critical)
-        continue; // a seam that still holds would be torn when this pressure goes
-      const double gap = std::abs(jumps[q] * crack.normal);
-      const Touch touching = touch(crack, q, jumps[q] * crack.normal);
-      if (touching.traction == 0. || gap <= 0.005 * opening ||
-          gap * touching.slope <= -0.01 * touching.traction)
-        continue;
-      crack.carried[q] = touching.traction;
-      pressed = true;
-    }
+    if (broken_share(crack) < 1.)
+      continue; // a seam that still holds would be torn when this pressure goes
+    const ContactResponse<dim> touching = contact(crack, band.jump(i, state.current.extra));
+    const double gap = std::abs(touching.gap);
+    if (touching.normal == 0. || gap <= 0.005 * opening ||
+        gap * contact_law(crack).stiffness <= -0.01 * touching.normal)
+      continue;
+    crack.carried = touching.normal;
+    pressed = true;
   }
   n_presses += pressed;
   return pressed;
@@ -400,15 +446,20 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     const auto jumps = band.jumps(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
+    const ContactResponse<dim> touching = contact(crack, band.jump(i, state.current.extra));
+    dissipated += crack.area() * (touching.shear * (touching.slip - crack.slip));
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
       const double before = crack.greatest[q];
       crack.greatest[q] = seam(crack, q, jumps[q]).greatest;
       dissipated += crack.area() / CrackCell<dim>::n_points *
                     (law(crack).dissipation(crack.greatest[q]) - law(crack).dissipation(before));
-      crack.carried[q] = crack.greatest[q] >= law(crack).critical
-                           ? touch(crack, q, jumps[q] * crack.normal).traction
-                           : 0.;
+    }
+    crack.slip = touching.slip;
+    if (broken_share(crack) == 1.)
+    {
+      crack.carried = touching.normal;
+      touched |= touching.normal < 0.;
     }
   }
   n_arrested = arrested && n_advances == 0 && std::isnan(scene.crack_pressure) ? n_arrested + 1 : 0;
@@ -434,6 +485,11 @@ std::vector<std::string> Damage<dim>::take_messages()
   std::vector<std::string> taken;
   taken.swap(messages);
   n_messages_before = 0;
+  if (touched && !said)
+  {
+    said = true;
+    taken.push_back(faces_touch(parameters.friction));
+  }
   return taken;
 }
 
@@ -445,7 +501,7 @@ void Damage<dim>::save(boost::archive::binary_oarchive &archive) const
   for (const auto &[region, law] : laws)
     strengths.emplace_back(region, law.strength);
   archive << committed << n_initial << initial_size << n_arrested << strengths << started
-          << waits_for_mesh << greatest_opening << dissipated;
+          << waits_for_mesh << greatest_opening << dissipated << touched << said;
 }
 
 
@@ -454,7 +510,7 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::vector<std::pair<dealii::types::material_id, double>> strengths;
   archive >> committed >> n_initial >> initial_size >> n_arrested >> strengths >> started >>
-    waits_for_mesh >> greatest_opening >> dissipated;
+    waits_for_mesh >> greatest_opening >> dissipated >> touched >> said;
   laws.clear();
   for (const auto &[region, strength] : strengths)
     laws[region] = law_of(scene.rock(region), strength);
@@ -483,7 +539,8 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &) co
         result.length += share * crack.reached;
       if (crack.greatest[q] >= of_rock.critical)
         result.broken_length += share;
-      result.stored_energy += 0.5 * share * (seam(crack, q, jumps[q]).traction * jumps[q]);
+      result.stored_energy +=
+        0.5 * share * (seam(crack, q, jumps[q]).traction * seam_jump(crack, jumps[q]));
     }
     result.n_tips += dim == 2 && band.is_front(i);
   }
@@ -512,6 +569,9 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
       const Point<dim> centre = crack.middle();
       std::vector<std::pair<std::string, double>> values{
         {"aperture", opening[index]}, {"slip", jump * along}, {"damage", damage[index]}};
+      const ContactResponse<dim> touching = contact(crack, jump);
+      values.emplace_back("contact_pressure", -touching.normal);
+      values.emplace_back("friction", touching.shear * along);
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", pressure[index]);
       sink.add_fracture_piece(

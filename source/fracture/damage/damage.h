@@ -1,5 +1,6 @@
 #pragma once
 
+#include "discontinuity/contact_law.h"
 #include "discontinuity/stress_ahead.h"
 #include "fracture/damage/band.h"
 #include "fracture/damage/law.h"
@@ -28,7 +29,7 @@ public:
     Requirements needs;
     needs.random_rock = true;
     needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
-    needs.symmetric = !parameters.tensor_fluid;
+    needs.symmetric = !parameters.tensor_fluid && !(parameters.friction > 0.);
     needs.breaks_between_steps = true;
     return needs;
   }
@@ -97,12 +98,23 @@ private:
   /// Modulus of uniaxial strain across the crack over the size of the cell [Pa/m].
   double rock_stiffness(const CrackCell<dim> &crack) const;
 
-  /// Normal traction of the faces where they touch, never positive, and its slope.
-  struct Touch
-  {
-    double traction = 0., slope = 0.;
-  };
-  Touch touch(const CrackCell<dim> &crack, unsigned int point, double opening) const;
+  ContactLaw contact_law(const CrackCell<dim> &crack) const;
+
+  /// Let a crack of the scene carry what the rock there carried in situ, so that nothing moves
+  /// until something changes: faces by what presses them, a seam whatever it is.
+  void press_in_situ(CrackCell<dim> &crack) const;
+
+  /// What the faces of a cell exert on one another. Each cell has one gap, its mean aperture,
+  /// which is the fluid's as well.
+  ContactResponse<dim> contact(const CrackCell<dim> &crack,
+                               const dealii::Tensor<1, dim> &jump) const;
+
+  /// Share of a cell that has no strength left and rubs where its faces touch, of the last step.
+  double broken_share(const CrackCell<dim> &crack) const;
+
+  /// A jump of a seam, counted from where the faces that it holds press one another no more.
+  dealii::Tensor<1, dim> seam_jump(const CrackCell<dim> &crack,
+                                   const dealii::Tensor<1, dim> &jump) const;
 
   /// What the rock carries across the crack at one of its points.
   SeamResponse<dim>
@@ -188,7 +200,8 @@ private:
   unsigned int n_arrested = 0;  ///< steps for which nothing has grown, though hopelessly driven
   bool waits_for_mesh = false;  ///< cells ahead were of another size
   double greatest_opening = 0.; ///< of all cells so far [m]
-  double dissipated = 0.;       ///< since the start [J], [J/m] in 2-D
+  bool touched = false, said = false; ///< broken faces touch; the user has been told
+  double dissipated = 0.;             ///< since the start [J], [J/m] in 2-D
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;

@@ -54,6 +54,12 @@ struct SeamLaw
     return g < critical ? strength * (critical - g) / ((critical - start) * g) : 0.;
   }
 
+  /// Share of the area that still holds; the rest rubs where faces touch (Alfano and Sacco 2006).
+  double kept(const double g) const
+  {
+    return stiffness(g) / stiffness(0.);
+  }
+
   /// @param normal unit, from the minus to the plus side
   /// @param jump of the displacement, plus less minus side [m]
   /// @param greatest the committed equivalent opening [m]

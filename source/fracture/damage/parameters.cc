@@ -1,5 +1,6 @@
 #include "fracture/damage/parameters.h"
 
+#include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
 #include "stockwork/base/quantity.h"
 
@@ -33,6 +34,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
                     "changes along the crack, and fails where the rock beside it bends: a beam, a "
                     "shallow crack. auto: linear in two, constant in three dimensions, where it "
                     "costs two more unknowns in each cell.");
+  declare_friction(prm);
   permeability_tensor::declare_parameters(prm);
   number("Least integrity", "0.01", Range{0., 1., true, false},
          "Of 1 - D, by which 'Coupling/Scheme = as published' divides the rock's storage.");
@@ -54,6 +56,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.least_integrity = get_quantity(prm, "Least integrity", dimension::number);
   p.rings_ahead = prm.get_integer("Rings ahead");
+  p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   p.linear_jumps = prm.get("Jump") == "linear" || (prm.get("Jump") == "auto" && dim == 2);

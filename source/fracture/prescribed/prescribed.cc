@@ -51,7 +51,7 @@ public:
     prm.declare_entry(
       "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
       "Wanted size of the cells along the crack [m]; zero: that of the given mesh.");
-    FaceContact<dim>::declare_parameters(prm);
+    declare_friction(prm);
   }
 
   Requirements requirements() const override
@@ -209,10 +209,10 @@ public:
                                                          {"slip", jump * piece.along},
                                                          {"damage", 1.},
                                                          {"crack", owned.crack + 1.}};
-      const ContactResponse touching =
+      const ContactResponse<dim> touching =
         contact.traction(discontinuity, owned.crack, owned.piece, state.current.extra);
       values.emplace_back("contact_pressure", -touching.normal);
-      values.emplace_back("friction", touching.shear);
+      values.emplace_back("friction", touching.shear * piece.along);
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(discontinuity.segment_key(
                                                 owned.crack, owned.piece)));
@@ -256,11 +256,11 @@ private:
       std::min_element(pieces.begin(), pieces.end(),
                        [&](const auto &a, const auto &b)
                        { return a.centre().distance(centre) < b.centre().distance(centre); });
-    const ContactResponse touching =
+    const ContactResponse<dim> touching =
       contact.traction(discontinuity, crack, nearest - pieces.begin(), state.current.extra);
-    const Tensor<1, dim> n = nearest->normal(), t = nearest->along;
+    const Tensor<1, dim> n = nearest->normal();
     return touching.normal * symmetrize(outer_product(n, n)) +
-           2. * touching.shear * symmetrize(outer_product(n, t));
+           2. * symmetrize(outer_product(n, touching.shear));
   }
 
   const Scene<dim> &scene;
