@@ -145,22 +145,22 @@ foreach(slot :142.70 _15:140.18 _30:140.72 _45:141.27)
   stockwork_case_test(NAME convergence/damage/slot${turned}/tensor DECK tests/data/open_slot${turned}.prm
     EXPECT "final/well_1_borehole_pressure = ${drop} within 0.02")
 endforeach()
-# A fracture of constant height, tight and with Carter leak-off. At these times it is twice and 1.3 times as long as
-# high, which is what most of the difference in pressure comes from.
+# A fracture of constant height, tight and with Carter leak-off, and a disc with it. At these times the first two are
+# less than twice as long as high, which is where most of the difference in pressure comes from.
 stockwork_case_test(NAME convergence/pkn/damage DECK prm/pkn/damage.prm NEGATIVE
   SET "Resolution=coarse" "Time/End time=40 s" "Output/Fields=false"
-  EXPECT "errors/equivalent_length/final < 0.08" "errors/inlet_aperture/final < 0.09"
-         "errors/net_inlet_pressure/final < 0.24"
+  EXPECT "errors/equivalent_length/final < 0.05" "errors/inlet_aperture/final < 0.077" # 0.03, 0.051
+         "errors/net_inlet_pressure/final < 0.26" # 0.175
          "fluid_balance/relative_error < 1e-8" "final/extent_y = 10 within 1e-6" "rejected_steps == 0")
 stockwork_case_test(NAME convergence/pkn/carter/damage DECK prm/pkn/carter/damage.prm NEGATIVE
-  SET "Resolution=coarse" "Time/End time=60 s" "Output/Fields=false"
-  EXPECT "errors/equivalent_length/final < 0.05" "errors/inlet_aperture/final < 0.06"
-         "errors/leaked_volume/final < 0.02"
+  SET "Resolution=coarse" "Time/End time=40 s" "Output/Fields=false"
+  EXPECT "errors/equivalent_length/final < 0.08" "errors/inlet_aperture/final < 0.07" # 0.05, 0.046
+         "errors/leaked_volume/final < 0.02" # 0.013
          "fluid_balance/relative_error < 1e-8" "final/extent_y = 10 within 1e-6")
 stockwork_case_test(NAME convergence/radial/carter/damage DECK prm/radial/carter/damage.prm NEGATIVE
   SET "Resolution=coarse" "Time/End time=30 s" "Output/Fields=false"
-  EXPECT "errors/equivalent_length/final < 0.1" "errors/inlet_aperture/final < 0.1"
-         "errors/leaked_volume/final < 0.1"
+  EXPECT "errors/equivalent_length/final < 0.06" "errors/inlet_aperture/final < 0.12" # 0.004 to 0.04, 0.078
+         "errors/leaked_volume/final < 0.09" # 0.059
          "fluid_balance/relative_error < 1e-8" "final/extent_z < 0.01")
 # The same on two ranks, and after a restart on two, with refinement around the front and in three dimensions.
 stockwork_same_test(NAME parallel/damage DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8
