@@ -382,6 +382,7 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     std::max(stepper.fluid_balance().relative_error, pore_balance_error(pores));
 
   ++summary.steps;
+  ++steps_of_run;
   summary.rejected_steps += step_report.rejected;
   summary.nonlinear_iterations += step_report.nonlinear_iterations;
   summary.linear_iterations += step_report.linear_iterations;
@@ -497,7 +498,7 @@ void Report<dim>::finish(const unsigned long n_cells)
   summarise(n_cells);
   if (!cost_of_fracture.empty())
     run.out << '\n' << cost_of_fracture << ".\n";
-  run.timers.print(run.out.get_stream(), run.communicator);
+  run.timers.print(run.out.get_stream(), run.communicator, steps_of_run);
   for (const auto &[name, error] : summary.errors)
     run.out << "error of " << name << ": " << 100. * error.final << " % at the end, "
             << 100. * error.mean << " % on average (" << error.reference << ")\n";

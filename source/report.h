@@ -126,6 +126,7 @@ private:
   bool warned_of_aperture = false, warned_of_pressure = false;
   RunSummary summary;
   double start_of_run;
+  unsigned int steps_of_run = 0; ///< a restarted run has more in its summary
   std::unique_ptr<ErrorRecord<dim>> errors;
 };
 } // namespace stockwork

@@ -113,6 +113,12 @@ public:
     return assembly.nonlinear_rock();
   }
 
+  /// Of the fracture model; null: it has none.
+  NodalFields<dim> *nodal_fields() const
+  {
+    return model.nodal_fields();
+  }
+
   const Collectives &collectives() const
   {
     return unknowns.communication;

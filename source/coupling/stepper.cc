@@ -140,6 +140,7 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
       advice = solve.advice;
       return Outcome::rejected;
     }
+    const auto scope = run.timers.scope("growth");
     const State state = system.state(current, before, rate_reference, acceleration_reference);
     verdict = model.advance(context, state, system.collectives());
     switch (verdict.kind)

@@ -391,6 +391,8 @@ private:
                         const StepContext &,
                         const Values &,
                         LocalSystem &) const;
+  static void keep_part_of_opening(const Segment<dim> &segment, LocalSystem &local);
+
 
   struct SegmentRows;
   void add_storage(SegmentRows &) const;

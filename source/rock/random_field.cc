@@ -28,6 +28,9 @@ double uniform_of(const std::uint64_t key)
 }
 
 
+/// Below, the likeliest value is nothing, and places of rock are many powers of ten apart.
+constexpr double least_modulus = 1.;
+
 /// Cells per correlation length.
 constexpr double fewest_cells = 2., most_cells = 5.;
 } // namespace
@@ -60,10 +63,10 @@ void RandomField::declare_parameters(ParameterHandler &prm, const bool is_region
          "centre of a cell of the mesh, which should be no larger than one of the lattice. Biot's "
          "constants do not vary with Young's modulus. Empty, or 'none': nothing does."));
   prm.declare_entry(
-    "Weibull modulus", "", Quantity(dimension::number, Range::positive(), ""),
+    "Weibull modulus", "", Quantity(dimension::number, Range{least_modulus, Range::any().max}, ""),
     text(
       "Weibull modulus",
-      "m > 0, the shape: the factor is less than x with the probability 1 - exp(-x^m). The value "
+      "m >= 1, the shape: the factor is less than x with the probability 1 - exp(-x^m). The value "
       "of the deck is the scale, which 63 % of the places do not reach; the mean is Gamma(1 + "
       "1/m) times that (0.951 at m = 10), with a coefficient of variation of about 1.2/m. "
       "Required where something varies."));
@@ -125,7 +128,7 @@ void RandomField::parse_parameters(ParameterHandler &prm,
   {
     const std::string why = ", for 'Properties' says that something varies";
     if (modulus == 0.)
-      refuse("Weibull modulus", "a number > 0, such as 10" + why);
+      refuse("Weibull modulus", "a number from 1, such as 10" + why);
     if (spacing == 0.)
       refuse("Lattice spacing", "a length > 0 m, such as '1 m'" + why);
     if (length > 0. && (length < fewest_cells * spacing * (1. - 1e-9) ||

@@ -39,6 +39,11 @@ inline double value(const LinearFunctional &functional, const Unknowns &unknowns
 /// transposed, the load A p_f on the rock, so work and volume are conserved by construction. A
 /// model whose fluid loads the rock in another way adds the difference itself
 /// (FractureModel::assemble(), State::segment_unknown).
+///
+/// A segment wider than a cell may reach over several ranks: each of them then lists it, the same
+/// but for `opening`, of which it has the part of its own cells; the parts add up. What is of the
+/// segment as a whole (`opening_by_pressure`, `pore_pressure`) counts where it stands, so only one
+/// rank gives it.
 template <int dim>
 struct Segment
 {
@@ -83,6 +88,10 @@ struct Segment
   /// leaking fracture; elements that are smooth there see the pressure at this distance from it.
   /// Zero: the pressure at the segment itself.
   double pore_distance = 0.;
+
+  /// The pressure is that of `pore_pressure`, whatever flows from one to the other: the elements of
+  /// the pore pressure carry the fluid of the fracture, too, and the segment has no neighbours.
+  bool has_pressure_of_pores = false;
 
   /// Aperture from which on the faces are bare and leak in full, for Carter's law; below, bridges
   /// of rock still hold them together [m]. The minimum aperture of the flow if that is larger.

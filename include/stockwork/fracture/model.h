@@ -16,6 +16,7 @@
 #include "stockwork/fracture/kept_terms.h"
 #include "stockwork/fracture/summary.h"
 #include "stockwork/mesh/mesh_view.h"
+#include "stockwork/mesh/nodal_fields.h"
 
 #include <cstdint>
 #include <optional>
@@ -36,7 +37,12 @@ enum class RegionalRock
 struct Requirements
 {
   bool pore_pressure = false; ///< cannot run in dry, elastic rock
-  bool symmetric = true;      ///< its own terms keep the matrix symmetric
+
+  /// The elements of the pore pressure carry the fluid of the fractures, which has no pressure of
+  /// its own.
+  bool fluid_in_pores = false;
+
+  bool symmetric = true; ///< its own terms keep the matrix symmetric
 
   /// One of the laws that role() may put in place of the rock's; all of them have its history.
   /// Null: there are none. It lives as long as the model.
@@ -98,6 +104,13 @@ public:
   /// The mesh or the numbering of the bulk unknowns is new.
   virtual void setup(const MeshView<dim> &, const Collectives &)
   {
+  }
+
+  /// Fields of the model's own, which move with the mesh, are saved and are written for people.
+  /// Null: there are none, ever.
+  virtual NodalFields<dim> *nodal_fields()
+  {
+    return nullptr;
   }
 
   virtual void begin_step(const StepContext &)

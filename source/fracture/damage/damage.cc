@@ -2,6 +2,7 @@
 
 #include <boost/serialization/vector.hpp>
 
+#include "flow/permeability_tensor.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 #include "stockwork/exchange/released_traction.h"
@@ -97,7 +98,17 @@ void Damage<dim>::setup(const MeshView<dim> &d, const Collectives &collectives)
   band.setup(d);
   if (!started)
     start(collectives);
+  find_segments();
+}
+
+
+template <int dim>
+void Damage<dim>::find_segments()
+{
   all_segments = band.segments(scene.in_situ_pore_pressure);
+  if (parameters.tensor_fluid)
+    for (Segment<dim> &segment : all_segments)
+      permeability_tensor::leave_to_pores(segment);
 }
 
 
@@ -219,6 +230,14 @@ void Damage<dim>::start(const Collectives &collectives)
   initial_size = 0.;
   for (const CrackCell<dim> &cell : all)
     initial_size = std::max(initial_size, cell.size());
+  if (parameters.cell_size > 1.5 * initial_size)
+  {
+    std::ostringstream text;
+    text << "'Cell size' = " << parameters.cell_size
+         << " m is without effect: the cells of the mesh "
+         << "along the cracks are smaller already, " << initial_size << " m.";
+    messages.push_back(text.str());
+  }
 }
 
 
@@ -236,8 +255,7 @@ template <int dim>
 void Damage<dim>::begin_step(const StepContext &)
 {
   n_presses = 0;
-  n_advances = n_moving = 0;
-  generations.clear();
+  n_advances = n_grown = ages_behind = 0;
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
@@ -265,8 +283,18 @@ SeamResponse<dim> Damage<dim>::seam(const CrackCell<dim> &crack,
 
 
 template <int dim>
-void Damage<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
+void Damage<dim>::assemble(const StepContext &context, const State &state, Sink &sink) const
 {
+  if (parameters.tensor_fluid) // segments and owned cells of the band are in the same order
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
+    {
+      const Segment<dim> &segment = all_segments[i];
+      permeability_tensor::add_flow(
+        permeability_tensor::Cell<dim>(band.cells[band.owned()[i].number].vertices), segment,
+        hydraulic_aperture_cubed(value(segment.opening, state.current),
+                                 parameters.minimum_aperture),
+        context.effective_dt() / scene.rock.fluid().viscosity, state, sink);
+    }
   LocalSystem local;
   for (const auto &owned : band.owned())
   {
@@ -349,6 +377,7 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     const auto jumps = band.jumps(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
+    ++crack.age;
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
       const double before = crack.greatest[q];
@@ -374,7 +403,7 @@ void Damage<dim>::rollback()
   laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
-  all_segments = band.segments(scene.in_situ_pore_pressure);
+  find_segments();
 }
 
 
@@ -412,7 +441,7 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   if (mesh_view)
   {
     begin_step({});
-    all_segments = band.segments(scene.in_situ_pore_pressure);
+    find_segments();
   }
 }
 

@@ -137,6 +137,7 @@ typename Damage<dim>::Behind Damage<dim>::look_behind(const Candidate &candidate
       result.broken |= greatest >= law(crack).critical;
     }
     result.reached = std::max(result.reached, reached_share(number, state));
+    result.age = std::max(result.age, crack.age);
     if (!state.segment_pressure)
       continue;
     const double pressure = state.segment_pressure(crack.key());
@@ -192,22 +193,12 @@ std::vector<RockAhead<dim>> Damage<dim>::look_ahead(const std::vector<Candidate>
 
 
 template <int dim>
-double Damage<dim>::drive(const Candidate &candidate,
-                          const Behind &behind,
-                          const SymmetricTensor<2, dim> &stress)
+bool Damage<dim>::is_driven(const Candidate &candidate,
+                            const Behind &behind,
+                            const SymmetricTensor<2, dim> &stress)
 {
   if (laws.count(candidate.cell.region) == 0)
     choose_strength(candidate.cell.region, candidate.cell.size());
-  const Tensor<1, dim> &normal = band.cells[candidate.behind[0]].normal;
-  const double tension =
-    parameters.straight ? normal * (stress * normal) : dealii::eigenvalues(stress)[0];
-  return (behind.pressure + tension) / (parameters.growth_threshold * law(candidate.cell).strength);
-}
-
-
-template <int dim>
-bool Damage<dim>::may_crack(const Candidate &candidate, const Behind &behind, const double drive)
-{
   const double strength = law(candidate.cell).strength;
   // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
   // exceeds the strength there would be no end to it. Where it does so by far, there is no process
@@ -220,31 +211,12 @@ bool Damage<dim>::may_crack(const Candidate &candidate, const Behind &behind, co
   }
   // Suction at the front and the tension ahead, both many times the strength, leave a difference
   // that tells nothing: there the fluid has to have arrived.
-  return behind.reached >= 1. && drive >= 1. - 1e-6;
-}
-
-
-template <int dim>
-unsigned int Damage<dim>::generation(const Candidate &candidate) const
-{
-  unsigned int before = 0;
-  for (const unsigned int number : candidate.behind)
-    if (const auto it = generations.find(band.cells[number].id); it != generations.end())
-      before = std::max(before, it->second);
-  return before + 1;
-}
-
-
-/// A front of many cells advances here and there in every step. As long as few of those that are
-/// about to crack do, and none of them by several cells, that is no advance of the front.
-template <int dim>
-unsigned int Damage<dim>::front_advance() const
-{
-  unsigned int most = 0;
-  for (const auto &[id, generation] : generations)
-    most = std::max(most, generation);
-  const bool is_few = 2 * generations.size() < n_moving;
-  return is_few && most > 0 ? most - 1 : most;
+  if (behind.reached < 1.)
+    return false;
+  const Tensor<1, dim> &normal = band.cells[candidate.behind[0]].normal;
+  const double drive = behind.pressure + (parameters.straight ? normal * (stress * normal)
+                                                              : dealii::eigenvalues(stress)[0]);
+  return drive >= parameters.growth_threshold * strength * (1. - 1e-6);
 }
 
 
@@ -267,11 +239,21 @@ bool Damage<dim>::swells_in_vain(const State &state) const
 
 
 template <int dim>
+unsigned int Damage<dim>::pace() const
+{
+  if (dim == 2 || n_grown == 0)
+    return n_advances;
+  constexpr unsigned int slow = 4;
+  return ages_behind >= slow * n_grown ? 0 : 2 * ages_behind >= slow * n_grown ? 1 : 2;
+}
+
+
+template <int dim>
 Verdict
 Damage<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
 {
   Verdict verdict;
-  verdict.advances = front_advance();
+  verdict.advances = pace();
   const auto stop = [&verdict](const std::string &reason)
   {
     verdict.kind = Verdict::Kind::stop;
@@ -298,11 +280,9 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   {
     Candidate &candidate = all[i];
     const Behind behind = look_behind(candidate, state);
-    const double driven = drive(candidate, behind, rock[2 * i].stress);
-    n_moving += n_advances == 0 && driven > 0.5;
-    if (!may_crack(candidate, behind, driven))
+    if (!is_driven(candidate, behind, rock[2 * i].stress))
       continue;
-    if (generation(candidate) > parameters.most_advances || !candidate.fits)
+    if (n_advances >= parameters.most_advances || !candidate.fits)
     {
       if (!candidate.fits && !needs_mesh)
         misfit = candidate.cell.centre();
@@ -328,7 +308,8 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
     if (candidate.cell.is_cut() && candidate.cell.area() > 0.)
     {
       more.push_back(candidate.cell);
-      generations[candidate.cell.id] = generation(candidate);
+      ++n_grown;
+      ages_behind += behind.age;
     }
   }
   if (needs_mesh && waits_for_mesh)
@@ -351,7 +332,7 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
     band.add(more);
     all_segments = band.segments(scene.in_situ_pore_pressure);
     verdict.kind = Verdict::Kind::topology_changed;
-    verdict.advances = front_advance();
+    verdict.advances = pace();
   }
   return verdict;
 }

@@ -1,5 +1,6 @@
 #include "fracture/damage/parameters.h"
 
+#include "flow/permeability_tensor.h"
 #include "stockwork/base/quantity.h"
 
 namespace stockwork::damage
@@ -32,6 +33,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
                     "changes along the crack, and fails where the rock beside it bends: a beam, a "
                     "shallow crack. auto: linear in two, constant in three dimensions, where it "
                     "costs two more unknowns in each cell.");
+  permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
                     "Cracks go straight on when the stress across their plane is enough, whatever "
                     "the stress along it: for a weak seam, or the joint of two beams.");
@@ -52,6 +54,15 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   p.linear_jumps = prm.get("Jump") == "linear" || (prm.get("Jump") == "auto" && dim == 2);
+  p.tensor_fluid = permeability_tensor::is_chosen(prm);
+  if (p.tensor_fluid)
+  {
+    prm.leave_subsection();
+    prm.leave_subsection();
+    p.minimum_aperture = permeability_tensor::parse_fracture_flow(prm, "Fracture/damage/Fluid");
+    prm.enter_subsection("Fracture");
+    prm.enter_subsection("damage");
+  }
   return p;
 }
 } // namespace stockwork::damage

@@ -17,6 +17,8 @@ struct Parameters
   bool straight;              ///< cracks keep their normal
   bool growth;
   bool linear_jumps; ///< else constant in a cell
+  bool tensor_fluid; ///< the elements of the pore pressure carry the fluid of the fracture
+  double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
 
   static void declare(dealii::ParameterHandler &prm);
 
