@@ -78,6 +78,9 @@ private:
   void watch(const WellReport &well, double net_pressure);
 
   /// Fill in and write summary.json.
+  /// By the published sequence, which may not do it without a word.
+  void say_what_is_lost() const;
+
   void summarise(unsigned long n_cells);
 
   /// Scalars of the last step by column name.

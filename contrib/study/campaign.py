@@ -15,7 +15,6 @@ def run_jobs(jobs, options, output):
     cores = Cores(options.cores)
     os.makedirs(output, exist_ok=True)
     records = {job.name: study.record.read(os.path.join(output, job.name)) for job in jobs}
-    print(f"asking the program about {len(jobs)} runs", file=sys.stderr, flush=True)
     with concurrent.futures.ThreadPoolExecutor(len(cores.all)) as pool:
         checks = dict(zip(records, pool.map(lambda job: check(options.program, job, records[job.name]), jobs)))
     changed = [name for name, record in records.items()

@@ -1,6 +1,7 @@
 """Run what a study has not run yet, each on cores of its own, and record how each run ended."""
 import concurrent.futures
 import datetime
+import math
 import os
 import shlex
 import shutil
@@ -83,11 +84,11 @@ class Runner:
         with open(os.path.join(directory, "log"), "w", encoding="utf-8") as log, self.lock:
             if self.stopped:
                 raise InterruptedError("stopped")
-            child = subprocess.Popen(["taskset", "-c", ",".join(map(str, taken)), *command], stdout=log,
-                                     stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True,
+            child = subprocess.Popen([*bounds(taken, job.time_limit), *command], stdout=log,
+                                     stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, process_group=0,
                                      env=dict(os.environ, **THREADS))
             self.children.add(child)
-        used, late = self.wait(child, begin, job.time_limit)
+        used = self.wait(child)
         wall = time.monotonic() - begin
         others = busy_seconds(taken) - busy - used.ru_utime - used.ru_stime
         if self.stopped:
@@ -95,26 +96,24 @@ class Runner:
         record.update(wall_seconds=wall, cpu_seconds=used.ru_utime + used.ru_stime,
                       others_share=max(0., others / (wall * len(taken))), cores=taken, at_once=len(self.cores.all),
                       status="finished", reason="")
-        if late or child.returncode != 0:
-            record.update(status="failed", reason=f"Ended after {wall:.3g} s by the time limit of the study."
+        if child.returncode != 0:
+            late = job.time_limit and child.returncode in (-signal.SIGXCPU, 128 + signal.SIGXCPU)  # the latter of mpirun
+            record.update(status="failed", reason=f"Ended by the time limit of the study, {job.time_limit:g} s."
                           if late else why(directory, child.returncode))
 
-    def wait(self, child, begin, limit):
-        """(what the run has used, whether it was ended for it took too long)."""
-        late = False
-        while True:
-            pid, status, used = os.wait4(child.pid, os.WNOHANG)
-            if pid:
-                with self.lock:
-                    self.children.discard(child)
-                child.returncode = os.waitstatus_to_exitcode(status)
-                return used, late
-            if limit and time.monotonic() - begin > limit:
-                # The program ends after the iteration it is in; not for ever.
-                os.killpg(child.pid, signal.SIGKILL if late and time.monotonic() - begin > limit + 20. else
-                          signal.SIGTERM)
-                late = True
-            time.sleep(0.02 if not late else 0.5)
+    def wait(self, child):
+        """What the run and all that it has started have used."""
+        _, status, used = os.wait4(child.pid, 0)
+        with self.lock:
+            self.children.discard(child)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        return used
+
+
+def bounds(cores, limit):
+    """Keeps a command on its cores, and within its time: that of the processor, for a busy machine makes no run fail."""
+    pinned = ["taskset", "-c", ",".join(map(str, cores))]
+    return [*pinned, "prlimit", f"--cpu={math.ceil(limit)}"] if limit else pinned
 
 
 def why(directory, status):

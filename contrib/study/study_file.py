@@ -3,7 +3,7 @@
     title       = "Element pairs and coupling schemes"
     resolutions = ["coarse", "medium"]     # none: as the deck says
     quantities  = ["pore_pressure"]        # errors that are charted; none: all there are
-    time_limit  = 600                      # seconds per run; none: no limit
+    time_limit  = 600                      # seconds of the processor, per rank; none: no limit
 
     [[runs]]                               # as many as wanted; each is a product
     cases  = ["mandel", "column/rod"]      # prm/<case>/<model>.prm, or decks of one's own

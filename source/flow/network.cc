@@ -254,6 +254,19 @@ std::vector<ExtraUnknown> Network<dim>::unknowns() const
 
 
 template <int dim>
+void Network<dim>::set_start(std::vector<double> &extra) const
+{
+  const std::vector<ExtraUnknown> all = unknowns();
+  for (unsigned int k = 0; k < all.size(); ++k)
+    extra[extra.size() - all.size() + k] = all[k].initial;
+  const auto nothing = [](std::uint64_t) { return std::optional<double>(); };
+  for (unsigned int i = 0; i < network.size(); ++i)
+    if (rows[i] != no_row)
+      extra[rows[i]] = initial_pressure(network[i], nothing);
+}
+
+
+template <int dim>
 void Network<dim>::begin_step(const StepContext &)
 {
   in_step = true;

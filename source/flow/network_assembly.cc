@@ -156,7 +156,9 @@ void Network<dim>::add_storage(SegmentRows &rows_of) const
   const double area = rows_of.segment.area, open = std::max(w, 0.),
                dp = p - values.pressure_reference[index];
   local.residual(own) -= area * (w - values.aperture_reference[index] + open * c_f * dp);
-  local.matrix(own, own) -= area * open * c_f;
+  const double stored = rows_of.context.damaged_pores ? rows_of.segment.damaged_storage : 0.;
+  local.residual(own) -= area * stored * dp;
+  local.matrix(own, own) -= area * (open * c_f + stored);
   rows_of.add_aperture_slope(own, -area * (1. + (w > 0. ? c_f * dp : 0.)));
 }
 

@@ -49,9 +49,8 @@ template <int dim>
 void share_out(parallel::distributed::Triangulation<dim> &triangulation,
                const std::vector<unsigned int> &work)
 {
-  // deal.II adds a weight of 1000 for each cell.
   const auto connection = triangulation.signals.weight.connect(
-    [&work](const auto &cell, const auto) { return 1000 * (work[cell->active_cell_index()] - 1); });
+    [&work](const auto &cell, const auto) { return work[cell->active_cell_index()]; });
   triangulation.repartition();
   connection.disconnect();
 }

@@ -51,7 +51,7 @@ public:
              const FractureModel<dim> &model,
              const State &state,
              const NonlinearRock<dim> *nonlinear = nullptr,
-                             const NodalFields<dim> *own_fields = nullptr);
+             const NodalFields<dim> *own_fields = nullptr);
 
   /// What has been written so far, for a checkpoint: a restarted run continues the series.
   template <class Archive>

@@ -41,9 +41,8 @@ inline double value(const LinearFunctional &functional, const Unknowns &unknowns
 /// (FractureModel::assemble(), State::segment_unknown).
 ///
 /// A segment wider than a cell may reach over several ranks: each of them then lists it, the same
-/// but for `opening`, of which it has the part of its own cells; the parts add up. What is of the
-/// segment as a whole (`opening_by_pressure`, `pore_pressure`) counts where it stands, so only one
-/// rank gives it.
+/// but for `opening` and `pore_pressure`, of which it has the part of its own cells: parts add up.
+/// (It may have neither an `opening_by_pressure` nor a pore pressure among the unknowns then.)
 template <int dim>
 struct Segment
 {
@@ -78,6 +77,11 @@ struct Segment
   /// What the segment's own fluid pressure adds to the opening [m/Pa], where a crack in a cell is a
   /// spring between its faces. Same rank.
   double opening_by_pressure = 0.;
+
+  /// Where the flow is solved with apertures that are held and the pores of damaged rock are to
+  /// take up what is injected: the volume per area that they do with pressure [m/Pa]. It is no part
+  /// of the opening, and nothing comes back from it. Same rank.
+  double damaged_storage = 0.;
 
   /// Pore pressure of the rock at the segment [Pa], the mean of both faces, for leak-off. Where the
   /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.

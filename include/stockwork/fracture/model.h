@@ -51,6 +51,10 @@ struct Requirements
   bool has_fracture = true; ///< else neither unknowns nor segments, ever
   RegionalRock regional_rock = RegionalRock::any;
   bool random_rock = false; ///< it reads the constants of the place that it looks at: Rock::at()
+
+  /// What advance() breaks may count from the next step on, without a solve between: its response
+  /// is linear wherever no jump exceeds those that it has committed.
+  bool breaks_between_steps = false;
 };
 
 /// What a model says about a converged solution.

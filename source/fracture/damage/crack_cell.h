@@ -39,7 +39,6 @@ struct CrackCell
   std::array<double, n_points> greatest{}, carried{};
   double reached = 1.;       ///< committed: share to which the fluid has come
   bool bare = false;         ///< no strength was left behind it when it cracked, nor a process zone
-  unsigned int age = 0;      ///< steps that have been accepted since it cracked
   unsigned int boundary = 0; ///< faces on the domain's boundary, one bit each
 
   dealii::Point<dim> centre() const;
@@ -114,7 +113,7 @@ struct CrackCell
   void serialize(Archive &ar, const unsigned int)
   {
     ar &id &region &vertices &normal &on_plane &plus &greatest;
-    ar &carried &reached &bare &age &boundary;
+    ar &carried &reached &bare &boundary;
   }
 
 private:

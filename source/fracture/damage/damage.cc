@@ -106,9 +106,31 @@ template <int dim>
 void Damage<dim>::find_segments()
 {
   all_segments = band.segments(scene.in_situ_pore_pressure);
-  if (parameters.tensor_fluid)
-    for (Segment<dim> &segment : all_segments)
+  for (unsigned int i = 0; i < all_segments.size(); ++i)
+  {
+    Segment<dim> &segment = all_segments[i];
+    const CrackCell<dim> &crack = band.cells[band.owned()[i].number];
+    // Half of Carter's leak-off in the middle of the process zone, where the tip of an elastic
+    // fracture with the same toughness would be.
+    segment.bare_aperture = 0.7 * law(crack).critical;
+    // Zhang et al., Eqs 23 and 24: with D the compressibility of the pores grows by 1/(1 - D). That
+    // of the rock is 1/K for grains that are not compressed. At D = 1 it would be infinite.
+    const double integrity = std::max(1. - damage(crack), parameters.least_integrity);
+    segment.damaged_storage =
+      crack.size_across() /
+      (scene.rock.at(crack.region, crack.centre()).bulk_modulus() * integrity);
+    if (parameters.tensor_fluid)
       permeability_tensor::leave_to_pores(segment);
+  }
+}
+
+
+template <int dim>
+double Damage<dim>::damage(const CrackCell<dim> &crack) const
+{
+  const double mean =
+    std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
+  return law(crack).damage(mean, rock_stiffness(crack));
 }
 
 
@@ -255,10 +277,11 @@ template <int dim>
 void Damage<dim>::begin_step(const StepContext &)
 {
   n_presses = 0;
-  n_advances = n_grown = ages_behind = 0;
+  n_advances = 0;
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
+  find_segments();
 }
 
 
@@ -377,7 +400,6 @@ bool Damage<dim>::commit(const StepContext &, const State &state)
     const auto jumps = band.jumps(i, state.current.extra);
     greatest_opening = std::max(greatest_opening, band.jump(i, state.current.extra) * crack.normal);
     crack.reached = std::max(crack.reached, std::min(1., reached_share(i, state)));
-    ++crack.age;
     for (unsigned int q = 0; q < jumps.size(); ++q)
     {
       const double before = crack.greatest[q];
@@ -403,7 +425,6 @@ void Damage<dim>::rollback()
   laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
-  find_segments();
 }
 
 
@@ -441,7 +462,6 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   if (mesh_view)
   {
     begin_step({});
-    find_segments();
   }
 }
 
@@ -482,9 +502,7 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
     const CrackCell<dim> &crack = band.cells[owned.number];
     const unsigned int index = owned.cell->active_cell_index();
     const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    const double mean =
-      std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
-    damage[index] = law(crack).damage(mean, rock_stiffness(crack));
+    damage[index] = this->damage(crack);
     opening[index] = jump * crack.normal;
     if (state.segment_pressure)
       pressure[index] = state.segment_pressure(crack.key());

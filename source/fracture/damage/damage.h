@@ -27,6 +27,9 @@ public:
   {
     Requirements needs;
     needs.random_rock = true;
+    needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
+    needs.symmetric = !parameters.tensor_fluid;
+    needs.breaks_between_steps = true;
     return needs;
   }
 
@@ -72,6 +75,9 @@ public:
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
 
 private:
+  /// The segments of the band as the fluid is to see them, after the band has changed.
+  void find_segments();
+
   void start(const Collectives &collectives);
 
   /// Refuse rock so weak that its process zone is longer than the domain.
@@ -84,6 +90,9 @@ private:
 
   /// The law of a crack: that of its region, where the rock varies that of its place.
   SeamLaw law(const CrackCell<dim> &crack) const;
+
+  /// D of the whole cell.
+  double damage(const CrackCell<dim> &crack) const;
 
   /// Modulus of uniaxial strain across the crack over the size of the cell [Pa/m].
   double rock_stiffness(const CrackCell<dim> &crack) const;
@@ -137,7 +146,6 @@ private:
     double pressure = 0.; ///< of the fluid [Pa]
     double net = 0.;      ///< magnitude, over the stress that closes the crack [Pa]
     double reached = 0.;  ///< see reached_share()
-    unsigned int age = 0; ///< of the oldest cell
   };
   Behind look_behind(const Candidate &candidate, const State &state) const;
 
@@ -160,12 +168,6 @@ private:
   void crack(Candidate &candidate,
              const dealii::Tensor<1, dim> &across,
              const std::vector<CrackCell<dim>> &beside) const;
-
-  /// How many cells the crack's front has gone in the step, in the mean in three dimensions: there
-  /// a few of a front's many cells go on in nearly every step, whatever its length. Each does so in
-  /// every n-th step if the cells behind are n steps old. Four is taken for slow: with two, the
-  /// area of `radial/small` would be another 4 % off.
-  unsigned int pace() const;
 
   /// A larger cell does not resolve the process zone, unless it was so from the start [m].
   double largest_cell(const CrackCell<dim> &crack) const;
@@ -190,7 +192,6 @@ private:
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
-  unsigned int n_grown = 0, ages_behind = 0; ///< new cells, and the sum of ages of those behind
   bool needs_mesh = false, arrested = false;
   dealii::Point<dim> misfit; ///< where cells of another size are in the crack's way
   std::size_t n_messages_before = 0;

@@ -137,7 +137,6 @@ typename Damage<dim>::Behind Damage<dim>::look_behind(const Candidate &candidate
       result.broken |= greatest >= law(crack).critical;
     }
     result.reached = std::max(result.reached, reached_share(number, state));
-    result.age = std::max(result.age, crack.age);
     if (!state.segment_pressure)
       continue;
     const double pressure = state.segment_pressure(crack.key());
@@ -239,21 +238,11 @@ bool Damage<dim>::swells_in_vain(const State &state) const
 
 
 template <int dim>
-unsigned int Damage<dim>::pace() const
-{
-  if (dim == 2 || n_grown == 0)
-    return n_advances;
-  constexpr unsigned int slow = 4;
-  return ages_behind >= slow * n_grown ? 0 : 2 * ages_behind >= slow * n_grown ? 1 : 2;
-}
-
-
-template <int dim>
 Verdict
 Damage<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
 {
   Verdict verdict;
-  verdict.advances = pace();
+  verdict.advances = n_advances;
   const auto stop = [&verdict](const std::string &reason)
   {
     verdict.kind = Verdict::Kind::stop;
@@ -306,11 +295,7 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       return stop(reason.str());
     }
     if (candidate.cell.is_cut() && candidate.cell.area() > 0.)
-    {
       more.push_back(candidate.cell);
-      ++n_grown;
-      ages_behind += behind.age;
-    }
   }
   if (needs_mesh && waits_for_mesh)
   {
@@ -330,9 +315,9 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   {
     ++n_advances;
     band.add(more);
-    all_segments = band.segments(scene.in_situ_pore_pressure);
+    find_segments();
     verdict.kind = Verdict::Kind::topology_changed;
-    verdict.advances = pace();
+    verdict.advances = n_advances;
   }
   return verdict;
 }

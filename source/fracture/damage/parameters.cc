@@ -34,6 +34,8 @@ void Parameters::declare(dealii::ParameterHandler &prm)
                     "shallow crack. auto: linear in two, constant in three dimensions, where it "
                     "costs two more unknowns in each cell.");
   permeability_tensor::declare_parameters(prm);
+  number("Least integrity", "0.01", Range{0., 1., true, false},
+         "Of 1 - D, by which 'Coupling/Scheme = as published' divides the rock's storage.");
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
                     "Cracks go straight on when the stress across their plane is enough, whatever "
                     "the stress along it: for a weak seam, or the joint of two beams.");
@@ -50,6 +52,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.direction_radius = get_quantity(prm, "Direction radius", dimension::number);
   p.most_advances = prm.get_integer("Most advances per step");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
+  p.least_integrity = get_quantity(prm, "Least integrity", dimension::number);
   p.rings_ahead = prm.get_integer("Rings ahead");
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");

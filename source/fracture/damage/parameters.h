@@ -14,6 +14,7 @@ struct Parameters
   unsigned int most_advances; ///< cells by which the front may advance in a step
   double cell_size;           ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;   ///< cells of that size ahead of the front
+  double least_integrity;     ///< of 1 - D, in storage as published
   bool straight;              ///< cracks keep their normal
   bool growth;
   bool linear_jumps; ///< else constant in a cell
