@@ -62,6 +62,8 @@ void UnknownNumbering<dim>::number_bulk(const double time)
   own = handler.locally_owned_dofs().split_by_block(dofs_per_block);
 
   boundary_conditions.constrain(time, mapping, handler, with_values, of_increments);
+  if (NodalFields<dim> *const fields = model.nodal_fields())
+    fields->follow_mesh(triangulation);
   model.setup(mesh_view(), communication);
 
   // What the model couples across ranks it sees as well.

@@ -190,7 +190,8 @@ void FieldOutput<dim>::write(const double time,
                              const Scene<dim> &scene,
                              const FractureModel<dim> &model,
                              const State &state,
-                             const NonlinearRock<dim> *nonlinear)
+                             const NonlinearRock<dim> *nonlinear,
+                             const NodalFields<dim> *own_fields)
 {
   Collector<dim> collector;
   model.write_fields(state, collector);
@@ -200,6 +201,8 @@ void FieldOutput<dim>::write(const double time,
   output.attach_dof_handler(mesh_view.dof_handler);
   const BulkFields<dim> fields(mesh_view, scene, model, state, nonlinear);
   output.add_data_vector(state.current.bulk, fields);
+  for (unsigned int f = 0; own_fields != nullptr && f < own_fields->names.size(); ++f)
+    output.add_data_vector(own_fields->dof_handler(), (*own_fields)[f], own_fields->names[f]);
   Vector<float> region(mesh_view.triangulation.n_active_cells());
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     if (cell->is_locally_owned())

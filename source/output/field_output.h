@@ -50,7 +50,8 @@ public:
              const Scene<dim> &scene,
              const FractureModel<dim> &model,
              const State &state,
-             const NonlinearRock<dim> *nonlinear = nullptr);
+             const NonlinearRock<dim> *nonlinear = nullptr,
+             const NodalFields<dim> *own_fields = nullptr);
 
   /// What has been written so far, for a checkpoint: a restarted run continues the series.
   template <class Archive>

@@ -16,6 +16,7 @@
 #include "stockwork/fracture/kept_terms.h"
 #include "stockwork/fracture/summary.h"
 #include "stockwork/mesh/mesh_view.h"
+#include "stockwork/mesh/nodal_fields.h"
 
 #include <cstdint>
 #include <optional>
@@ -36,7 +37,12 @@ enum class RegionalRock
 struct Requirements
 {
   bool pore_pressure = false; ///< cannot run in dry, elastic rock
-  bool symmetric = true;      ///< its own terms keep the matrix symmetric
+
+  /// The elements of the pore pressure carry the fluid of the fractures, which has no pressure of
+  /// its own.
+  bool fluid_in_pores = false;
+
+  bool symmetric = true; ///< its own terms keep the matrix symmetric
 
   /// One of the laws that role() may put in place of the rock's; all of them have its history.
   /// Null: there are none. It lives as long as the model.
@@ -45,6 +51,10 @@ struct Requirements
   bool has_fracture = true; ///< else neither unknowns nor segments, ever
   RegionalRock regional_rock = RegionalRock::any;
   bool random_rock = false; ///< it reads the constants of the place that it looks at: Rock::at()
+
+  /// What advance() breaks may count from the next step on, without a solve between: its response
+  /// is linear wherever no jump exceeds those that it has committed.
+  bool breaks_between_steps = false;
 };
 
 /// What a model says about a converged solution.
@@ -98,6 +108,13 @@ public:
   /// The mesh or the numbering of the bulk unknowns is new.
   virtual void setup(const MeshView<dim> &, const Collectives &)
   {
+  }
+
+  /// Fields of the model's own, which move with the mesh, are saved and are written for people.
+  /// Null: there are none, ever.
+  virtual NodalFields<dim> *nodal_fields()
+  {
+    return nullptr;
   }
 
   virtual void begin_step(const StepContext &)
