@@ -46,5 +46,5 @@ stockwork_same_test(NAME convergence/split/fracture/damage DECK prm/kgd/toughnes
   TOLERANCE 1e-6 IGNORE ${rounding} SET ${growth} "Time/End time=3 s" SECOND_SET ${fixed_stress})
 stockwork_same_test(NAME convergence/split/fracture/damage/3d DECK tests/contract/fracture_3d.prm
   TOLERANCE 1e-6 IGNORE ${rounding}
-  SET "Nonlinear solver/Tolerance=1e-11" "Fracture/Model=damage" "Wells/Well 1/Rate=1e-3" "Time/End time=3 s"
+  SET "Nonlinear solver/Tolerance=1e-11" "Fracture/Model=damage" "Wells/Well 1/Rate=1e-3" "Time/End time=2 s"
   SECOND_SET ${fixed_stress})
