@@ -43,6 +43,12 @@ def warnings(result):
         [line[len("Warning: "):] for line in result.log().splitlines() if line.startswith("Warning: ")]
 
 
+def entry(result, name):
+    """What an entry is in a run, given or by default; nothing where it belongs to another model."""
+    own = not name.startswith("Fracture/") or name == "Fracture/Model" or name.startswith(f"Fracture/{result.model}/")
+    return result.deck.get(name, "") if own else ""
+
+
 def given(result):
     """The entries that the deck gives, other than where results go: {entry: value}."""
     entries, path = {}, []

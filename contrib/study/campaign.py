@@ -23,7 +23,7 @@ def run_jobs(jobs, options, output):
     announce(jobs, left, changed, checks, earlier(records), cores)
     if options.estimate:
         return None
-    expected = {job.name: max(0.5, guess(job, checks[job.name], earlier(records))[0] or 60.) for job in left}
+    expected = {job.name: guess(job, checks[job.name], earlier(records))[0] or 60. for job in left}
     runner = Runner(options.program, output, cores, Progress(expected, len(cores.all)))
     for job, record in zip(left, runner.run_all(left, checks)):
         records[job.name] = record

@@ -7,6 +7,9 @@ import study.record
 from results import ResultError, read_deck, read_summary
 
 
+RESOLUTIONS = ("coarse", "medium", "fine")
+
+
 @dataclasses.dataclass
 class Result:
     """A run that has ended, one way or the other."""
@@ -56,7 +59,9 @@ def below(directories):
 def results(directories):
     found = [result(directory) for directory in below(directories)]
     name_apart(found)
-    return found
+    curves = list(dict.fromkeys((r.case, r.curve) for r in found))
+    return sorted(found, key=lambda r: (curves.index((r.case, r.curve)),
+                                        RESOLUTIONS.index(r.resolution) if r.resolution in RESOLUTIONS else -1))
 
 
 def result(directory):

@@ -5,10 +5,10 @@ WANTED = (0.10, 0.05, 0.02, 0.01)
 
 
 def front(points):
-    """Of (cost, error, what) those that no other beats in both, by cost."""
+    """Of (cost, error, what) those that no other beats in both, by cost; a thousandth better is not better."""
     best, chosen = math.inf, []
     for point in sorted(points, key=lambda p: p[:2]):
-        if point[1] < best:
+        if point[1] < 0.999 * best:
             best = point[1]
             chosen.append(point)
     return chosen

@@ -6,6 +6,7 @@ import subprocess
 from study.fingerprint import fingerprint
 
 SECONDS = {"s": 1., "min": 60., "h": 3600., "days": 86400.}
+START = 0.5    # seconds until a program has loaded its libraries
 
 
 def check(program, job, record):
@@ -13,7 +14,7 @@ def check(program, job, record):
     the deck is still the same."""
     mark = fingerprint(job)
     if not job.deck:
-        return {"audit": "", "fingerprint": mark, "seconds": 0.}
+        return {"audit": "", "fingerprint": mark, "seconds": START}
     if record and record["fingerprint"] == mark:
         return {"audit": record["audit"], "fingerprint": mark, "seconds": record["estimate"]}
     command = [program, job.deck, "--check"]
@@ -22,7 +23,8 @@ def check(program, job, record):
     audit = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                            check=False, text=True, errors="replace").stdout
     found = re.search(r"would take (\S+) (s|min|h|days) on one core", audit)
-    return {"audit": audit, "fingerprint": mark, "seconds": float(found[1]) * SECONDS[found[2]] if found else None}
+    seconds = max(START, float(found[1]) * SECONDS[found[2]]) if found else None
+    return {"audit": audit, "fingerprint": mark, "seconds": seconds}
 
 
 def guess(job, checked, records):

@@ -16,18 +16,21 @@ plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes
 
 
 def styles(results):
-    """{curve: keywords of plot}. Colours tell models apart, or, where all are of one, variants."""
-    curves = dict.fromkeys((r.model, r.curve) for r in results)
-    models = list(dict.fromkeys(model for model, _ in curves))
-    spare = [c for c in COLOURS if c not in {OF_MODEL.get(m) for m in models}]
-    other = {m: spare[i % len(spare)] for i, m in enumerate(m for m in models if m not in OF_MODEL)}
-    found, number = {}, {}
-    for i, (model, curve) in enumerate(curves):
-        n = number[model] = number.get(model, -1) + 1
-        colour = (COLOURS[i % len(COLOURS)] if len(models) == 1 and len(curves) > 1 else
-                  OF_MODEL.get(model) or other[model])
-        mark = MARKS[(i if len(models) == 1 else models.index(model) + 3 * n) % len(MARKS)]
-        found[curve] = dict(color=colour, marker=mark, linestyle=DASHES[n % len(DASHES)])
+    """{curve: keywords of plot}. The colour tells models apart, or, where all runs are of one, the first entry that was
+    varied; marks and dashes tell the rest."""
+    several = len({r.model for r in results}) > 1
+    parts = {r.curve: (r.model, r.curve) if several else tuple((r.curve.split(", ", 2) + ["", ""])[1:3]) for r in results}
+    firsts = list(dict.fromkeys(first for first, _ in parts.values()))
+    spare = [c for c in COLOURS if c not in {OF_MODEL.get(f) for f in firsts}] or COLOURS
+    unnamed = [f for f in firsts if f not in OF_MODEL]
+    colours = {f: OF_MODEL.get(f) or spare[unnamed.index(f) % len(spare)] for f in firsts}
+    rests = {f: list(dict.fromkeys(rest for first, rest in parts.values() if first == f)) for f in firsts}
+    all_rests = list(dict.fromkeys(rest for _, rest in parts.values()))
+    found = {}
+    for curve, (first, rest) in parts.items():
+        n = rests[first].index(rest) if several else all_rests.index(rest)
+        mark = MARKS[(firsts.index(first) + 3 * n if several else n) % len(MARKS)]
+        found[curve] = dict(color=colours[first], marker=mark, linestyle=DASHES[n % len(DASHES)])
     return found
 
 

@@ -15,7 +15,8 @@ nav { display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; }
 figcaption, .note { color: #444; font-size: .9rem; }
 table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .25rem .6rem; text-align: left; vertical-align: top; border-bottom: 1px solid #ddd; }
-th { background: #f1f4f7; } td.failed { background: #fbe9df; min-width: 18rem; }
+th { background: #f1f4f7; } th:first-child, td:first-child { min-width: 8rem; }
+td.failed { background: #fbe9df; min-width: 18rem; }
 pre { background: #f6f6f6; padding: .6rem; overflow-x: auto; font-size: .8rem; }
 """
 

@@ -44,20 +44,20 @@ def problem(page, cases):
         page.heading(f"{case}: {one.deck['Title']}" if one.deck.get("Title") else case)
         page.picture(file_name(case, "sketch"), sketch(one), f"{case} to scale, {one.label}. Labels on the sides: "
                      "their boundary conditions.")
-        entries = {r.label: audit.given(r) for r in results if audit.given(r)}
-        names = list(dict.fromkeys(name for given in entries.values() for name in given))
-        common = {n: v for n in names for v in [next(iter(entries.values())).get(n)]
-                  if v is not None and all(given.get(n) == v for given in entries.values())}
+        names = list(dict.fromkeys(name for r in results for name in audit.given(r)))
+        entries = {r.label: {n: audit.entry(r, n) for n in names} for r in results if r.deck}
+        common = {n: v for n in names for v in [next(iter(entries.values()))[n]]
+                  if all(its[n] == v for its in entries.values())}
         references = sorted({e["reference"] for r in results for e in (r.summary.get("errors") or {}).values()
                              if e.get("reference")})
         page.text("Reference: " + ("; ".join(references) or "none; the runs are compared with one another") + ".")
         page.table(["what all decks say", "value"], common.items())
         differing = [n for n in names if n not in common]
         if differing:
-            page.text("What differs between the decks (empty: as by default):")
+            page.text("What differs between the decks:")
             groups = {}
-            for label, given in entries.items():
-                groups.setdefault(tuple(given.get(n, "") for n in differing), []).append(label)
+            for label, its in entries.items():
+                groups.setdefault(tuple(its[n] for n in differing), []).append(label)
             if len(groups) > len(differing):
                 page.table(["run", *differing], [["; ".join(labels), *values] for values, labels in groups.items()])
             else:

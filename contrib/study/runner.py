@@ -113,7 +113,8 @@ class Runner:
 def bounds(cores, limit):
     """Keeps a command on its cores, and within its time: that of the processor, for a busy machine makes no run fail."""
     pinned = ["taskset", "-c", ",".join(map(str, cores))]
-    return [*pinned, "prlimit", f"--cpu={math.ceil(limit)}"] if limit else pinned
+    soft = math.ceil(limit)  # where SIGXCPU is sent; five seconds later, what cannot be caught
+    return [*pinned, "prlimit", f"--cpu={soft}:{soft + 5}"] if limit else pinned
 
 
 def why(directory, status):

@@ -77,14 +77,14 @@ def boundary(ax, domain, deck):
 
 
 def stress(ax, deck):
-    """The stress in situ as arrows in the corner of a picture; compression points inwards."""
+    """The stress in situ as arrows beside a picture; compression points inwards."""
     given = [pascals(text) for text in deck.get("In situ/Stress", "").split(",")][:2]
     if len(given) < 2 or not any(given):
         return
     for value, (along, across) in zip(given, ((0.06, 0.), (0., 0.1))):
         for side in (1, -1):
-            near, far = ((0.14 + side * r * along, 0.2 + side * r * across) for r in (0.5, 1.4))
+            near, far = ((1.12 + side * r * along, 0.25 + side * r * across) for r in (0.5, 1.4))
             ax.annotate("", near if value < 0. else far, far if value < 0. else near, xycoords="axes fraction",
                         textcoords="axes fraction", arrowprops=dict(arrowstyle="-|>", color="0.2"))
-    ax.text(0.24, 0.2, "\n".join(f"{name} {1e-6 * value:g} MPa" for name, value in zip(("xx", "yy"), given)),
-            transform=ax.transAxes, fontsize=7, va="center", bbox=dict(facecolor="white", edgecolor="none", alpha=0.8))
+    ax.text(1.04, 0.06, "\n".join(f"{name} {1e-6 * value:g} MPa" for name, value in zip(("xx", "yy"), given)),
+            transform=ax.transAxes, fontsize=7, va="top")

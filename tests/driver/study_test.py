@@ -45,7 +45,7 @@ else:
     if deck == "slow":
         print("on its way", flush=True)
         while True:
-        pass
+            pass
     failed = deck == "bad"
     error = {"final": h * h / 100, "mean": h * h / 50, "reference": "Thought of (2026)"}
     text = {"case": "case/" + deck, "fracture_model": deck, "status": "failed" if failed else "finished", "cells": 1 / h**2,
