@@ -11,6 +11,19 @@ endif()
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/stockwork DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/prm DESTINATION ${CMAKE_INSTALL_DATADIR}/stockwork OPTIONAL)
 
+# The study tool lies beside the decks, with what it takes from the other scripts, and is run by a link.
+set(scripts_dir ${CMAKE_INSTALL_DATADIR}/stockwork/contrib)
+install(PROGRAMS ${CMAKE_SOURCE_DIR}/contrib/stockwork-study DESTINATION ${scripts_dir})
+install(FILES ${CMAKE_SOURCE_DIR}/contrib/arguments.py ${CMAKE_SOURCE_DIR}/contrib/results.py
+  DESTINATION ${scripts_dir})
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/contrib/study ${CMAKE_SOURCE_DIR}/contrib/plot
+  DESTINATION ${scripts_dir} FILES_MATCHING PATTERN "*.py")
+file(RELATIVE_PATH bin_to_scripts ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_PREFIX}/${scripts_dir})
+install(CODE "
+  set(bin \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
+  file(MAKE_DIRECTORY \"\${bin}\")
+  file(CREATE_LINK ${bin_to_scripts}/stockwork-study \"\${bin}/stockwork-study\" SYMBOLIC)")
+
 install(EXPORT StockworkTargets NAMESPACE Stockwork:: DESTINATION ${package_dir})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/StockworkConfig.cmake.in
   ${CMAKE_BINARY_DIR}/StockworkConfig.cmake INSTALL_DESTINATION ${package_dir})

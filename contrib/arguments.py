@@ -3,7 +3,11 @@ import argparse
 import math
 import os
 
-PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "build", "source", "stockwork")
+HERE = os.path.dirname(os.path.abspath(__file__))
+INSTALLED = os.path.join(HERE, "..", "..", "..", "bin", "stockwork")  # beside share/stockwork/contrib
+PROGRAM = os.path.join(HERE, "..", "build", "source", "stockwork")
+if os.path.exists(INSTALLED) and not os.path.exists(PROGRAM):
+    PROGRAM = INSTALLED
 
 
 def program(path):

@@ -8,7 +8,8 @@ set -Eeuo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(g++ cmake ninja-build git openmpi-bin libdeal.ii-dev libmumps-dev libsuitesparse-dev
-          libopenblas0-serial libboost-program-options-dev doctest-dev python3 python3-numpy python3-matplotlib)
+          libopenblas0-serial libboost-program-options-dev doctest-dev python3 python3-numpy python3-matplotlib
+          python3-pandas)
 deck=prm/kgd/toughness/cohesive_xfem.prm
 output=build/demo
 python=/usr/bin/python3

@@ -380,12 +380,14 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   CouplingParameters coupling;
   coupling.parse_parameters(prm);
   coupling.check(rock.main(), elements.has_pore_pressure, has_fracture, network.has_wells());
+  if (coupling.restarts())
+    check_restarts(prm, *this);
 
   reference = make_reference<dim>(prm, reference_input(prm, *this));
   starts_from_reference = stockwork::starts_from_reference(prm);
   check_random_rock(prm, *this);
   check_reference(prm, *this);
-  audits_energy = can_audit_energy(*this);
+  audits_energy = !coupling.restarts() && can_audit_energy(*this);
   if (const std::string &entry = boundary_conditions.entry_with_reference(); !entry.empty())
   {
     if (!reference || !reference->field())

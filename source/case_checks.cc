@@ -336,6 +336,28 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
 }
 
 
+template <int dim>
+void check_restarts(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  const std::string with = " with 'Coupling/Scheme = as published'";
+  const auto refuse = [&](const std::vector<std::string> &sections, const std::string &name,
+                          const std::string &allowed)
+  { throw EntryError(sections[0] + "/" + name, value_of(prm, sections, name), allowed + with); };
+  if (!the_case.model->requirements().breaks_between_steps)
+    refuse({"Fracture"}, "Model", "damage");
+  if (the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
+    refuse({"Time"}, "Scheme", "auto or backward Euler");
+  if (the_case.elements.has_pore_pressure)
+    refuse({"Rock"}, "Bulk model", "elastic (fluid in a network of cracks, none in pores)");
+  if (!the_case.laws.are_linear())
+    refuse({"Rock"}, "Law", "elastic");
+  if (the_case.network.leak_off_law() != LeakOff::none)
+    refuse({"Fracture flow"}, "Leak-off", "none");
+  if (the_case.network.may_cavitate())
+    refuse({"Fracture flow"}, "Vapour pressure", "-inf");
+}
+
+
 #define INSTANTIATE(dim)                                                                           \
   template void refuse_incompressible(ParameterHandler &prm, const Rock &rock,                     \
                                       const Geometry<dim> &geometry,                               \
@@ -349,6 +371,7 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
   template void check_random_rock(ParameterHandler &prm, const Case<dim> &the_case);               \
   template void check_reference(ParameterHandler &prm, const Case<dim> &the_case);                 \
   template void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings);       \
+  template void check_restarts(ParameterHandler &prm, const Case<dim> &the_case);                  \
   template void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -64,4 +64,8 @@ void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings)
 /// What a scheme in time needs, and what it cannot be with.
 template <int dim>
 void check_scheme(const Deck &deck, dealii::ParameterHandler &prm, const Case<dim> &the_case);
+
+/// Of 'Coupling/Scheme = as published'.
+template <int dim>
+void check_restarts(dealii::ParameterHandler &prm, const Case<dim> &the_case);
 } // namespace stockwork

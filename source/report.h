@@ -78,6 +78,9 @@ private:
   void watch(const WellReport &well, double net_pressure);
 
   /// Fill in and write summary.json.
+  /// By the published sequence, which may not do it without a word.
+  void say_what_is_lost() const;
+
   void summarise(unsigned long n_cells);
 
   /// Scalars of the last step by column name.
@@ -126,6 +129,7 @@ private:
   bool warned_of_aperture = false, warned_of_pressure = false;
   RunSummary summary;
   double start_of_run;
+  unsigned int steps_of_run = 0; ///< a restarted run has more in its summary
   std::unique_ptr<ErrorRecord<dim>> errors;
 };
 } // namespace stockwork

@@ -362,11 +362,11 @@ void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbe
 }
 
 
-/// c_v = k / (mu S) of the rock at large [m^2/s].
+/// c_v = k / (mu S) of the rock in a region [m^2/s].
 template <int dim>
-double pressure_diffusivity(const Case<dim> &the_case)
+double pressure_diffusivity(const Case<dim> &the_case, const types::material_id region = 0)
 {
-  const RockProperties &rock = the_case.rock.main();
+  const RockProperties &rock = the_case.rock(region);
   return rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
 }
 
@@ -469,6 +469,36 @@ void add_leak_off(const Case<dim> &the_case,
             "flow/Leak-off = carter'";
   numbers.push_back({"cell size / sqrt(c t)", cells, text.str(), cells > 1.});
 }
+
+
+/// Where the elements of the pore pressure carry the fluid of fractures, whether they are small
+/// enough for it, in the tightest rock that has a crack.
+template <int dim>
+void add_fluid_in_pores(const Case<dim> &the_case,
+                        const MeshSizes<dim> &mesh,
+                        std::vector<SceneNumber> &numbers)
+{
+  const double duration = the_case.control.end_time - the_case.control.start_time;
+  double diffusivity = std::numeric_limits<double>::infinity();
+  for (const InitialCrack<dim> &crack : the_case.scene.cracks)
+    diffusivity =
+      std::min(diffusivity,
+               pressure_diffusivity(
+                 the_case, mesh.region_at(crack.disc ? crack.disc->centre : crack.points.front())));
+  const double reach = std::sqrt(diffusivity * duration), cells = mesh.smallest / reach;
+  std::ostringstream text;
+  text << std::setprecision(3) << "with 'Fracture/" << the_case.model_name
+       << "/Fluid = permeability tensor' and 'Rock/Permeability', until 'Time/End time' the pore "
+          "pressure comes sqrt(c t) = "
+       << reach << " m into the rock; ";
+  if (cells <= 1.)
+    text << "cells of " << mesh.smallest << " m resolve this at the end";
+  else
+    text << "in cells of " << mesh.smallest
+         << " m it falls to the rock's within one of them, whatever the permeability, swells the "
+            "rock and closes the fracture: take smaller cells, or 'Fluid = network'";
+  numbers.push_back({"cell size / sqrt(c t), fluid in pores", cells, text.str(), cells > 1.});
+}
 } // namespace
 
 
@@ -526,6 +556,8 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   const Pumping pumping = first_pumping(the_case.network, the_case.control);
   if (the_case.network.needs_pore_pressure())
     add_leak_off(the_case, pumping, mesh, numbers);
+  if (the_case.model->requirements().fluid_in_pores && !the_case.scene.cracks.empty())
+    add_fluid_in_pores(the_case, mesh, numbers);
 
   if (the_case.elements.has_pore_pressure)
     add_sources(the_case, numbers);

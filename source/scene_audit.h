@@ -28,6 +28,9 @@ struct MeshSizes
   /// Size that the cell at a place has before it is split [m], so that cells split alike compare; 0
   /// outside of the mesh. The same on all ranks, which must ask together.
   std::function<double(const dealii::Point<dim> &)> unsplit_at;
+
+  /// Region of the rock at a place; 0 outside of the mesh. As above.
+  std::function<dealii::types::material_id(const dealii::Point<dim> &)> region_at;
 };
 
 /// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through

@@ -73,6 +73,19 @@ double unsplit_cell_size(const parallel::distributed::Triangulation<dim> &triang
 }
 
 
+/// Region of the cell at a place; 0 if there is none.
+template <int dim>
+types::material_id region_at(const parallel::distributed::Triangulation<dim> &triangulation,
+                             const Point<dim> &point)
+{
+  types::material_id region = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->point_inside(point))
+      region = std::max(region, cell->material_id());
+  return Utilities::MPI::max(region, triangulation.get_communicator());
+}
+
+
 /// Entries that a restart may give another value.
 const std::vector<std::string> may_change = {"Time/End time", "Output directory", "Output",
                                              "Checkpoint"};
@@ -180,7 +193,7 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.network,
            the_case.elements,
            prm)
-  , adaptation(the_case.geometry, triangulation, *the_case.model)
+  , adaptation(run, the_case.geometry, triangulation, *the_case.model)
   , stepper(run, system, *the_case.model, the_case.network, the_case.scheme, the_case.control)
   , report(run,
            system,
@@ -240,8 +253,11 @@ template <int dim>
 void Simulation<dim>::start(ParameterHandler &prm)
 {
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
-  the_case.geometry.create(triangulation);
-  adaptation.refine_initial_mesh();
+  {
+    const auto scope = run.timers.scope("adaptation");
+    the_case.geometry.create(triangulation);
+    adaptation.refine_initial_mesh();
+  }
   the_case.geometry.check_boxes(triangulation);
   refuse_too_large();
   the_case.boundary_conditions.check(triangulation,
@@ -374,8 +390,10 @@ void Simulation<dim>::refuse_too_large() const
 template <int dim>
 void Simulation<dim>::announce()
 {
-  const MeshSizes<dim> mesh{smallest_cell_size(triangulation), [this](const Point<dim> &point)
-                            { return unsplit_cell_size(triangulation, point); }};
+  const MeshSizes<dim> mesh{
+    smallest_cell_size(triangulation),
+    [this](const Point<dim> &point) { return unsplit_cell_size(triangulation, point); },
+    [this](const Point<dim> &point) { return region_at(triangulation, point); }};
   print_scene_audit(run, the_case, mesh);
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
@@ -524,7 +542,10 @@ void Simulation<dim>::march()
                    stepper.last_state(), system.nonlinear_rock(), system.nodal_fields());
     }
     if (!finished())
+    {
+      const auto scope = run.timers.scope("adaptation");
       adaptation.adapt(system, stepper);
+    }
     if (stop_requested(run.communicator))
     {
       save();

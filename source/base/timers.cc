@@ -16,7 +16,8 @@ namespace
 std::vector<std::string> in_order_of_a_run(const std::map<std::string, double> &seconds)
 {
   std::vector<std::string> order;
-  for (const char *phase : {"assembly", "preconditioner", "solve", "fracture", "output"})
+  for (const char *phase :
+       {"assembly", "preconditioner", "solve", "fracture", "growth", "adaptation", "output"})
     if (seconds.count(phase) > 0)
       order.emplace_back(phase);
   for (const auto &[phase, value] : seconds)
@@ -89,7 +90,9 @@ std::map<std::string, double> PhaseTimers::seconds(const MPI_Comm communicator) 
   return greatest;
 }
 
-void PhaseTimers::print(std::ostream &out, const MPI_Comm communicator) const
+void PhaseTimers::print(std::ostream &out,
+                        const MPI_Comm communicator,
+                        const unsigned int n_steps) const
 {
   const auto values = seconds(communicator);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
@@ -100,13 +103,16 @@ void PhaseTimers::print(std::ostream &out, const MPI_Comm communicator) const
   const auto line = [&](const std::string &name, const double value, const std::string &calls)
   {
     out << "  " << std::left << std::setw(20) << name << std::right << std::setw(10) << value
-        << std::setw(8) << 100 * value / std::max(total, 1e-30) << " %" << std::setw(10) << calls
-        << '\n';
+        << std::setw(8) << 100 * value / std::max(total, 1e-30) << " %" << std::setw(10) << calls;
+    if (n_steps > 0)
+      out << std::setw(12) << value / n_steps;
+    out << '\n';
   };
   const auto flags = out.flags();
   const auto precision = out.precision();
   out << std::fixed << std::setprecision(2)
-      << "\n  phase                  seconds     share     calls\n";
+      << "\n  phase                  seconds     share     calls"
+      << (n_steps > 0 ? "  s per step" : "") << '\n';
   for (const std::string &name : in_order_of_a_run(values))
   {
     others -= values.at(name);

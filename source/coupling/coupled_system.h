@@ -63,6 +63,23 @@ public:
                         const Unknowns &rate_reference,
                         const Unknowns &acceleration_reference);
 
+  /// Every step starts at the start of the run: 'Coupling/Scheme = as published'.
+  bool restarts() const
+  {
+    return coupling_parameters.restarts();
+  }
+
+  /// What restarts() makes of a step over so much time since the start.
+  void adapt(StepContext &context) const
+  {
+    const double full = coupling_parameters.full_rate_time;
+    context.share_of_rates = context.dt < full ? context.dt / full : 1.;
+    context.damaged_pores = coupling_parameters.damaged_pores;
+  }
+
+  /// The unknowns at the start of the run, in the present numbering: nothing is open.
+  Unknowns start() const;
+
   /// The converged state of a step is accepted.
   void commit(const StepContext &context, const State &state);
 
@@ -147,6 +164,12 @@ public:
 
 private:
   void make_solver();
+
+  /// Zhang et al. (2022), section 4.2: the flow since the start through the apertures of the last
+  /// step, with what the cracks of that step yield by as storage; the rock with the pressures found
+  /// and the stiffness of that step. Both are linear, and that is all.
+  NonlinearReport
+  pass_as_published(const StepContext &context, Unknowns &current, const Unknowns &start);
 
   RunContext &run;
   const Scene<dim> &scene;

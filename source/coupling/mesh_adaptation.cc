@@ -2,6 +2,7 @@
 
 #include "stockwork/base/error.h"
 
+#include "mesh/partition.h"
 #include "mesh/refinement.h"
 
 #include <deal.II/distributed/solution_transfer.h>
@@ -15,10 +16,12 @@ namespace stockwork
 using namespace dealii;
 
 template <int dim>
-MeshAdaptation<dim>::MeshAdaptation(const Geometry<dim> &geometry,
+MeshAdaptation<dim>::MeshAdaptation(RunContext &run,
+                                    const Geometry<dim> &geometry,
                                     parallel::distributed::Triangulation<dim> &triangulation,
                                     const FractureModel<dim> &model)
-  : geometry(geometry)
+  : run(run)
+  , geometry(geometry)
   , triangulation(triangulation)
   , model(model)
   , max_cells(geometry.maximum_number_of_cells())
@@ -51,7 +54,7 @@ void MeshAdaptation<dim>::refine_initial_mesh()
                           "unless the fracture model's wanted cell size is a mistake");
     triangulation.execute_coarsening_and_refinement();
   }
-  triangulation.repartition();
+  share_out(triangulation);
   settled.clear(); // cells may be others' now
 }
 
@@ -89,6 +92,54 @@ void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
 
 
 template <int dim>
+void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
+                                 Stepper<dim> &stepper,
+                                 const std::function<void()> &change_mesh)
+{
+  const auto vectors = stepper.bulk_vectors();
+  const ExtraNumbering numbering = system.extra_numbering();
+
+  // One transfer for all vectors; it reads ghosted ones and fills owned ones.
+  std::vector<TrilinosWrappers::MPI::BlockVector> before(vectors.size());
+  std::vector<const TrilinosWrappers::MPI::BlockVector *> sources;
+  for (unsigned int i = 0; i < vectors.size(); ++i)
+  {
+    before[i] = system.ghosted_vector();
+    before[i] = *vectors[i];
+    sources.push_back(&before[i]);
+  }
+  parallel::distributed::SolutionTransfer<dim, TrilinosWrappers::MPI::BlockVector> transfer(
+    system.bulk_dofs());
+  transfer.prepare_for_coarsening_and_refinement(sources);
+  NonlinearRock<dim> *const rock = system.nonlinear_rock();
+  if (rock != nullptr)
+    rock->history().prepare_for_refinement(triangulation);
+  if (NodalFields<dim> *const fields = system.nodal_fields())
+    fields->prepare_for_refinement();
+  change_mesh();
+  if (rock != nullptr)
+    rock->history().finish_refinement(triangulation);
+  if (triangulation.n_global_active_cells() > max_cells)
+    throw SolveError("The mesh has grown to more than " + std::to_string(max_cells) +
+                     " cells ('Mesh/Maximum number of cells').");
+  system.setup_mesh(stepper.last_context().time);
+
+  std::vector<TrilinosWrappers::MPI::BlockVector> after(vectors.size(), system.owned_vector());
+  std::vector<TrilinosWrappers::MPI::BlockVector *> targets;
+  for (auto &vector : after)
+    targets.push_back(&vector);
+  transfer.interpolate(targets);
+  for (unsigned int i = 0; i < vectors.size(); ++i)
+  {
+    system.make_conforming(after[i]);
+    *vectors[i] = system.ghosted_vector();
+    *vectors[i] = after[i];
+  }
+  system.adopt_extra(numbering, stepper.extra_vectors());
+}
+
+
+template <int dim>
 bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper)
 {
   bool changed = false, wanted = stepper.wants_setup();
@@ -96,49 +147,38 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
   {
     changed = true;
     wanted = false;
-    const auto vectors = stepper.bulk_vectors();
-    const ExtraNumbering numbering = system.extra_numbering();
-
-    // One transfer for all vectors; it reads ghosted ones and fills owned ones.
-    std::vector<TrilinosWrappers::MPI::BlockVector> before(vectors.size());
-    std::vector<const TrilinosWrappers::MPI::BlockVector *> sources;
-    for (unsigned int i = 0; i < vectors.size(); ++i)
-    {
-      before[i] = system.ghosted_vector();
-      before[i] = *vectors[i];
-      sources.push_back(&before[i]);
-    }
-    parallel::distributed::SolutionTransfer<dim, TrilinosWrappers::MPI::BlockVector> transfer(
-      system.bulk_dofs());
     triangulation.prepare_coarsening_and_refinement();
-    transfer.prepare_for_coarsening_and_refinement(sources);
-    NonlinearRock<dim> *const rock = system.nonlinear_rock();
-    if (rock != nullptr)
-      rock->history().prepare_for_refinement(triangulation);
-    if (NodalFields<dim> *const fields = system.nodal_fields())
-      fields->prepare_for_refinement();
-    triangulation.execute_coarsening_and_refinement();
-    if (rock != nullptr)
-      rock->history().finish_refinement(triangulation);
-    if (triangulation.n_global_active_cells() > max_cells)
-      throw SolveError("The mesh has grown to more than " + std::to_string(max_cells) +
-                       " cells ('Mesh/Maximum number of cells').");
-    system.setup_mesh(stepper.last_context().time);
-
-    std::vector<TrilinosWrappers::MPI::BlockVector> after(vectors.size(), system.owned_vector());
-    std::vector<TrilinosWrappers::MPI::BlockVector *> targets;
-    for (auto &vector : after)
-      targets.push_back(&vector);
-    transfer.interpolate(targets);
-    for (unsigned int i = 0; i < vectors.size(); ++i)
-    {
-      system.make_conforming(after[i]);
-      *vectors[i] = system.ghosted_vector();
-      *vectors[i] = after[i];
-    }
-    system.adopt_extra(numbering, stepper.extra_vectors());
+    change(system, stepper, [this]() { triangulation.execute_coarsening_and_refinement(); });
   }
+  if (changed)
+    balance(system, stepper);
   return changed;
+}
+
+
+template <int dim>
+void MeshAdaptation<dim>::balance(CoupledSystem<dim> &system, Stepper<dim> &stepper)
+{
+  const auto work = [this, &system]()
+  {
+    // A crack's patch of rock and its cut cell cost about what an element does in the solves
+    // between two changes of the mesh.
+    std::vector<unsigned int> of_cells(triangulation.n_active_cells(), 1);
+    for (const auto &cell : system.bulk_dofs().active_cell_iterators())
+      if (cell->is_locally_owned() && model.role(cell).cut != nullptr)
+        ++of_cells[cell->active_cell_index()];
+    return of_cells;
+  };
+  // Below, a new mesh on all ranks costs more than is gained.
+  constexpr double tolerated = 1.1;
+  const double before = greatest_share(triangulation, work());
+  if (before * run.n_ranks < tolerated)
+    return;
+  change(system, stepper, [&]() { share_out(triangulation, work()); });
+  settled.clear(); // cells may be others' now
+  run.out << "  cells shared out anew: the rank with most had " << 100. * before
+          << " % of the work, now it has " << 100. * greatest_share(triangulation, work()) << " %"
+          << std::endl;
 }
 
 

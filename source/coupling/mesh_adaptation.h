@@ -2,6 +2,8 @@
 
 #include <deal.II/distributed/tria.h>
 
+#include <functional>
+
 #include "coupling/stepper.h"
 #include "mesh/geometry.h"
 
@@ -13,7 +15,8 @@ template <int dim>
 class MeshAdaptation
 {
 public:
-  MeshAdaptation(const Geometry<dim> &geometry,
+  MeshAdaptation(RunContext &run,
+                 const Geometry<dim> &geometry,
                  dealii::parallel::distributed::Triangulation<dim> &triangulation,
                  const FractureModel<dim> &model);
 
@@ -24,16 +27,25 @@ public:
   /// The same, and make the system ready.
   void prepare(CoupledSystem<dim> &system, double time);
 
-  /// Between steps. Returns whether the mesh has changed.
+  /// Between steps. Returns whether the mesh has changed. Where ranks are then out of balance, it
+  /// shares the cells out anew and prints the share of the fullest before and after.
   bool adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper);
 
 private:
   /// Set flags; is there anything to do?
   bool flag();
 
+  /// Change the mesh, and carry all unknowns over.
+  void change(CoupledSystem<dim> &system,
+              Stepper<dim> &stepper,
+              const std::function<void()> &change_mesh);
+
+  void balance(CoupledSystem<dim> &system, Stepper<dim> &stepper);
+
   /// Before any cell is made: a size that is a slip of the pen.
   void refuse_tiny_cells() const;
 
+  RunContext &run;
   const Geometry<dim> &geometry;
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const FractureModel<dim> &model;

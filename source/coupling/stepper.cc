@@ -114,6 +114,29 @@ Stepper<dim>::Stepper(RunContext &run,
 
 
 template <int dim>
+void Stepper<dim>::set_references()
+{
+  before = system.restarts() ? system.start() : committed;
+  scheme.references(context, before, rate_reference, acceleration_reference);
+}
+
+
+template <int dim>
+StepContext Stepper<dim>::make_context(const double time,
+                                       const double dt,
+                                       const unsigned int step,
+                                       const unsigned int attempt) const
+{
+  if (!system.restarts())
+    return scheme.context(time, dt, step, attempt);
+  StepContext result =
+    scheme.context(control.start_time, time + dt - control.start_time, step, attempt);
+  system.adapt(result);
+  return result;
+}
+
+
+template <int dim>
 typename Stepper<dim>::Outcome
 Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
 {
@@ -121,12 +144,16 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
   constexpr unsigned int max_passes = 100;
 
   current = committed;
-  scheme.predict(context, current);
-  scheme.references(context, committed, rate_reference, acceleration_reference);
-  before = committed;
+  if (system.restarts())
+    network.forget();
+  else
+    scheme.predict(context, current);
+  set_references();
   system.begin_step(context);
   model.begin_step(context);
   network.begin_step(context);
+  if (system.restarts()) // segments may store more than in the last step
+    system.renumber_extra({&current.extra});
 
   for (unsigned int pass = 0; pass < max_passes; ++pass)
   {
@@ -140,6 +167,7 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
       advice = solve.advice;
       return Outcome::rejected;
     }
+    const auto scope = run.timers.scope("growth");
     const State state = system.state(current, before, rate_reference, acceleration_reference);
     verdict = model.advance(context, state, system.collectives());
     switch (verdict.kind)
@@ -153,6 +181,11 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
     case Verdict::Kind::topology_changed:
       system.renumber_extra(
         {&current.extra, &before.extra, &rate_reference.extra, &acceleration_reference.extra});
+      if (system.restarts())
+      {
+        set_references();
+        return Outcome::accepted;
+      }
     }
   }
   verdict.reason = "the fracture has not come to rest in " + std::to_string(max_passes) + " solves";
@@ -168,7 +201,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
   const double first_dt = dt;
   for (unsigned int attempt_number = 0;; ++attempt_number)
   {
-    context = scheme.context(time, dt, step, attempt_number);
+    context = make_context(time, dt, step, attempt_number);
     Verdict verdict;
     std::string advice;
     const Outcome outcome = attempt(report, advice, verdict);

@@ -86,6 +86,12 @@ private:
     rejected,
     hopeless ///< no shorter step does better
   };
+  /// Of the step [time, time + dt], or of all the time until then.
+  StepContext make_context(double time, double dt, unsigned int step, unsigned int attempt) const;
+
+  /// What the step's rates are differences from.
+  void set_references();
+
   Outcome attempt(StepReport &report, std::string &advice, Verdict &verdict);
 
   RunContext &run;

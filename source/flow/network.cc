@@ -124,9 +124,9 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
   for (const Segment<dim> &segment : owned)
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
                     segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
-                    segment.pore_distance, segment.share_of_pores, segment.bare_aperture,
-                    segment.propped_conductivity, collectives.rank(), segment.at_tip,
-                    segment.neighbours});
+                    segment.pore_distance, segment.has_pressure_of_pores, segment.share_of_pores,
+                    segment.bare_aperture, segment.propped_conductivity, collectives.rank(),
+                    segment.at_tip, segment.neighbours});
   network = collectives.gather(mine);
   std::stable_sort(network.begin(), network.end(),
                    [](const auto &a, const auto &b) { return a.key < b.key; });
@@ -244,10 +244,25 @@ std::vector<ExtraUnknown> Network<dim>::unknowns() const
   for (const auto &segment : network)
     if (leaks_into_pores(segment))
       result.push_back(
-        {flow_key(segment.key, 3), segment.initial_pressure - segment.in_situ_pore_pressure});
+        {flow_key(segment.key, 3), segment.has_pressure_of_pores
+                                     ? 0.
+                                     : segment.initial_pressure - segment.in_situ_pore_pressure});
   const auto of_wells = all_wells.unknowns();
   result.insert(result.end(), of_wells.begin(), of_wells.end());
   return result;
+}
+
+
+template <int dim>
+void Network<dim>::set_start(std::vector<double> &extra) const
+{
+  const std::vector<ExtraUnknown> all = unknowns();
+  for (unsigned int k = 0; k < all.size(); ++k)
+    extra[extra.size() - all.size() + k] = all[k].initial;
+  const auto nothing = [](std::uint64_t) { return std::optional<double>(); };
+  for (unsigned int i = 0; i < network.size(); ++i)
+    if (rows[i] != no_row)
+      extra[rows[i]] = initial_pressure(network[i], nothing);
 }
 
 
@@ -304,6 +319,9 @@ template <int dim>
 double Network<dim>::leak_off_coefficient(const unsigned int segment) const
 {
   const NetworkSegment<dim> &s = network[segment];
+  if (s.has_pressure_of_pores) // a mere scale: the drop does not count, and is what this asks for
+    return resolved_coefficient(std::pow(minimum_aperture, 2) / (12. * viscosity), s.size(),
+                                s.size());
   // A cake is what fluid leaves that enters the rock; proppant lies where a well has cleaned up.
   const bool clean = s.propped_conductivity > 0. && leaks_into_pores(s);
   if (leak_off == LeakOff::resolved || clean)

@@ -99,6 +99,17 @@ public:
   /// eliminated, but that would add to the rock's own matrix, which with it stays as it is.
   std::vector<ExtraUnknown> unknowns() const;
 
+  /// The values of the unknowns before anything was injected: pressures with which segments begin
+  /// to open.
+  void set_start(std::vector<double> &extra) const;
+
+  /// As if nothing had happened since the start.
+  void forget()
+  {
+    history.clear();
+    total = {};
+  }
+
   /// Index of the first of unknowns() among all extra unknowns.
   void set_offset(unsigned int first_index);
 

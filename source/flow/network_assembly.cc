@@ -156,7 +156,9 @@ void Network<dim>::add_storage(SegmentRows &rows_of) const
   const double area = rows_of.segment.area, open = std::max(w, 0.),
                dp = p - values.pressure_reference[index];
   local.residual(own) -= area * (w - values.aperture_reference[index] + open * c_f * dp);
-  local.matrix(own, own) -= area * open * c_f;
+  const double stored = rows_of.context.damaged_pores ? rows_of.segment.damaged_storage : 0.;
+  local.residual(own) -= area * stored * dp;
+  local.matrix(own, own) -= area * (open * c_f + stored);
   rows_of.add_aperture_slope(own, -area * (1. + (w > 0. ? c_f * dp : 0.)));
 }
 
@@ -205,7 +207,8 @@ void Network<dim>::add_carter_leak_off(SegmentRows &rows_of) const
 }
 
 
-/// c d enters the balances of fracture and rock, and c (d - p + p_m) = 0.
+/// c d enters the balances of fracture and rock, and c (d - p + p_m) = 0. Where the pores carry the
+/// fluid of the fracture, c (p_m - p) = 0, and d is the multiplier that holds them equal.
 template <int dim>
 void Network<dim>::add_leak_off_by_pressure(SegmentRows &rows_of) const
 {
@@ -223,8 +226,9 @@ void Network<dim>::add_leak_off_by_pressure(SegmentRows &rows_of) const
   }
   if (cake == no_row)
     return;
-  local.residual(cake) += c * (d - p + rows_of.values.pore_pressure[index]);
-  local.matrix(cake, cake) += c;
+  const double drop = network[index].has_pressure_of_pores ? 0. : 1.;
+  local.residual(cake) += c * (drop * d - p + rows_of.values.pore_pressure[index]);
+  local.matrix(cake, cake) += c * drop;
   if (own != no_row)
   {
     local.matrix(cake, own) -= c;

@@ -19,6 +19,7 @@ struct NetworkSegment
   double in_situ_pore_pressure = 0.;
   bool rock_has_pore_pressure = false; ///< as unknowns
   double pore_distance = 0.;           ///< see Segment [m]
+  bool has_pressure_of_pores = false;  ///< see Segment
   double share_of_pores = 0.;          ///< see Segment
   double bare_aperture = 0.;           ///< see Segment [m]
   double propped_conductivity = 0.;    ///< see Segment [m^3]
@@ -37,7 +38,8 @@ struct NetworkSegment
   void serialize(Archive &ar, const unsigned int)
   {
     ar &key &centre &normal &area &in_situ_pore_pressure &rock_has_pore_pressure &pore_distance
-      &share_of_pores &bare_aperture &propped_conductivity &owner &at_tip &neighbours;
+      &has_pressure_of_pores &share_of_pores &bare_aperture &propped_conductivity &owner &at_tip
+        &neighbours;
   }
 };
 

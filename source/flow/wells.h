@@ -279,7 +279,8 @@ private:
     double given(const StepContext &context) const
     {
       const double begin = context.time - context.dt, end = context.time;
-      return pressure_control ? value(begin, end) : fraction * value.mean(begin, end);
+      return pressure_control ? value(begin, end)
+                              : fraction * context.share_of_rates * value.mean(begin, end);
     }
 
     double

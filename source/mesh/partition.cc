@@ -32,6 +32,38 @@ void share_out(parallel::distributed::Triangulation<dim> &triangulation)
   connection.disconnect();
 }
 
+template <int dim>
+double greatest_share(const parallel::distributed::Triangulation<dim> &triangulation,
+                      const std::vector<unsigned int> &work)
+{
+  double mine = 0.;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      mine += work[cell->active_cell_index()];
+  const auto all = Utilities::MPI::min_max_avg(mine, triangulation.get_communicator());
+  return all.max / all.sum;
+}
+
+
+template <int dim>
+void share_out(parallel::distributed::Triangulation<dim> &triangulation,
+               const std::vector<unsigned int> &work)
+{
+  const auto connection = triangulation.signals.weight.connect(
+    [&work](const auto &cell, const auto) { return work[cell->active_cell_index()]; });
+  triangulation.repartition();
+  connection.disconnect();
+}
+
+
 template void share_out(parallel::distributed::Triangulation<2> &);
 template void share_out(parallel::distributed::Triangulation<3> &);
+template double greatest_share(const parallel::distributed::Triangulation<2> &,
+                               const std::vector<unsigned int> &);
+template double greatest_share(const parallel::distributed::Triangulation<3> &,
+                               const std::vector<unsigned int> &);
+template void share_out(parallel::distributed::Triangulation<2> &,
+                        const std::vector<unsigned int> &);
+template void share_out(parallel::distributed::Triangulation<3> &,
+                        const std::vector<unsigned int> &);
 } // namespace stockwork

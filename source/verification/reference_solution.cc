@@ -80,8 +80,8 @@ void declare_reference_parameters(ParameterHandler &prm)
     "toughness and viscosity; "
     "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
     "the rollers of the domain all round. radial (3-D): circular, at the deck's own toughness and "
-    "viscosity. pkn (3-D): between layers that hold it. line source, point source (3-D): wells "
-    "into the rock, far from its sides.");
+    "viscosity. pkn (3-D): between layers that hold it; both with the deck's Carter leak-off. "
+    "line source, point source (3-D): wells into the rock, far from its sides.");
   prm.declare_entry("Wrong factors", "", Patterns::List(Patterns::Double()),
                     "For tests that a comparison can fail: the reference times each of these "
                     "numbers, separated by commas, is compared with as well (summary.json, "

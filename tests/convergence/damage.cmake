@@ -76,9 +76,15 @@ stockwork_case_test(NAME convergence/kgd/wang/permeable/damage DECK prm/kgd/wang
          "fluid_balance/leaked > 0" "final/fracture_length > 1.6" "rejected_steps == 0")
 stockwork_case_test(NAME convergence/kgd/carter/damage DECK prm/kgd/carter/damage.prm NEGATIVE
   SET "Resolution=coarse"
-  EXPECT "errors/equivalent_length/final < 0.058" "errors/inlet_aperture/final < 0.027" # 0.0387, 0.0179
-         "errors/net_inlet_pressure/final < 0.096" # 0.0640
+  EXPECT "errors/equivalent_length/final < 0.006" "errors/inlet_aperture/final < 0.0045" # 0.0036, 0.0028
+         "errors/net_inlet_pressure/final < 0.036" "errors/leaked_volume/final < 0.006" # 0.0237, 0.0037
          "fluid_balance/relative_error < 1e-8")
+# In the rock that Sun et al. give, which is permeable, beside what bonds give (1.6 m, 0.951 MPa, 0.238 mm); the length to
+# half a cell.
+stockwork_case_test(NAME convergence/kgd/sun/permeable/damage DECK prm/kgd/sun/permeable/damage.prm
+  SET "Resolution=coarse" "Time/End time=5 s" "Output/Fields=false"
+  EXPECT "final/equivalent_length = 1.6 within 0.065" "final/inlet_pressure = 9.51e5 within 0.03"
+         "final/inlet_aperture = 2.38e-4 within 0.02" "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 # A minifrac closes at the least in-situ stress, 4 MPa.
 stockwork_case_test(NAME convergence/minifrac/damage DECK prm/minifrac/damage.prm
   EXPECT "closure/first_contact = 4e6 within 0.02" "closure/g_function = 4e6 within 0.02" # 0.0054, 0.013
@@ -98,6 +104,34 @@ stockwork_case_test(NAME convergence/damage/disc DECK tests/data/growing_disc.pr
   SET "Resolution=coarse" "Output/Fields=false"
   EXPECT "errors/equivalent_length/final < 0.048" "errors/inlet_aperture/final < 0.09" # 0.0321, 0.0590
          "fluid_balance/relative_error < 1e-8" "final/extent_z < 1e-3" "rejected_steps == 0")
+# An open slot conducts as the cubic law says, however it is turned. Behind the bounds: 0.0005 with the network; 0.0126 with
+# the tensor, for half of what a well takes flows through half of its cell only.
+foreach(slot :142.70 _15:140.18 _30:140.72 _45:141.27)
+  string(REPLACE ":" ";" slot "${slot}")
+  list(GET slot 0 turned)
+  list(GET slot 1 drop)
+  stockwork_case_test(NAME convergence/damage/slot${turned}/network DECK tests/data/open_slot${turned}.prm
+    SET "Fracture/damage/Fluid=network" EXPECT "final/well_1_borehole_pressure = ${drop} within 0.001")
+  stockwork_case_test(NAME convergence/damage/slot${turned}/tensor DECK tests/data/open_slot${turned}.prm
+    EXPECT "final/well_1_borehole_pressure = ${drop} within 0.02")
+endforeach()
+# A fracture of constant height, tight and with Carter leak-off. At these times it is twice and 1.3 times as long as
+# high, which is what most of the difference in pressure comes from.
+stockwork_case_test(NAME convergence/pkn/damage DECK prm/pkn/damage.prm NEGATIVE
+  SET "Resolution=coarse" "Time/End time=40 s" "Output/Fields=false"
+  EXPECT "errors/equivalent_length/final < 0.08" "errors/inlet_aperture/final < 0.09"
+         "errors/net_inlet_pressure/final < 0.24"
+         "fluid_balance/relative_error < 1e-8" "final/extent_y = 10 within 1e-6" "rejected_steps == 0")
+stockwork_case_test(NAME convergence/pkn/carter/damage DECK prm/pkn/carter/damage.prm NEGATIVE
+  SET "Resolution=coarse" "Time/End time=60 s" "Output/Fields=false"
+  EXPECT "errors/equivalent_length/final < 0.05" "errors/inlet_aperture/final < 0.06"
+         "errors/leaked_volume/final < 0.02"
+         "fluid_balance/relative_error < 1e-8" "final/extent_y = 10 within 1e-6")
+stockwork_case_test(NAME convergence/radial/carter/damage DECK prm/radial/carter/damage.prm NEGATIVE
+  SET "Resolution=coarse" "Time/End time=30 s" "Output/Fields=false"
+  EXPECT "errors/equivalent_length/final < 0.1" "errors/inlet_aperture/final < 0.1"
+         "errors/leaked_volume/final < 0.1"
+         "fluid_balance/relative_error < 1e-8" "final/extent_z < 0.01")
 # The same on two ranks, and after a restart on two, with refinement around the front and in three dimensions.
 stockwork_same_test(NAME parallel/damage DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8
   SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" IGNORE "balance_error|error_fracture_volume")
@@ -105,3 +139,29 @@ stockwork_same_test(NAME parallel/damage/disc DECK tests/contract/fracture_3d.pr
   SET "Fracture/Model=damage" "Wells/Well 1/Rate=1e-3" "Time/End time=3 s" IGNORE "balance_error|error_fracture_volume")
 stockwork_restart_test(NAME restart/damage DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 12
   SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" IGNORE "balance_error|error_fracture_volume")
+# The same in three dimensions, where cells are refined ahead of the front and shared out anew.
+foreach(ranks 2 4)
+  stockwork_same_test(NAME parallel/damage_3d_${ranks} DECK tests/data/adaptive_disc.prm RANKS 1,${ranks} TOLERANCE 1e-8
+    IGNORE "balance_error|error_fracture_volume")
+endforeach()
+stockwork_restart_test(NAME restart/damage_3d DECK tests/data/adaptive_disc.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 8
+  IGNORE "balance_error|error_fracture_volume")
+# The sequence as published. What is said to be lost is what the reference, which is injected, has more than the
+# fracture; with twice the time to the full rate than there is, half of it is injected (Eq. 39).
+set(published prm/kgd/wang/as_published/damage.prm)
+stockwork_case_test(NAME convergence/damage/as_published DECK ${published} LABELS quick SET "Resolution=coarse"
+  EXPECT "final/fluid_balance_error > 0.5" # 0.80
+         "final/fluid_balance_error = errors/fracture_volume/final within 1e-9"
+         "final/lost_volume > 0.005" "final/fracture_length < 8" "warnings == 2")
+stockwork_case_test(NAME convergence/damage/as_published/half DECK ${published} LABELS quick
+  SET "Resolution=coarse" "Coupling/Time of full rate=80 s"
+  EXPECT "final/injected_volume = 0.005 within 1e-9" "final/well_1_rate = 1.25e-4 within 1e-9")
+# With what the crack opens by as storage, one pass loses nothing, and is near the answer.
+stockwork_case_test(NAME convergence/damage/as_published/compliance DECK ${published} LABELS quick NEGATIVE
+  SET "Resolution=coarse" "Coupling/Storage=compliance"
+  EXPECT "errors/inlet_aperture/final < 0.03" # 0.0186
+         "fluid_balance/relative_error < 1e-9" "final/fracture_length = 14 within 0.04")
+stockwork_same_test(NAME parallel/damage/as_published DECK ${published} RANKS 1,2 TOLERANCE 1e-8
+  SET "Resolution=coarse" "Output/Fields=false")
+stockwork_restart_test(NAME restart/damage/as_published DECK ${published} RANKS 1,2 TOLERANCE 1e-8 AFTER 30
+  SET "Resolution=coarse" "Output/Fields=false")

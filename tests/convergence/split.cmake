@@ -41,3 +41,10 @@ stockwork_same_test(NAME convergence/split/fracture/tensor DECK prm/kgd/sun/perm
 stockwork_same_test(NAME convergence/split/fracture/cohesive_xfem
   DECK prm/kgd/toughness/cohesive_xfem.prm TOLERANCE 1e-6 IGNORE ${rounding} SET ${growth} "Time/End time=1 s"
   SECOND_SET ${fixed_stress})
+# Cracks in cells, which soften: the matrix of what moves is indefinite at times. In two and three dimensions.
+stockwork_same_test(NAME convergence/split/fracture/damage DECK prm/kgd/toughness/damage.prm RANKS 1,2
+  TOLERANCE 1e-6 IGNORE ${rounding} SET ${growth} "Time/End time=3 s" SECOND_SET ${fixed_stress})
+stockwork_same_test(NAME convergence/split/fracture/damage/3d DECK tests/contract/fracture_3d.prm
+  TOLERANCE 1e-6 IGNORE ${rounding}
+  SET "Nonlinear solver/Tolerance=1e-11" "Fracture/Model=damage" "Wells/Well 1/Rate=1e-3" "Time/End time=3 s"
+  SECOND_SET ${fixed_stress})

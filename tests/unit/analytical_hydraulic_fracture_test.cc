@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <memory>
+
 namespace stockwork::analytical_hydraulic_fracture_test
 {
 using namespace stockwork::analytical;
@@ -132,6 +134,37 @@ TEST_CASE("radial fracture: histories near both vertices")
       CHECK(tough.pressure(0.5 * R, t) == doctest::Approx(table(i, "p0_Pa")).epsilon(1e-3));
       last_difference = difference;
     }
+  }
+}
+
+TEST_CASE("radial fracture with Carter leak-off")
+{
+  // From a little leak-off to 97 % of the fluid lost, near toughness and near viscosity.
+  const ReferenceTable table("penny_carter_si");
+  const double rate = 0.0265;
+  for (const char *name : {"toughness", "toughness_strong_leakoff", "viscosity_strong_leakoff"})
+  {
+    std::unique_ptr<HydraulicFracture> fracture;
+    for (std::size_t i = 0; i < table.rows(); ++i)
+      if (table.text(i, "case") == name && table(i, "t_s") >= 1.)
+      {
+        if (!fracture)
+        {
+          HydraulicFractureParameters parameters{
+            {3e10, 0.25, table(i, "mu_Pa_s"), table(i, "KIc_Pa_sqrt_m"), rate}};
+          parameters.leak_off_coefficient = table(i, "C_L_m_per_sqrt_s");
+          parameters.shape = CrackShape::penny;
+          fracture = std::make_unique<HydraulicFracture>(parameters, 1000.);
+        }
+        const double t = table(i, "t_s"), R = table(i, "R_m");
+        INFO(name, " at ", t, " s");
+        CHECK(fracture->half_length(t) == doctest::Approx(R).epsilon(5e-4));
+        CHECK(fracture->inlet_opening(t) == doctest::Approx(table(i, "w0_m")).epsilon(5e-4));
+        CHECK(fracture->pressure(0.5 * R, t) ==
+              doctest::Approx(table(i, "p_half_radius_Pa")).epsilon(1e-3));
+        CHECK(fracture->fracture_volume(t) / (rate * t) ==
+              doctest::Approx(table(i, "efficiency")).epsilon(5e-4));
+      }
   }
 }
 

@@ -292,6 +292,45 @@ TEST_CASE("halves of a body that move apart leave no strain in any cell, at any 
 }
 
 
+TEST_CASE("a band that has grown in parts is the one that is there at once")
+{
+  const Box<3> box(12);
+  const auto whole = box.band(plane(Tensor<1, 3>({0.2, 1., 0.4}), Point<3>(0.03, -0.02, 0.01)));
+  REQUIRE(whole.cells.size() > 100);
+  Band<3> grown(false);
+  grown.setup({box.triangulation, box.dof_handler, box.mapping, box.constraints, false});
+  for (unsigned int i = 0; i < whole.cells.size(); i += 7)
+  {
+    const auto first = whole.cells.begin() + i,
+               last = i + 7 < whole.cells.size() ? first + 7 : whole.cells.end();
+    grown.add({first, last});
+  }
+  REQUIRE(grown.cells.size() == whole.cells.size());
+  REQUIRE(grown.owned().size() == whole.owned().size());
+  for (unsigned int k = 0; k < whole.owned().size(); ++k)
+  {
+    const unsigned int i = whole.owned()[k].number,
+                       cell = whole.owned()[k].cell->active_cell_index();
+    CHECK(grown.owned()[k].number == i);
+    CHECK(grown.owned()[k].cell == whole.owned()[k].cell);
+    CHECK(grown.first_unknown(i) == whole.first_unknown(i));
+    CHECK(grown.is_front(i) == whole.is_front(i));
+    for (unsigned int f = 0; f < Band<3>::n_faces; ++f)
+      CHECK(grown.neighbour(i, f) == whole.neighbour(i, f));
+    REQUIRE(grown.cut_cell(cell) != nullptr);
+    CHECK(grown.cut_cell(cell)->extra == whole.cut_cell(cell)->extra);
+    CHECK(grown.cut_cell(cell)->values == whole.cut_cell(cell)->values);
+  }
+  // Put back, nothing of what came last is left.
+  const auto part =
+    std::vector<CrackCell<3>>(whole.cells.begin(), whole.cells.begin() + whole.cells.size() / 2);
+  grown.replace(part);
+  CHECK(grown.unknowns().size() == 3 * part.size());
+  CHECK(grown.owned().size() == part.size());
+  CHECK(grown.segments([](const Point<3> &) { return 0.; }).size() == part.size());
+}
+
+
 TEST_CASE("a crack with a corner has every vertex on one side")
 {
   const Box<2> box(20);

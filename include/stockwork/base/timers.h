@@ -45,8 +45,9 @@ public:
   /// Seconds by phase, with "total"; the maximum over the ranks of the communicator (collective).
   std::map<std::string, double> seconds(MPI_Comm communicator) const;
 
-  /// A table of phases, seconds, shares and calls; collective, printed by rank 0.
-  void print(std::ostream &out, MPI_Comm communicator) const;
+  /// A table of phases, seconds, shares and calls, and seconds per step if there are steps;
+  /// collective, printed by rank 0.
+  void print(std::ostream &out, MPI_Comm communicator, unsigned int n_steps) const;
 
 private:
   using Clock = std::chrono::steady_clock;

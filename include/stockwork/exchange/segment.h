@@ -78,6 +78,11 @@ struct Segment
   /// spring between its faces. Same rank.
   double opening_by_pressure = 0.;
 
+  /// Where the flow is solved with apertures that are held and the pores of damaged rock are to
+  /// take up what is injected: the volume per area that they do with pressure [m/Pa]. It is no part
+  /// of the opening, and nothing comes back from it. Same rank.
+  double damaged_storage = 0.;
+
   /// Pore pressure of the rock at the segment [Pa], the mean of both faces, for leak-off. Where the
   /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.
   LinearFunctional pore_pressure;
@@ -87,6 +92,10 @@ struct Segment
   /// leaking fracture; elements that are smooth there see the pressure at this distance from it.
   /// Zero: the pressure at the segment itself.
   double pore_distance = 0.;
+
+  /// The pressure is that of `pore_pressure`, whatever flows from one to the other: the elements of
+  /// the pore pressure carry the fluid of the fracture, too, and the segment has no neighbours.
+  bool has_pressure_of_pores = false;
 
   /// Aperture from which on the faces are bare and leak in full, for Carter's law; below, bridges
   /// of rock still hold them together [m]. The minimum aperture of the flow if that is larger.

@@ -19,13 +19,15 @@ namespace stockwork
 /// and Newmark differ in the numbers only, so nobody below the time scheme asks which one runs.
 struct StepContext
 {
-  double time = 0.;          ///< time at the end of the step [s]
-  double dt = 0.;            ///< length of the step [s]
-  unsigned int step = 0;     ///< number of the step, from 1
-  unsigned int attempt = 0;  ///< 0 for the first attempt at this step
-  double rate = 0.;          ///< [1/s]
-  double pressure_rate = 0.; ///< [1/s]
-  double acceleration = 0.;  ///< [1/s^2], zero when quasi-static
+  double time = 0.;           ///< time at the end of the step [s]
+  double dt = 0.;             ///< length of the step [s]
+  unsigned int step = 0;      ///< number of the step, from 1
+  unsigned int attempt = 0;   ///< 0 for the first attempt at this step
+  double rate = 0.;           ///< [1/s]
+  double pressure_rate = 0.;  ///< [1/s]
+  double acceleration = 0.;   ///< [1/s^2], zero when quasi-static
+  double share_of_rates = 1.; ///< of the rates that are given, what wells inject or produce
+  bool damaged_pores = false; ///< take up what is injected, see Segment::damaged_storage
 
   /// 1/rate [s]. Mass balances are integrated over this time, see Sink.
   double effective_dt() const

@@ -37,7 +37,12 @@ enum class RegionalRock
 struct Requirements
 {
   bool pore_pressure = false; ///< cannot run in dry, elastic rock
-  bool symmetric = true;      ///< its own terms keep the matrix symmetric
+
+  /// The elements of the pore pressure carry the fluid of the fractures, which has no pressure of
+  /// its own.
+  bool fluid_in_pores = false;
+
+  bool symmetric = true; ///< its own terms keep the matrix symmetric
 
   /// One of the laws that role() may put in place of the rock's; all of them have its history.
   /// Null: there are none. It lives as long as the model.
@@ -46,6 +51,10 @@ struct Requirements
   bool has_fracture = true; ///< else neither unknowns nor segments, ever
   RegionalRock regional_rock = RegionalRock::any;
   bool random_rock = false; ///< it reads the constants of the place that it looks at: Rock::at()
+
+  /// What advance() breaks may count from the next step on, without a solve between: its response
+  /// is linear wherever no jump exceeds those that it has committed.
+  bool breaks_between_steps = false;
 };
 
 /// What a model says about a converged solution.

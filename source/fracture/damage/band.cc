@@ -2,12 +2,10 @@
 
 #include "stockwork/mesh/key.h"
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,69 +23,74 @@ void Band<dim>::setup(const MeshView<dim> &new_mesh_view)
 
 
 template <int dim>
-void Band<dim>::add(const std::vector<CrackCell<dim>> &more)
-{
-  std::vector<CrackCell<dim>> all = cells;
-  all.insert(all.end(), more.begin(), more.end());
-  replace(all);
-}
-
-
-template <int dim>
 void Band<dim>::replace(const std::vector<CrackCell<dim>> &others)
 {
-  cells = others;
+  cells.clear();
   cuts.clear();
   by_index.clear();
   owned_cells.clear();
-  link_neighbours();
+  links.clear();
+  faces.clear();
   all_motions.clear();
-  first_unknowns.clear();
-  unsigned int n = 0;
-  for (unsigned int i = 0; i < cells.size(); ++i)
-  {
-    all_motions.push_back(motions_of(i));
-    first_unknowns.push_back(n);
-    n += all_motions.back().size();
-  }
-  if (mesh_view && !cells.empty())
-    embed();
+  first_unknowns.assign(1, 0);
+  add(std::vector<CrackCell<dim>>(others));
 }
 
 
 template <int dim>
-void Band<dim>::embed()
+void Band<dim>::add(const std::vector<CrackCell<dim>> &more)
 {
-  std::unordered_map<std::uint64_t, unsigned int> wanted;
-  dealii::BoundingBox<dim> box(std::make_pair(cells[0].centre(), cells[0].centre()));
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  // Nothing is asked of cells that were there before, but for those whose faces the new ones have:
+  // growth costs what is new and not what is cracked.
+  const unsigned int first = cells.size();
+  cells.insert(cells.end(), more.begin(), more.end());
+  for (unsigned int i = first; i < cells.size(); ++i)
   {
-    wanted[cells[i].key()] = i;
-    box.merge_with(dealii::BoundingBox<dim>(std::make_pair(cells[i].centre(), cells[i].centre())));
+    link_neighbours(i);
+    all_motions.push_back(motions_of(i));
+    first_unknowns.push_back(first_unknowns.back() + all_motions.back().size());
   }
-  box.extend(1e-6 * cells[0].size());
+  if (mesh_view && !more.empty())
+    embed(first);
+}
 
+
+template <int dim>
+std::optional<typename Band<dim>::CellIterator> Band<dim>::find(const dealii::CellId &id) const
+{
+  // Every rank has all cells of the coarse mesh.
+  const auto &triangulation = mesh_view->triangulation;
+  auto cell = triangulation.create_cell_iterator(
+    dealii::CellId(id.get_coarse_cell_id(), std::vector<std::uint8_t>()));
+  for (const auto child : id.get_child_indices())
+  {
+    if (!cell->has_children())
+      return {};
+    cell = cell->child(child);
+  }
+  if (!cell->is_active() || cell->is_artificial())
+    return {};
+  return CellIterator(&triangulation, cell->level(), cell->index(), &mesh_view->dof_handler);
+}
+
+
+template <int dim>
+void Band<dim>::embed(const unsigned int first)
+{
   const dealii::FE_Q<dim> vertex_functions(1);
   const dealii::QGauss<dim> quadrature(mesh_view->dof_handler.get_fe().base_element(0).degree + 1);
   dealii::FEValues<dim> values(mesh_view->mapping, vertex_functions, quadrature,
                                dealii::update_values | dealii::update_gradients |
                                  dealii::update_quadrature_points | dealii::update_JxW_values);
-  for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
-  {
-    if (cell->is_artificial() || !box.point_inside(cell->center()))
-      continue;
-    const auto found = wanted.find(Key().add(cell->id()));
-    if (found == wanted.end())
-      continue;
-    by_index[cell->active_cell_index()] = found->second;
-    if (cell->is_locally_owned())
+  for (unsigned int i = first; i < cells.size(); ++i)
+    if (const auto cell = find(cells[i].id))
     {
-      owned_cells.push_back({found->second, cell});
-      make_cut(found->second, cell, values);
+      by_index[(*cell)->active_cell_index()] = i;
+      if (!(*cell)->is_locally_owned())
+        continue;
+      owned_cells.push_back({i, *cell});
+      make_cut(i, *cell, values);
     }
-  }
-  std::sort(owned_cells.begin(), owned_cells.end(),
-            [](const Owned &a, const Owned &b) { return a.number < b.number; });
 }
 
 
@@ -268,25 +271,20 @@ std::vector<ExtraUnknown> Band<dim>::unknowns() const
 
 
 template <int dim>
-void Band<dim>::link_neighbours()
+void Band<dim>::link_neighbours(const unsigned int i)
 {
-  std::unordered_map<std::uint64_t, std::pair<unsigned int, unsigned int>> faces; // by place
-  links.resize(cells.size());
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  links.emplace_back().fill(none);
+  for (unsigned int f = 0; f < n_faces; ++f)
   {
-    links[i].fill(none);
-    for (unsigned int f = 0; f < n_faces; ++f)
-    {
-      const std::uint64_t place = Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
-      const auto [other, is_new] = faces.emplace(place, std::make_pair(i, f));
-      if (is_new)
-        continue;
-      const auto [j, g] = other->second;
-      if (!cells[i].crosses(f) && !cells[j].crosses(g))
-        continue;
-      links[i][f] = j;
-      links[j][g] = i;
-    }
+    const std::uint64_t place = Key().add(cells[i].face_centre(f), 1e-3 * cells[0].size());
+    const auto [other, is_new] = faces.emplace(place, std::make_pair(i, f));
+    if (is_new)
+      continue;
+    const auto [j, g] = other->second;
+    if (!cells[i].crosses(f) && !cells[j].crosses(g))
+      continue;
+    links[i][f] = j;
+    links[j][g] = i;
   }
 }
 

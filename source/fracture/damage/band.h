@@ -134,10 +134,14 @@ public:
   segments(const std::function<double(const dealii::Point<dim> &)> &in_situ_pore_pressure) const;
 
 private:
-  /// Find the cells on the mesh.
-  void embed();
+  /// The active cell, unless this rank neither owns it nor has it as a ghost.
+  std::optional<CellIterator> find(const dealii::CellId &id) const;
 
-  void link_neighbours();
+  /// Find the cells from a number on on the mesh.
+  void embed(unsigned int first);
+
+  /// Of a new cell.
+  void link_neighbours(unsigned int i);
   std::vector<Motion<dim>> motions_of(unsigned int i) const;
 
   void make_cut(unsigned int i, const CellIterator &cell, dealii::FEValues<dim> &values);
@@ -148,12 +152,14 @@ private:
 
   const bool linear;
   std::unique_ptr<MeshView<dim>> mesh_view;
-  std::vector<std::vector<Motion<dim>>> all_motions; ///< of each cell
-  std::vector<unsigned int> first_unknowns;
+  std::vector<std::vector<Motion<dim>>> all_motions;       ///< of each cell
+  std::vector<unsigned int> first_unknowns{0};             ///< of each cell, and their number
   std::unordered_map<unsigned int, CutCell<dim>> cuts;     ///< by active cell index
   std::unordered_map<unsigned int, unsigned int> by_index; ///< active cell index to number
   std::vector<Owned> owned_cells;
   std::vector<std::array<unsigned int, n_faces>> links;
+  /// By place: a cracked cell that has the face, and the face's number in it.
+  std::unordered_map<std::uint64_t, std::pair<unsigned int, unsigned int>> faces;
 };
 
 /// The cell, with the crack's plane given, but not yet parted.

@@ -2,6 +2,7 @@
 
 #include <boost/serialization/vector.hpp>
 
+#include "flow/permeability_tensor.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 #include "stockwork/exchange/released_traction.h"
@@ -97,7 +98,39 @@ void Damage<dim>::setup(const MeshView<dim> &d, const Collectives &collectives)
   band.setup(d);
   if (!started)
     start(collectives);
+  find_segments();
+}
+
+
+template <int dim>
+void Damage<dim>::find_segments()
+{
   all_segments = band.segments(scene.in_situ_pore_pressure);
+  for (unsigned int i = 0; i < all_segments.size(); ++i)
+  {
+    Segment<dim> &segment = all_segments[i];
+    const CrackCell<dim> &crack = band.cells[band.owned()[i].number];
+    // Half of Carter's leak-off in the middle of the process zone, where the tip of an elastic
+    // fracture with the same toughness would be.
+    segment.bare_aperture = 0.7 * law(crack).critical;
+    // Zhang et al., Eqs 23 and 24: with D the compressibility of the pores grows by 1/(1 - D). That
+    // of the rock is 1/K for grains that are not compressed. At D = 1 it would be infinite.
+    const double integrity = std::max(1. - damage(crack), parameters.least_integrity);
+    segment.damaged_storage =
+      crack.size_across() /
+      (scene.rock.at(crack.region, crack.centre()).bulk_modulus() * integrity);
+    if (parameters.tensor_fluid)
+      permeability_tensor::leave_to_pores(segment);
+  }
+}
+
+
+template <int dim>
+double Damage<dim>::damage(const CrackCell<dim> &crack) const
+{
+  const double mean =
+    std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
+  return law(crack).damage(mean, rock_stiffness(crack));
 }
 
 
@@ -248,6 +281,7 @@ void Damage<dim>::begin_step(const StepContext &)
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
+  find_segments();
 }
 
 
@@ -272,8 +306,18 @@ SeamResponse<dim> Damage<dim>::seam(const CrackCell<dim> &crack,
 
 
 template <int dim>
-void Damage<dim>::assemble(const StepContext &, const State &state, Sink &sink) const
+void Damage<dim>::assemble(const StepContext &context, const State &state, Sink &sink) const
 {
+  if (parameters.tensor_fluid) // segments and owned cells of the band are in the same order
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
+    {
+      const Segment<dim> &segment = all_segments[i];
+      permeability_tensor::add_flow(
+        permeability_tensor::Cell<dim>(band.cells[band.owned()[i].number].vertices), segment,
+        hydraulic_aperture_cubed(value(segment.opening, state.current),
+                                 parameters.minimum_aperture),
+        context.effective_dt() / scene.rock.fluid().viscosity, state, sink);
+    }
   LocalSystem local;
   for (const auto &owned : band.owned())
   {
@@ -381,7 +425,6 @@ void Damage<dim>::rollback()
   laws = laws_before;
   messages.resize(std::min(messages.size(), n_messages_before));
   begin_step({});
-  all_segments = band.segments(scene.in_situ_pore_pressure);
 }
 
 
@@ -419,7 +462,6 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   if (mesh_view)
   {
     begin_step({});
-    all_segments = band.segments(scene.in_situ_pore_pressure);
   }
 }
 
@@ -453,16 +495,17 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &) co
 template <int dim>
 void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
 {
-  std::vector<double> damage(mesh_view->triangulation.n_active_cells(), 0.), opening(damage);
+  std::vector<double> damage(mesh_view->triangulation.n_active_cells(), 0.), opening(damage),
+    pressure(damage);
   for (const auto &owned : band.owned())
   {
     const CrackCell<dim> &crack = band.cells[owned.number];
     const unsigned int index = owned.cell->active_cell_index();
     const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    const double mean =
-      std::accumulate(crack.greatest.begin(), crack.greatest.end(), 0.) / crack.greatest.size();
-    damage[index] = law(crack).damage(mean, rock_stiffness(crack));
+    damage[index] = this->damage(crack);
     opening[index] = jump * crack.normal;
+    if (state.segment_pressure)
+      pressure[index] = state.segment_pressure(crack.key());
     if constexpr (dim == 2)
     {
       const Tensor<1, dim> along = crack.axes()[0];
@@ -470,13 +513,15 @@ void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
       std::vector<std::pair<std::string, double>> values{
         {"aperture", opening[index]}, {"slip", jump * along}, {"damage", damage[index]}};
       if (state.segment_pressure)
-        values.emplace_back("fluid_pressure", state.segment_pressure(crack.key()));
+        values.emplace_back("fluid_pressure", pressure[index]);
       sink.add_fracture_piece(
         {centre - 0.5 * crack.area() * along, centre + 0.5 * crack.area() * along}, values);
     }
   }
   sink.add_cell_field("damage", damage);
   sink.add_cell_field("opening", opening);
+  if (dim == 3 && state.segment_pressure)
+    sink.add_cell_field("fluid_pressure", pressure);
 }
 
 

@@ -27,6 +27,9 @@ public:
   {
     Requirements needs;
     needs.random_rock = true;
+    needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
+    needs.symmetric = !parameters.tensor_fluid;
+    needs.breaks_between_steps = true;
     return needs;
   }
 
@@ -72,6 +75,9 @@ public:
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
 
 private:
+  /// The segments of the band as the fluid is to see them, after the band has changed.
+  void find_segments();
+
   void start(const Collectives &collectives);
 
   /// Refuse rock so weak that its process zone is longer than the domain.
@@ -84,6 +90,9 @@ private:
 
   /// The law of a crack: that of its region, where the rock varies that of its place.
   SeamLaw law(const CrackCell<dim> &crack) const;
+
+  /// D of the whole cell.
+  double damage(const CrackCell<dim> &crack) const;
 
   /// Modulus of uniaxial strain across the crack over the size of the cell [Pa/m].
   double rock_stiffness(const CrackCell<dim> &crack) const;
@@ -184,6 +193,7 @@ private:
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
   bool needs_mesh = false, arrested = false;
+  dealii::Point<dim> misfit; ///< where cells of another size are in the crack's way
   std::size_t n_messages_before = 0;
   std::map<dealii::types::material_id, SeamLaw>
     laws_before; ///< so that what was said is said again

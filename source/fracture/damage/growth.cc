@@ -273,6 +273,8 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       continue;
     if (n_advances >= parameters.most_advances || !candidate.fits)
     {
+      if (!candidate.fits && !needs_mesh)
+        misfit = candidate.cell.centre();
       needs_mesh |= !candidate.fits;
       verdict.held_back = true;
       continue;
@@ -296,8 +298,13 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
       more.push_back(candidate.cell);
   }
   if (needs_mesh && waits_for_mesh)
-    return stop("the crack has come to cells of another size, and refining the mesh has not "
-                "changed that. Make the cells alike as far as the fracture shall run.");
+  {
+    std::ostringstream reason;
+    reason << "the crack has come to cells of another size at (" << misfit
+           << "), and refining the mesh has not changed that. Make the cells alike as far as the "
+              "fracture shall run: 'Cell size' halves some of those that it lies between.";
+    return stop(reason.str());
+  }
   constexpr unsigned int enough = 10;
   if (arrested && n_advances == 0 && more.empty() && n_arrested >= enough)
     return stop("no fracture has grown for " + std::to_string(enough) +
@@ -308,7 +315,7 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   {
     ++n_advances;
     band.add(more);
-    all_segments = band.segments(scene.in_situ_pore_pressure);
+    find_segments();
     verdict.kind = Verdict::Kind::topology_changed;
     verdict.advances = n_advances;
   }

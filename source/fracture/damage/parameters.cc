@@ -1,5 +1,6 @@
 #include "fracture/damage/parameters.h"
 
+#include "flow/permeability_tensor.h"
 #include "stockwork/base/quantity.h"
 
 namespace stockwork::damage
@@ -32,6 +33,9 @@ void Parameters::declare(dealii::ParameterHandler &prm)
                     "changes along the crack, and fails where the rock beside it bends: a beam, a "
                     "shallow crack. auto: linear in two, constant in three dimensions, where it "
                     "costs two more unknowns in each cell.");
+  permeability_tensor::declare_parameters(prm);
+  number("Least integrity", "0.01", Range{0., 1., true, false},
+         "Of 1 - D, by which 'Coupling/Scheme = as published' divides the rock's storage.");
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
                     "Cracks go straight on when the stress across their plane is enough, whatever "
                     "the stress along it: for a weak seam, or the joint of two beams.");
@@ -48,10 +52,20 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.direction_radius = get_quantity(prm, "Direction radius", dimension::number);
   p.most_advances = prm.get_integer("Most advances per step");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
+  p.least_integrity = get_quantity(prm, "Least integrity", dimension::number);
   p.rings_ahead = prm.get_integer("Rings ahead");
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   p.linear_jumps = prm.get("Jump") == "linear" || (prm.get("Jump") == "auto" && dim == 2);
+  p.tensor_fluid = permeability_tensor::is_chosen(prm);
+  if (p.tensor_fluid)
+  {
+    prm.leave_subsection();
+    prm.leave_subsection();
+    p.minimum_aperture = permeability_tensor::parse_fracture_flow(prm, "Fracture/damage/Fluid");
+    prm.enter_subsection("Fracture");
+    prm.enter_subsection("damage");
+  }
   return p;
 }
 } // namespace stockwork::damage

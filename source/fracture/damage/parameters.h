@@ -14,9 +14,12 @@ struct Parameters
   unsigned int most_advances; ///< cells by which the front may advance in a step
   double cell_size;           ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;   ///< cells of that size ahead of the front
+  double least_integrity;     ///< of 1 - D, in storage as published
   bool straight;              ///< cracks keep their normal
   bool growth;
   bool linear_jumps; ///< else constant in a cell
+  bool tensor_fluid; ///< the elements of the pore pressure carry the fluid of the fracture
+  double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
 
   static void declare(dealii::ParameterHandler &prm);
 

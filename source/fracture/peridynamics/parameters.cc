@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/parameters.h"
 
+#include "flow/permeability_tensor.h"
 #include "mesh/box_list.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -81,13 +82,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "only, and with the balance of fluid that is printed: fracture cells conduct by w^2/12 over "
     "all "
     "of their height, store 1/K_f, and their change of volume does not count.");
-  prm.declare_entry(
-    "Fluid", "network", Patterns::Selection("network|permeability tensor"),
-    "What carries the fluid along a fracture. network: pressures of its own, which may differ from "
-    "the rock's within a cell. permeability tensor: the pore pressure's elements, which conduct as "
-    "much as the fracture does along its cells; as in the paper, with the cubic law. The pressure "
-    "falls from the fracture's to the rock's within one cell then, whatever the permeability. For "
-    "porous rock and 'Fracture flow/Leak-off = resolved'.");
+  permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry("Bonds per pass", default_bonds_per_pass, Patterns::Integer(1),
                     "Brittle bonds that break, the most stretched first, before the step is solved "
@@ -112,25 +107,6 @@ void refuse_quadratic_elements(dealii::ParameterHandler &prm)
                      "Q1-Q1 stabilised or Q1-Q1, because the nodes of the fracture model are the "
                      "vertices of cells");
   prm.leave_subsection();
-}
-
-
-/// What holds for all fluid in fractures, where the elements of the pore pressure carry it.
-/// @return the minimum aperture [m]
-double parse_tensor_fluid(dealii::ParameterHandler &prm)
-{
-  prm.enter_subsection("Fracture flow");
-  if (prm.get("Leak-off") != "resolved")
-    throw EntryError("Fracture flow/Leak-off", prm.get("Leak-off"),
-                     "'resolved' with 'Fracture/peridynamics/Fluid = permeability tensor', where "
-                     "the pore pressure is that of the fractures");
-  if (std::isfinite(get_quantity(prm, "Vapour pressure", dimension::pressure)))
-    throw EntryError("Fracture flow/Vapour pressure", prm.get("Vapour pressure"),
-                     "-inf with 'Fracture/peridynamics/Fluid = permeability tensor': the elements "
-                     "of the pore pressure have no vapour");
-  const double minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
-  prm.leave_subsection();
-  return minimum_aperture;
 }
 } // namespace
 
@@ -172,7 +148,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";
   p.as_published = prm.get("Closure") == "as published";
-  p.tensor_fluid = prm.get("Fluid") == "permeability tensor";
+  p.tensor_fluid = permeability_tensor::is_chosen(prm);
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   if (p.softening > 1. && prm.get("Bonds per pass") != default_bonds_per_pass)
@@ -190,7 +166,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   prm.leave_subsection();
   refuse_quadratic_elements(prm);
   if (p.tensor_fluid)
-    p.minimum_aperture = parse_tensor_fluid(prm);
+    p.minimum_aperture =
+      permeability_tensor::parse_fracture_flow(prm, "Fracture/peridynamics/Fluid");
   prm.enter_subsection("Fracture");
   prm.enter_subsection("peridynamics");
   return p;

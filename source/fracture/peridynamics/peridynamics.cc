@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/peridynamics.h"
 
+#include "flow/permeability_tensor.h"
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/state_based.h"
 #include "stockwork/base/error.h"
@@ -76,7 +77,7 @@ Requirements Peridynamics<dim>::requirements() const
 {
   Requirements requirements;
   requirements.symmetric = false;
-  requirements.pore_pressure = parameters.tensor_fluid;
+  requirements.pore_pressure = requirements.fluid_in_pores = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
   requirements.regional_rock = RegionalRock::none;
   return requirements;
@@ -205,8 +206,7 @@ void Peridynamics<dim>::refresh_segments()
       owned_segments.push_back(segment);
       if (parameters.tensor_fluid)
       {
-        owned_segments.back().neighbours.clear();
-        owned_segments.back().pore_distance = 0.;
+        permeability_tensor::leave_to_pores(owned_segments.back());
         // As published, its load is the bonds' affair, and its opening makes no room.
         if (parameters.as_published)
         {

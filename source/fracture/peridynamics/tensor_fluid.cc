@@ -1,46 +1,24 @@
-#include "flow/conductivity.h"
+#include "flow/permeability_tensor.h"
 #include "fracture/peridynamics/peridynamics.h"
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_q.h>
+#include <deal.II/base/geometry_info.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace stockwork::peridynamics
 {
-using dealii::Tensor;
-
 namespace
 {
-/// The functions of a cell of the pore pressure, at the points that its integrals are sums over.
+/// The zone's cells are squares (cubes) of one size.
 template <int dim>
-struct CellShape
+permeability_tensor::Cell<dim> cell_of_size(const double spacing)
 {
-  struct At
-  {
-    double weight; ///< [m^dim]
-    std::array<double, 1 << dim> value;
-    std::array<Tensor<1, dim>, 1 << dim> gradient; ///< [1/m]
-  };
-  std::vector<At> points;
-
-  explicit CellShape(const double spacing)
-  {
-    const dealii::FE_Q<dim> element(1);
-    const dealii::QGauss<dim> quadrature(2);
-    points.resize(quadrature.size());
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-    {
-      points[q].weight = quadrature.weight(q) * dealii::Utilities::fixed_power<dim>(spacing);
-      for (unsigned int v = 0; v < 1u << dim; ++v)
-      {
-        points[q].value[v] = element.shape_value(v, quadrature.point(q));
-        points[q].gradient[v] = element.shape_grad(v, quadrature.point(q)) / spacing;
-      }
-    }
-  }
-};
+  std::array<dealii::Point<dim>, 1 << dim> vertices;
+  for (unsigned int v = 0; v < vertices.size(); ++v)
+    vertices[v] = spacing * dealii::GeometryInfo<dim>::unit_cell_vertex(v);
+  return permeability_tensor::Cell<dim>(vertices);
+}
 
 /// Cube of the hydraulic aperture; w^2 height in the closure as published.
 ValueAndSlope conductance(const double w,
@@ -57,54 +35,18 @@ ValueAndSlope conductance(const double w,
 } // namespace
 
 
-/// After Sun et al. (2021), Eqs. 16 and 17, with the cubic law: in a cell that the fracture passes
-/// with area A, rock of height V/A and permeability w^3/(12 V/A) (I - n n) conducts what the
-/// fracture does (printed: w^2/12, by V/(A w) too much). Segments have no neighbours then and no
-/// drop of pressure to the pores, so that their pressure is the cell's mean; their opening, their
-/// load on the rock and the wells stay the network's.
 template <int dim>
 void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
                                               const State &state,
                                               Sink &sink) const
 {
-  constexpr unsigned int n = 1 << dim;
-  const double volume = dealii::Utilities::fixed_power<dim>(zone.spacing());
-  const CellShape<dim> shape(zone.spacing());
-  LocalSystem local;
-  std::array<Tensor<1, dim>, n> gradient; // along the fracture
+  const auto cell = cell_of_size<dim>(zone.spacing());
   for (const Segment<dim> &segment : owned_segments)
-  {
-    const LinearFunctional &B = segment.opening, &P = segment.pore_pressure;
-    const double w = value(B, state.current);
-    const double height = volume / segment.area;
-    const ValueAndSlope cubed =
-      conductance(w, parameters.minimum_aperture, height, parameters.as_published);
-    const double factor = context.effective_dt() / (12. * scene.rock.fluid().viscosity * height);
-
-    local.bulk = P.bulk;
-    local.bulk.insert(local.bulk.end(), B.bulk.begin(), B.bulk.end());
-    local.reinit();
-    for (const auto &at : shape.points)
-    {
-      Tensor<1, dim> flow; // gradient of the pressure along the fracture
-      for (unsigned int v = 0; v < n; ++v)
-      {
-        gradient[v] = at.gradient[v] - (at.gradient[v] * segment.normal) * segment.normal;
-        flow += state.current.bulk(P.bulk[v]) * gradient[v];
-      }
-      const double weight = factor * at.weight;
-      for (unsigned int a = 0; a < n; ++a)
-      {
-        local.residual(a) -= weight * cubed.value * (gradient[a] * flow);
-        for (unsigned int b = 0; b < n; ++b)
-          local.matrix(a, b) -= weight * cubed.value * (gradient[a] * gradient[b]);
-        for (unsigned int k = 0; k < B.bulk.size(); ++k)
-          local.matrix(a, n + k) -=
-            weight * cubed.slope * B.bulk_coefficients[k] * (gradient[a] * flow);
-      }
-    }
-    sink.add(local);
-  }
+    permeability_tensor::add_flow(
+      cell, segment,
+      conductance(value(segment.opening, state.current), parameters.minimum_aperture,
+                  cell.volume / segment.area, parameters.as_published),
+      context.effective_dt() / scene.rock.fluid().viscosity, state, sink);
 }
 
 /// What Sun et al. (2021) print for porous rock, as corrections of what there is otherwise.
@@ -148,7 +90,7 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
       sink.add(local);
     }
 
-  const CellShape<dim> shape(zone.spacing());
+  const auto shape = cell_of_size<dim>(zone.spacing());
   for (unsigned int i = 0; i < owned_segments.size(); ++i)
   {
     const Segment<dim> &segment = owned_segments[i];

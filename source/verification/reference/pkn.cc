@@ -1,6 +1,7 @@
 // A long fracture of constant height, one wing of it beside a plane of symmetry, or a half or a
-// quarter of one.
+// quarter of one; tight, or with Carter leak-off.
 #include "verification/analytical/pkn.h"
+#include "verification/analytical/pkn_carter.h"
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -42,6 +43,39 @@ private:
   analytical::Pkn fracture;
   double height, share;
 };
+
+
+class PknCarterReference : public ReferenceSolution<3>
+{
+public:
+  /// @param share of both wings that is in the model
+  PknCarterReference(const analytical::PknParameters &parameters,
+                     const double leak_off_coefficient,
+                     const double share)
+    : fracture(parameters, leak_off_coefficient)
+    , height(parameters.height)
+    , share(share)
+  {
+  }
+
+  std::string name() const override
+  {
+    return "Fracture of constant height with Carter leak-off (Nordgren 1972)";
+  }
+
+  std::map<std::string, double> values(const double time) const override
+  {
+    return {{"equivalent_length", 2. * share * height * fracture.length(time)},
+            {"inlet_aperture", fracture.inlet_opening(time)},
+            {"net_inlet_pressure", fracture.inlet_pressure(time)},
+            {"fracture_volume", 2. * share * fracture.volume(time)},
+            {"leaked_volume", 2. * share * fracture.leaked_volume(time)}};
+  }
+
+private:
+  analytical::PknCarter fracture;
+  double height, share;
+};
 } // namespace
 
 
@@ -55,13 +89,20 @@ Made<3> make_pkn(const ParameterHandler &prm, const ReferenceInput<3> &input)
   if (!(input.injection_rate > 0.) || input.n_wells > 1 || !input.rate_is_constant)
     throw InputError("The reference solution of a fracture of constant height is for one well of "
                      "constant, positive rate.");
-  if (input.leaks || input.has_stress_gradient)
-    throw InputError("The reference solution of a fracture of constant height knows neither "
-                     "leak-off nor in-situ stress with a gradient.");
+  if (input.has_stress_gradient)
+    throw InputError(
+      "The reference solution of a fracture of constant height is for in-situ stress "
+      "without a gradient.");
+  if (input.leaks && !(input.carter_coefficient > 0.))
+    throw InputError(
+      "The reference solution of a fracture of constant height knows Carter leak-off only.");
   const RockProperties &rock = input.rock.main();
-  return std::make_unique<PknReference>(
-    analytical::PknParameters{rock.young_modulus, rock.poisson_ratio, input.rock.fluid().viscosity,
-                              *height, 0.5 * input.injection_rate},
-    input.fraction_in_model);
+  const analytical::PknParameters parameters{rock.young_modulus, rock.poisson_ratio,
+                                             input.rock.fluid().viscosity, *height,
+                                             0.5 * input.injection_rate};
+  if (input.carter_coefficient > 0.)
+    return std::make_unique<PknCarterReference>(parameters, input.carter_coefficient,
+                                                input.fraction_in_model);
+  return std::make_unique<PknReference>(parameters, input.fraction_in_model);
 }
 } // namespace stockwork::reference

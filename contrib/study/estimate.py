@@ -1,0 +1,48 @@
+"""How long runs will take: the program's own estimate (--check), corrected by how wrong it was so far."""
+import re
+import statistics
+import subprocess
+
+from study.fingerprint import fingerprint
+
+SECONDS = {"s": 1., "min": 60., "h": 3600., "days": 86400.}
+
+
+def check(program, job, record):
+    """{"audit": what --check prints, "fingerprint", "seconds": or None}. The record of an earlier run saves asking, if
+    the deck is still the same."""
+    mark = fingerprint(job)
+    if not job.deck:
+        return {"audit": "", "fingerprint": mark, "seconds": 0.}
+    if record and record["fingerprint"] == mark:
+        return {"audit": record["audit"], "fingerprint": mark, "seconds": record["estimate"]}
+    command = [program, job.deck, "--check"]
+    for setting in job.settings():
+        command += ["--set", setting]
+    audit = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                           check=False, text=True, errors="replace").stdout
+    found = re.search(r"would take (\S+) (s|min|h|days) on one core", audit)
+    return {"audit": audit, "fingerprint": mark, "seconds": float(found[1]) * SECONDS[found[2]] if found else None}
+
+
+def guess(job, checked, records):
+    """(seconds, from what) of a run; records are those of runs that have finished. Nothing known: (None, "")."""
+    for record in records:
+        if record["fingerprint"] == checked["fingerprint"]:
+            return record["wall_seconds"], "an earlier run"
+    if checked["seconds"] is None:
+        return None, ""
+    known = [r for r in records if r.get("estimate")]
+    for alike in ("case", "model"), ("model",), ():  # steps grow by as much in the same scene; more or less
+        ratios = [r["wall_seconds"] * r["ranks"] / r["estimate"] for r in known
+                  if all(r[key] == getattr(job, key) for key in alike)]
+        if ratios:
+            return statistics.median(ratios) * checked["seconds"] / job.ranks, "earlier runs like it"
+    return checked["seconds"] / job.ranks, "--check, at most"
+
+
+def in_time(seconds):
+    for unit, size in (("h", 3600.), ("min", 60.)):
+        if seconds >= 1.5 * size:
+            return f"{seconds / size:.2g} {unit}"
+    return f"{seconds:.2g} s"

@@ -1,0 +1,172 @@
+"""The report: what the page holds, in its order."""
+import os
+import re
+
+from study import audit, charts, verdict
+from study.cost import WANTED, cheapest, orders, worst_of
+from study.fields import fields
+from study.look import styles
+from study.maps import maps
+from study.page import Page
+from study.sketch import sketch
+
+WORST = "error_mean_the_worst_quantity"
+
+
+def write(results, folder, title, text="", wanted=()):
+    """(path of the page, table of all runs). CSV, Markdown and pictures stand beside the page."""
+    rows = verdict.table(results)
+    page = Page(title, folder)
+    if text:
+        page.text(text)
+    cases = {case: [r for r in results if r.case == case] for case in dict.fromkeys(r.case for r in results)}
+    look = styles(results)
+    problem(page, cases)
+    table_of_runs(page, rows, wanted)
+    cost(page, rows, wanted, look)
+    curves(page, cases, look)
+    assumptions(page, cases, rows)
+    repeat(page, results)
+    rows.drop(columns=["curve"]).to_csv(os.path.join(folder, "results.csv"), index=False)
+    with open(os.path.join(folder, "results.md"), "w", encoding="utf-8") as file:
+        file.write(verdict.by_case(rows, wanted, verdict.markdown) + "\n")
+    return page.write(), rows
+
+
+def file_name(*parts):
+    return re.sub(r"[^\w.-]+", "_", "_".join(parts))
+
+
+def problem(page, cases):
+    page.section("problem", "The problem")
+    for case, results in cases.items():
+        one = next((r for r in charts.finest(results) if r.status == "finished"), results[0])
+        page.heading(f"{case}: {one.deck['Title']}" if one.deck.get("Title") else case)
+        page.picture(file_name(case, "sketch"), sketch(one), f"{case} to scale, {one.label}. Labels on the sides: "
+                     "their boundary conditions.")
+        entries = {r.label: audit.given(r) for r in results if audit.given(r)}
+        names = list(dict.fromkeys(name for given in entries.values() for name in given))
+        common = {n: v for n in names for v in [next(iter(entries.values())).get(n)]
+                  if v is not None and all(given.get(n) == v for given in entries.values())}
+        references = sorted({e["reference"] for r in results for e in (r.summary.get("errors") or {}).values()
+                             if e.get("reference")})
+        page.text("Reference: " + ("; ".join(references) or "none; the runs are compared with one another") + ".")
+        page.table(["what all decks say", "value"], common.items())
+        differing = [n for n in names if n not in common]
+        if differing:
+            page.text("What differs between the decks (empty: as by default):")
+            groups = {}
+            for label, given in entries.items():
+                groups.setdefault(tuple(given.get(n, "") for n in differing), []).append(label)
+            if len(groups) > len(differing):
+                page.table(["run", *differing], [["; ".join(labels), *values] for values, labels in groups.items()])
+            else:
+                page.table(["entry", *("; ".join(labels) for labels in groups.values())],
+                           [[name, *(values[i] for values in groups)] for i, name in enumerate(differing)])
+        numbers = audit.scene(one)
+        if numbers:
+            page.text(f"Scene audit ({one.label}):")
+            page.table(["number", "value", "what it decides"], numbers)
+
+
+def table_of_runs(page, rows, wanted):
+    page.section("verdict", "The verdict")
+    for case, here in rows.groupby("case", sort=False):
+        page.heading(case)
+        texts = verdict.shown(here, wanted).drop(columns=["case"])
+        page.table(texts.columns, texts.values)
+        against = next((a for a in here["against"] if a), "")
+        page.text(("Measured against: " + against + ". " if against else "Nothing to compare with. ")
+                  + "Errors are relative, at the end and, in brackets, on average over the history. CPU: seconds of "
+                  "the processor on all ranks. " + verdict.ALONE, note=True)
+
+
+def cost(page, rows, wanted, look):
+    page.section("cost", "Error against cost")
+    for case, here in rows.groupby("case", sort=False):
+        names = verdict.quantities(here, wanted)
+        page.heading(case)
+        if not names:
+            page.text("No errors and no differences: one run, or none that has finished.")
+            continue
+        here = here.copy()
+        what = "difference" if here["differs"].any() else "error"
+        charted = [(f"error_mean_{name}", name.replace("_", " ")) for name in names]
+        if len(names) > 1:
+            here[WORST] = worst_of(here, names)
+            charted.insert(0, (WORST, "the worst of " + ", ".join(n.replace("_", " ") for n in names)))
+        disturbed = (here["others_share"].fillna(0.) > verdict.ALONE_BELOW).sum()
+        if disturbed:
+            page.text(f"Of {len(here)} runs, {disturbed} had to share their core with others while they ran: their times are "
+                      "too long, and not fit to be compared.")
+        for error, name in charted:
+            figure = charts.error_against_cost(
+                here, error, f"mean {what} [%]" if error == WORST else f"mean {what} of the\n{name} [%]", look)
+            page.picture(file_name(case, "cost", error[len("error_mean_"):]), figure,
+                         f"{case}: mean {what} of {name} against CPU time and unknowns. Circles: the cheapest setting for "
+                         f"the {what} beside it. Grey: the Pareto front.")
+        error, name = charted[0]
+        page.text(f"The cheapest setting for a mean {what} of {name}:")
+        page.table(["wanted [%]", "setting", f"{what} [%]", "CPU [s]", "unknowns"],
+                   [[f"{100 * w:g}", *(setting(best) if best else ["none of these runs", "", "", ""])]
+                    for w, best in cheapest(here, error)])
+        found = [[curve, f"{a['resolution']} → {b['resolution']}", *order]
+                 for curve, pairs in orders(here, error).items()
+                 for (a, b, _), order in zip(pairs, zip(*(orders_of(here, e, curve) for e, _ in charted)))]
+        if found:
+            page.text("Observed orders in the size of the cells (time steps as the decks refine them):")
+            page.table(["model", "between", *(n if e != WORST else "worst" for e, n in charted)], found)
+
+
+def setting(best):
+    cpu, error, row = best
+    return [", ".join(filter(None, (row["curve"], row["resolution"]))), verdict.per_cent(error), f"{cpu:.3g}",
+            f"{row['unknowns']:.0f}"]
+
+
+def orders_of(rows, error, curve):
+    return [f"{order:.2f}" for _, _, order in orders(rows, error).get(curve, [])] or [""]
+
+
+def curves(page, cases, look):
+    page.section("results", "Histories, profiles, paths, fields")
+    for case, results in cases.items():
+        page.heading(case)
+        before = len(page.parts)
+        page.picture(file_name(case, "history"), charts.history(results, look),
+                     f"{case}: histories, at the finest resolution of each, over the reference where there is one.")
+        page.picture(file_name(case, "profile"), charts.profiles(results, look),
+                     f"{case}: along the fracture at a time that all have reached.")
+        page.picture(file_name(case, "paths"), charts.paths(results, look),
+                     f"{case}: where the fractures are at a time that all have reached.")
+        for title, figure in fields(results):
+            page.picture(file_name(case, title), figure, f"{case}: {title}, on one scale.")
+        if len(page.parts) == before:
+            page.text("No run has written histories or fields.")
+
+
+def assumptions(page, cases, rows):
+    page.section("assumptions", "Assumptions that did not hold, warnings, stability")
+    names = verdict.quantities(rows)
+    errors = dict(zip(rows["directory"], worst_of(rows, names))) if names else {}
+    for case, results in cases.items():
+        page.heading(case)
+        said = {}
+        for r in results:
+            broken = ["did not hold: " + text for holds, text in audit.assumptions(r) if not holds]
+            for text in broken + ["warning: " + text for text in audit.warnings(r) if text not in "\n".join(broken)] + (
+                    [f"failed: {r.reason}"] if r.status == "failed" else []):
+                said.setdefault(text, []).append(r.label)
+        page.items([f"{text} ({len(labels)} of {len(results)} runs: {'; '.join(labels)})"
+                    for text, labels in said.items()] or ["Nothing: all assumptions held, and nothing was warned of."])
+        for title, figure in maps(results, errors):
+            page.picture(file_name(case, "map", title), figure, f"{case}, {title}: which runs end, and with what error.")
+
+
+def repeat(page, results):
+    page.section("repeat", "Versions, machine, command lines")
+    made = {(s.get("version", ""), s.get("dealii_version", ""), s.get("machine", ""), s.get("date", "")[:10])
+            for s in (r.summary for r in results) if s}
+    page.table(["Stockwork", "deal.II", "machine", "date"], sorted(made))
+    page.code("\n".join(r.record.get("command") or f"# {r.directory}: {r.summary.get('deck', 'deck not known')}"
+                        for r in results))

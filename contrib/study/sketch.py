@@ -1,0 +1,90 @@
+"""The problem to scale: the domain, the fractures at the start and at the end, the stress and the boundary conditions."""
+import numpy as np
+from matplotlib.collections import PolyCollection
+
+from plot import vtu
+from plot.field import pascals
+from results import ResultError
+from study.look import plt
+
+
+def first_and_last(result, name):
+    try:
+        entries = vtu.series(result.directory, name)
+        return vtu.read(entries[0][1]), vtu.read(entries[-1][1])
+    except (ResultError, OSError):
+        return None, None
+
+
+def sketch(result):
+    """None where the run has written no fields, or is not plane."""
+    start, _ = first_and_last(result, "fields")
+    if start is None or result.deck.get("Dimension", "2") != "2":
+        return None
+    corners, _ = start.quadrilaterals()
+    if not len(corners):
+        return None
+    domain = start.points[:, :2]
+    cracks = [g for g in first_and_last(result, "fracture") if g is not None and len(g.cells(vtu.LINE)[0])]
+    figure, axes = plt.subplots(1, 2 if cracks else 1, figsize=(8 if cracks else 5, 3.6), squeeze=False)
+    for i, ax in enumerate(axes[0]):
+        points = domain if i == 0 else np.concatenate([g.points[:, :2] for g in cracks])
+        window(ax, points, 0.12 if i == 0 else 0.4)
+        ax.grid(False)
+        mesh(ax, start.points[corners][:, :, :2])
+        for grid, look in zip(cracks, (dict(color="#D55E00", lw=3., label="at the start"),
+                                       dict(color="#0072B2", lw=1.2, label="at the end"))):
+            ends, _ = grid.cells(vtu.LINE)
+            lines = np.full((len(ends), 3, 2), np.nan)
+            lines[:, :2] = grid.points[ends][:, :, :2]
+            ax.plot(*lines.reshape(-1, 2).T, **look)
+        ax.set_aspect("equal")
+        ax.set_xlabel("x [m]")
+        ax.set_ylabel("y [m]")
+        ax.set_title("the domain and its cells" if i == 0 else "around the fracture", fontsize=9)
+    if cracks:
+        axes[0][1].legend(fontsize=8, loc="upper right")
+    boundary(axes[0][0], domain, result.deck)
+    stress(axes[0][-1], result.deck)
+    figure.tight_layout()
+    return figure
+
+
+def window(ax, points, margin):
+    low, high = points.min(axis=0), points.max(axis=0)
+    half = np.maximum(0.5 * (high - low), 0.2 * max(high - low)) * (1 + margin)
+    middle = (low + high) / 2
+    ax.set_xlim(middle[0] - half[0], middle[0] + half[0])
+    ax.set_ylim(middle[1] - half[1], middle[1] + half[1])
+
+
+def mesh(ax, polygons):
+    ax.add_collection(PolyCollection(polygons, facecolors="0.96", edgecolors="0.8", linewidths=0.2, rasterized=True))
+
+
+def boundary(ax, domain, deck):
+    """What the deck's boundary conditions say of each side, at its middle."""
+    low, high = domain.min(axis=0), domain.max(axis=0)
+    middle = (low + high) / 2
+    places = {"left": (low[0], middle[1], 90), "right": (high[0], middle[1], 90),
+              "bottom": (middle[0], low[1], 0), "top": (middle[0], high[1], 0)}
+    for side, (x, y, turned) in places.items():
+        said = [key.split("/", 1)[1].lower() for key, value in deck.items()
+                if key.startswith("Boundary conditions/") and side in value]
+        if said:
+            ax.text(x, y, ", ".join(said), rotation=turned, ha="center", va="center", fontsize=7,
+                    bbox=dict(facecolor="white", edgecolor="0.7", boxstyle="round,pad=0.2", alpha=0.9))
+
+
+def stress(ax, deck):
+    """The stress in situ as arrows in the corner of a picture; compression points inwards."""
+    given = [pascals(text) for text in deck.get("In situ/Stress", "").split(",")][:2]
+    if len(given) < 2 or not any(given):
+        return
+    for value, (along, across) in zip(given, ((0.06, 0.), (0., 0.1))):
+        for side in (1, -1):
+            near, far = ((0.14 + side * r * along, 0.2 + side * r * across) for r in (0.5, 1.4))
+            ax.annotate("", near if value < 0. else far, far if value < 0. else near, xycoords="axes fraction",
+                        textcoords="axes fraction", arrowprops=dict(arrowstyle="-|>", color="0.2"))
+    ax.text(0.24, 0.2, "\n".join(f"{name} {1e-6 * value:g} MPa" for name, value in zip(("xx", "yy"), given)),
+            transform=ax.transAxes, fontsize=7, va="center", bbox=dict(facecolor="white", edgecolor="none", alpha=0.8))

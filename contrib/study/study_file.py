@@ -1,0 +1,121 @@
+"""A study as a file, in TOML:
+
+    title       = "Element pairs and coupling schemes"
+    resolutions = ["coarse", "medium"]     # none: as the deck says
+    quantities  = ["pore_pressure"]        # errors that are charted; none: all there are
+    time_limit  = 600                      # seconds of the processor, per rank; none: no limit
+
+    [[runs]]                               # as many as wanted; each is a product
+    cases  = ["mandel", "column/rod"]      # prm/<case>/<model>.prm, or decks of one's own
+    models = ["none"]                      # none named: all that the case has a deck for
+    ranks  = [1, 2]
+    [runs.set]                             # --set, each entry with its values
+    "Coupling/Scheme" = ["monolithic", "fixed stress"]
+
+cases, models, resolutions, ranks, time_limit and set may stand above, for all [[runs]].
+"""
+import dataclasses
+import os
+import tomllib
+
+from results import ResultError
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+DECKS = os.path.normpath(os.path.join(ROOT, "prm"))
+SHIPPED = os.path.join(DECKS, "studies")
+
+LISTS = ("cases", "models", "resolutions", "ranks")
+OF_RUNS = (*LISTS, "set", "time_limit")
+OF_STUDY = ("title", "text", "quantities", "runs", *OF_RUNS)
+
+
+@dataclasses.dataclass
+class Block:
+    """One product of the matrix. An empty resolution, or no model, is what the deck says."""
+    cases: list
+    models: list = dataclasses.field(default_factory=list)
+    resolutions: list = dataclasses.field(default_factory=lambda: [""])
+    ranks: list = dataclasses.field(default_factory=lambda: [1])
+    set: dict = dataclasses.field(default_factory=dict)
+    time_limit: float = 0.
+
+
+@dataclasses.dataclass
+class Study:
+    name: str
+    blocks: list
+    title: str = ""
+    text: str = ""
+    quantities: list = dataclasses.field(default_factory=list)
+    folder: str = "."    # that decks of one's own are relative to
+
+
+def find(name):
+    """The file of a study: a path, or the name of one that ships."""
+    shipped = os.path.join(SHIPPED, name + ".toml")
+    if os.path.isfile(name):
+        return name
+    if os.path.isfile(shipped):
+        return shipped
+    there = sorted(f[:-5] for f in os.listdir(SHIPPED) if f.endswith(".toml")) if os.path.isdir(SHIPPED) else []
+    raise ResultError(f"there is no study '{name}'; those that ship: {', '.join(there) or 'none'}")
+
+
+def read(path):
+    """The study in a file; what it does not say rightly is said in a sentence."""
+    try:
+        with open(path, "rb") as file:
+            data = tomllib.load(file)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ResultError(f"{path}: {error}") from None
+    known(path, "the study", data, OF_STUDY)
+    if not isinstance(data.get("runs", []), list) or not all(isinstance(b, dict) for b in data.get("runs", [])):
+        raise ResultError(f"{path}: the entries of a product of runs stand below [[runs]]")
+    shared = {key: data[key] for key in OF_RUNS if key in data}
+    blocks = [block(path, shared, own) for own in data.get("runs", [{}])]
+    for key in ("title", "text"):
+        if not isinstance(data.get(key, ""), str):
+            raise ResultError(f"{path}: {key} = {data[key]!r}, but it is a text")
+    if not texts(data.get("quantities", [])):
+        raise ResultError(f"{path}: quantities = {data['quantities']!r}, but it is a list of texts")
+    return Study(os.path.splitext(os.path.basename(path))[0], blocks, data.get("title", ""), data.get("text", ""),
+                 data.get("quantities", []), os.path.dirname(os.path.abspath(path)))
+
+
+def block(path, shared, own):
+    known(path, "[[runs]]", own, OF_RUNS)
+    data = {**shared, **own, "set": {**shared.get("set", {}), **own.get("set", {})}}
+    for key in LISTS:
+        if key not in data:
+            continue
+        good = texts(data[key]) if key != "ranks" else (
+            isinstance(data[key], list) and all(type(r) is int and r > 0 for r in data[key]))
+        if not good or not data[key]:
+            what = "a list of whole numbers from 1" if key == "ranks" else "a list of texts"
+            raise ResultError(f"{path}: {key} = {data[key]!r}, but it is {what}")
+        if len(set(data[key])) < len(data[key]):
+            raise ResultError(f"{path}: {key} = {data[key]!r} names something twice")
+    if "cases" not in data:
+        raise ResultError(f"{path}: no cases are named; 'cases' is a list of names below {DECKS}, or of decks")
+    for case in data["cases"]:
+        if not case.endswith(".prm") and (os.path.isabs(case) or ".." in case.split("/")):
+            raise ResultError(f"{path}: '{case}' is not a case below {DECKS}; a deck of one's own ends in .prm")
+    for entry, values in data["set"].items():
+        values = values if isinstance(values, list) else [values]
+        if not values or not all(isinstance(v, (str, int, float)) for v in values):
+            raise ResultError(f"{path}: '{entry}' = {values!r}, but it is a value or a list of values")
+        data["set"][entry] = [str(v).lower() if isinstance(v, bool) else str(v) for v in values]
+    limit = data.get("time_limit", 0.)
+    if isinstance(limit, bool) or not isinstance(limit, (int, float)) or limit < 0.:
+        raise ResultError(f"{path}: time_limit = {limit!r}, but it is a number of seconds")
+    return Block(**data)
+
+
+def texts(value):
+    return isinstance(value, list) and all(isinstance(v, str) for v in value)
+
+
+def known(path, where, data, names):
+    for key in data:
+        if key not in names:
+            raise ResultError(f"{path}: {where} has no entry '{key}'; there is: {', '.join(names)}")

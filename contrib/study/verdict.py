@@ -1,0 +1,147 @@
+"""The table of all runs: how close, what for, and how they ended."""
+import re
+
+import pandas
+
+from study.difference import differences
+
+# An error below this is that of the arithmetic, or of a quantity that is imposed.
+IMPOSED = 1e-9
+
+ALONE = ("Alone: whether the run had its core for itself, and its time can be compared. 'yes, 2': on a core of its own, beside "
+         "another run of the study at most; 'no, 40 %': others have used this much of the core, so the time is too long; "
+         "'?': not measured.")
+
+# What others may have used of a core.
+ALONE_BELOW = 0.05
+
+LENGTHS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1., "km": 1e3, "ft": 0.3048, "in": 0.0254, "": 1.}
+
+
+def table(results):
+    """One row per run. error_end_X and error_mean_X are fractions: errors, or differences where `against` names
+    another run instead of a reference."""
+    rows = []
+    for case in dict.fromkeys(r.case for r in results):
+        here = [r for r in results if r.case == case]
+        errors = {r.directory: r.summary.get("errors") or {} for r in here}
+        against = next((e["reference"] for of_run in errors.values() for e in of_run.values() if e.get("reference")), "")
+        differs = not any(errors.values())
+        if differs:
+            errors, other = differences(here)
+            against = f"{other} (no reference: differences)" if other else ""
+        rows += [row(r, errors.get(r.directory, {}), against, differs) for r in here]
+    return pandas.DataFrame(rows)
+
+
+def row(result, errors, against, differs):
+    summary, record = result.summary, result.record
+    cells = {"case": result.case, "model": result.model, "variant": result.variant, "resolution": result.resolution,
+             "ranks": result.ranks, "status": result.status, "reason": result.reason, "curve": result.curve,
+             "against": against, "differs": differs,
+             "unknowns": summary.get("unknowns"), "cells": summary.get("cells"), "cell_size": cell_size(result),
+             "reached": (summary.get("final") or {}).get("time"), "steps": summary.get("steps"), "rejected": summary.get("rejected_steps"),
+             "nonlinear": summary.get("nonlinear_iterations"), "linear": summary.get("linear_iterations"),
+             "cpu_seconds": summary.get("cpu_seconds") or record.get("cpu_seconds"),
+             "wall_seconds": (summary.get("wall_seconds") or {}).get("total") or record.get("wall_seconds"),
+             "others_share": record.get("others_share"), "at_once": record.get("at_once"),
+             "memory_bytes": summary.get("peak_memory_bytes"),
+             "balance": (summary.get("fluid_balance") or {}).get("relative_error"),
+             "directory": result.directory}
+    for name, error in errors.items():
+        cells[f"error_end_{name}"] = error.get("final")
+        cells[f"error_mean_{name}"] = error.get("mean")
+    return cells
+
+
+def cell_size(result):
+    """Of the cells at the fracture [m]; without a fracture, that of all cells but for a factor."""
+    match = re.fullmatch(r"([-+.\deE]+) *(\w*)", result.deck.get(f"Fracture/{result.model}/Cell size", ""))
+    if match and match[2] in LENGTHS:
+        return float(match[1]) * LENGTHS[match[2]]
+    cells = result.summary.get("cells")
+    return cells ** (-1. / int(result.deck.get("Dimension") or 2)) if cells else None
+
+
+def quantities(rows, wanted=()):
+    """The quantities that are charted: those wanted, or all whose error is one anywhere."""
+    there = [c[len("error_mean_"):] for c in rows.columns if c.startswith("error_mean_") and rows[c].notna().any()]
+    chosen = [name for name in wanted if name in there]
+    return chosen or [name for name in there if rows["error_mean_" + name].max() > IMPOSED]
+
+
+def per_cent(value):
+    return "" if value is None or value != value else f"{100 * value:.2g}"
+
+
+def count(value):
+    return "" if value is None or value != value else f"{int(value)}"
+
+
+def at(time):
+    return "" if time is None or time != time else f" at {time:.4g} s"
+
+
+def alone(row):
+    """Whether the times of a run can be compared with others'; ALONE says what is meant."""
+    if row["others_share"] is None or row["others_share"] != row["others_share"]:
+        return "?"
+    if row["others_share"] > ALONE_BELOW:
+        return f"no, {100 * row['others_share']:.0f} %"
+    return "yes" if row["at_once"] == 1 else f"yes, {int(row['at_once'])}"
+
+
+def shown(rows, wanted=()):
+    """The table as people read it: texts, with units in the headings."""
+    texts = pandas.DataFrame(index=rows.index)
+    texts["case"] = rows["case"]
+    texts["model"] = rows["model"]
+    if (rows["variant"] != "").any():
+        texts["variant"] = rows["variant"]
+    texts["resolution"] = rows["resolution"]
+    if (rows["ranks"] != 1).any():
+        texts["ranks"] = rows["ranks"].astype(str)
+    texts["status"] = [s if s == "finished" else f"FAILED{at(t)}: {r}"
+                       for s, t, r in zip(rows["status"], rows["reached"], rows["reason"])]
+    for name in quantities(rows, wanted):
+        texts[name.replace("_", " ") + " end (mean) [%]"] = [
+            f"{per_cent(end)} ({per_cent(mean)})" if per_cent(end) or per_cent(mean) else ""
+            for end, mean in zip(rows["error_end_" + name], rows["error_mean_" + name])]
+    for name, heading in (("unknowns", "unknowns"), ("steps", "steps"), ("rejected", "rejected"),
+                          ("nonlinear", "nonlinear it."), ("linear", "linear it.")):
+        if name in ("unknowns", "steps") or (rows[name].fillna(0) != 0).any():
+            texts[heading] = [count(v) for v in rows[name]]
+    texts["CPU [s]"] = ["" if v is None or v != v else f"{v:.3g}" for v in rows["cpu_seconds"]]
+    texts["memory [MB]"] = ["" if v is None or v != v else f"{v / 1e6:.0f}" for v in rows["memory_bytes"]]
+    texts["balance"] = ["" if v is None or v != v else f"{v:.0e}" for v in rows["balance"]]
+    texts["alone"] = [alone(row) for _, row in rows.iterrows()]
+    return texts
+
+
+def markdown(texts):
+    lines = ["| " + " | ".join(texts.columns) + " |", "|" + " --- |" * len(texts.columns)]
+    for _, cells in texts.iterrows():
+        lines.append("| " + " | ".join(str(c).replace("|", "\\|").replace("\n", " ") for c in cells) + " |")
+    return "\n".join(lines)
+
+
+def by_case(rows, wanted, write):
+    """The tables of the cases, each with the quantities that it has, below its name."""
+    return "\n\n".join(f"{case}\n\n" + write(shown(here, wanted).drop(columns=["case"]))
+                       for case, here in rows.groupby("case", sort=False))
+
+
+def plain(texts, width=48):
+    """For the terminal; what is longer than `width` is said in full below."""
+    notes, rows = [], [list(texts.columns)]
+    for _, cells in texts.iterrows():
+        line = []
+        for cell in map(str, cells):
+            if len(cell) > width:
+                notes.append(cell)
+                cell = cell[:width - 7].rstrip() + f"… [{len(notes)}]"
+            line.append(cell)
+        rows.append(line)
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths)).rstrip() for row in rows]
+    return "\n".join(lines + [f"[{i}] {note}" for i, note in enumerate(notes, 1)])

@@ -1,0 +1,1 @@
+"""What contrib/three_layers.py runs, reads, compares with and draws."""

@@ -1,0 +1,324 @@
+#!/usr/bin/python3
+"""Tests of stockwork-study: a program that costs nothing stands in for the real one.
+
+    study_test.py [PROGRAM]    with the real one as well, and its page in a browser if there is one
+"""
+import base64
+import contextlib
+import html.parser
+import io
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import unittest.mock
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+CONTRIB = os.path.join(HERE, "..", "..", "contrib")
+sys.path[:0] = [CONTRIB]
+import pandas  # noqa: E402
+
+from results import ResultError  # noqa: E402
+from study import cost, difference, estimate, matrix, study_file  # noqa: E402
+from study.command import main  # noqa: E402
+
+PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.exists(sys.argv[1]) else None
+TOOL = os.path.join(CONTRIB, "stockwork-study")
+
+# y = t with an error h^2/100 of the model "good"; "bad" fails on its way, "slow" does not end.
+STAND_IN = """#!/usr/bin/python3
+import json, os, sys, time
+deck = open(sys.argv[1]).read().split()[0]
+settings = dict(a.split("=", 1) for a in sys.argv if "=" in a)
+h = {"coarse": 1., "medium": 0.5}[settings.get("Resolution", "coarse")]
+if "--check" in sys.argv:
+    print("Scene audit\\n  a number  7  decides\\n 5 steps of 1 s would take 2 s on one core")
+else:
+    output = sys.argv[sys.argv.index("--output") + 1]
+    open(os.path.join(os.path.dirname(sys.argv[1]), "started"), "a").write(deck + " ")
+    if deck == "slow":
+        print("on its way", flush=True)
+        while True:
+        pass
+    failed = deck == "bad"
+    error = {"final": h * h / 100, "mean": h * h / 50, "reference": "Thought of (2026)"}
+    text = {"case": "case/" + deck, "fracture_model": deck, "status": "failed" if failed else "finished", "cells": 1 / h**2,
+            "reason": "Step 3 <fails>." if failed else "", "unknowns": 4 / h**2, "steps": 5, "cpu_seconds": 0.1 / h**2,
+            "errors": {} if failed or "No reference" in settings else {"inlet_aperture": error}, "final": {},
+            "warnings": ["Mind the gap."]}
+    json.dump(text, open(output + "/summary.json", "w"))
+    with open(output + "/statistics.csv", "w") as file:
+        file.write("time,inlet_aperture\\n")
+        file.writelines(f"{t},{t * (1 + h / 10)}\\n" for t in range(1, 6))
+    sys.exit(2 if failed else 0)
+"""
+
+
+class Elements(html.parser.HTMLParser):
+    def __init__(self, text):
+        super().__init__()
+        self.images, self.ids, self.links = [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        if tag == "img":
+            self.images.append(attributes)
+        if "id" in attributes:
+            self.ids.append(attributes["id"])
+        self.links += [v for k, v in attributes.items() if k in ("src", "href") and tag != "img"]
+
+
+class InADirectory(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        self.top = temporary.name
+        os.chdir(self.top)
+
+    def file(self, name, text, mode=0o644):
+        path = os.path.join(self.top, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(path, mode)
+        return path
+
+    def call(self, *arguments, status):
+        """What the tool says, here in this process, for it takes two seconds to import what draws."""
+        said, code = io.StringIO(), 0
+        with unittest.mock.patch.object(sys, "argv", ["stockwork-study", *arguments]), \
+                contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), \
+                unittest.mock.patch("study.progress.Progress.__init__.__defaults__", (said,)):
+            try:
+                main()
+            except SystemExit as end:
+                code = end.code or 0
+        text = said.getvalue() + (code if isinstance(code, str) else "")
+        self.assertEqual(1 if isinstance(code, str) else code, status, text)
+        return text
+
+    def page(self, folder):
+        """The page, which must have every section, and every picture in it, and want nothing from elsewhere."""
+        with open(os.path.join(folder, "index.html"), encoding="utf-8") as file:
+            text = file.read()
+        found = Elements(text)
+        self.assertEqual(found.ids, ["problem", "verdict", "cost", "results", "assumptions", "repeat"])
+        for image in found.images:
+            self.assertTrue(image["alt"])
+            kind, data = image["src"].split(",", 1)
+            self.assertEqual(kind, "data:image/png;base64")
+            self.assertTrue(base64.b64decode(data, validate=True).startswith(b"\x89PNG"))
+        for link in found.links:
+            self.assertRegex(link, "^(#|data:,)")
+        for kind in ("png", "svg"):
+            self.assertEqual(sum(name.endswith(kind) for name in os.listdir(folder)), len(found.images))
+        return text, found
+
+
+class StandIn(InADirectory):
+    def setUp(self):
+        super().setUp()
+        self.program = self.file("program", STAND_IN, 0o755)
+        for model in ("good", "bad", "slow"):
+            self.file(model + ".prm", model)
+
+    def study(self, *decks, **entries):
+        entries = {"cases": list(decks), **entries}
+        return self.file("study.toml", "".join(f"{k} = {json.dumps(v)}\n" for k, v in entries.items()))
+
+    def started(self):
+        with open("started", encoding="utf-8") as file:
+            return file.read().split()
+
+    def test_run_resumed_and_reported(self):
+        study = self.study("good.prm", "bad.prm", resolutions=["coarse", "medium"])
+        command = ("run", study, "--program", self.program, "--output", "out", "--cores", "1")
+        text = self.call(*command, "--estimate", status=0)
+        self.assertIn("4 runs, 4 of them to do: about 8 s on 1 core(s) (4 by --check, at most)", text)
+        self.assertFalse(os.path.exists("started"))
+        text = self.call(*command, status=1)
+        self.assertEqual(self.started(), ["good", "good", "bad", "bad"])
+        self.assertIn("FAILED: Step 3 <fails>.", text)
+        page, found = self.page("out/report")
+        self.assertIn("Step 3 &lt;fails&gt;.", page)
+        self.assertIn("Thought of (2026)", page)
+        self.assertIn("<td>2.00</td>", page)  # the order of h^2
+        self.assertIn("<td>a number</td><td>7</td><td>decides</td>", page)
+        self.assertIn("warning: Mind the gap. (2 of 2 runs", page)
+        self.assertGreaterEqual(len(found.images), 2)  # error against cost, histories
+        table = pandas.read_csv("out/report/results.csv")
+        self.assertEqual(list(table["status"]), ["finished", "finished", "failed", "failed"])
+        self.assertEqual(list(table["error_mean_inlet_aperture"][:2]), [0.02, 0.005])
+
+        text = self.call(*command, status=1)  # nothing is left to do, and what failed is still known
+        self.assertIn("4 runs, 0 of them to do", text)
+        self.assertEqual(len(self.started()), 4)
+        self.file("part.prm", "")
+        self.file("bad.prm", "good\ninclude part.prm\n")
+        self.assertIn("2 of them to do (2 again, for the deck has changed)", self.call(*command, "--estimate", status=0))
+        self.call(*command, status=0)
+        self.assertEqual(self.started()[4:], ["good", "good"])
+        self.file("part.prm", "# changed")
+        self.assertIn("2 of them to do (2 again", self.call(*command, "--estimate", status=0))
+        self.file("part.prm", "")
+        self.assertIn("0 of them to do", self.call(*command, "--estimate", status=0))
+        self.assertIn("by an earlier run", self.call(*command, "--again", "all", "--estimate", status=0))
+
+    def test_killed_and_continued(self):
+        command = ("run", self.study("good.prm", "slow.prm"), "--program", self.program, "--output", "out",
+                   "--cores", "1")
+        with subprocess.Popen([sys.executable, TOOL, *command], stderr=subprocess.PIPE, text=True) as tool:
+            while not (os.path.exists("started") and "slow" in self.started()):
+                time.sleep(0.02)
+            tool.send_signal(signal.SIGTERM)
+            self.assertIn("the same command goes on", tool.communicate(timeout=20)[1])
+        self.assertEqual(tool.returncode, 130)
+        self.file("slow.prm", "good")
+        self.assertIn("2 runs, 1 of them to do", self.call(*command, status=0))
+        self.assertEqual(self.started(), ["good", "slow", "good"])
+
+    def test_map(self):
+        study = self.file("study.toml", 'cases = ["good.prm"]\n[set]\nX = [1, 2, 3]\nY = [0.1, 1e-2, 1e-3]\n')
+        self.call("run", study, "--program", self.program, "--output", "out", status=0)
+        self.assertIn("good, good: which runs end, and with what error", self.page("out/report")[0])
+
+    def test_time_limit_and_too_many_ranks(self):
+        text = self.call("run", self.study("slow.prm", time_limit=1), "--program", self.program, "--output", "a",
+                         status=1)
+        self.assertIn("Ended by the time limit of the study, 1 s.", text)
+        text = self.call("run", self.study("good.prm", ranks=[2]), "--program", self.program, "--output", "b",
+                         "--cores", "1", status=1)
+        self.assertIn("2 ranks need as many cores; 1 were given", text)
+        self.assertIn("1 runs, 1 of them to do", self.call("run", "study.toml", "--program", self.program, "--output", "b",
+                                                           "--cores", "1", "--estimate", status=0))
+
+    def test_finished_directories(self):
+        for name, resolution in (("one", "coarse"), ("two", "medium")):
+            os.makedirs(name)
+            subprocess.run([self.program, "good.prm", "--output", name, "--set", "Resolution=" + resolution,
+                            "--set", "No reference=true"], check=True)
+        text = self.call("report", "one", "two", "--output", "page", status=0)
+        self.assertRegex(text, r"case\n\nmodel .*\ngood +one +.* 4.8 \(2.9\)")  # 0.05 t of 5.25; the mean of t is 3
+        self.assertIn("no reference: differences", self.page("page")[0])
+        self.call("run", self.study("good.prm", title="A title", quantities=["inlet_aperture"]), "--program", self.program,
+                  "--output", "out", status=0)
+        self.call("report", "out", "--output", "titled", status=0)
+        self.assertIn("<h1>A title</h1>", self.page("titled")[0])
+        self.assertIn("no run has an error of 'foo'", self.call(
+            "run", self.study("good.prm", quantities=["foo"]), "--program", self.program, "--output", "out", status=1))
+        self.assertIn("there is no directory 'three'", self.call("report", "three", status=1))
+        os.makedirs("empty")
+        self.assertIn("no run has ended in 'empty'", self.call("report", "empty", status=1))
+        self.assertIn("no run has an error of 'foo'; there is: inlet_aperture",
+                      self.call("report", "one", "two", "--quantities", "foo", status=1))
+
+    def test_what_makes_no_sense(self):
+        for text, says in (("cases = [", "Invalid value"), ("title = 'x'", "no cases are named"),
+                           ("case = ['a']", "the study has no entry 'case'; there is: title"),
+                           ("cases = 'a'", "cases = 'a', but it is a list of texts"),
+                           ("cases = ['../x']", "is not a case below"),
+                           ("cases = ['good.prm']\nranks = [0]", "a list of whole numbers from 1"),
+                           ("cases = ['good.prm', 'good.prm']", "names something twice"),
+                           ("cases = ['good.prm']\ntime_limit = 'x'", "a number of seconds"),
+                           ("cases = ['good.prm']\nmodels = ['damage']", "none of the cases good.prm has a deck for"),
+                           ("cases = ['nothing']", "there is no case 'nothing'"),
+                           ("cases = ['nothing.prm']", "there is no deck 'nothing.prm'"),
+                           ("cases = ['good.prm']\n[set]\n'A/B' = []", "a value or a list of values"),
+                           ("cases = ['mandel']\nmodels = ['dammage']", "there is: none")):
+            with self.subTest(text):
+                path = self.file("wrong.toml", text)
+                self.assertIn(says, self.call("run", path, "--program", self.program, status=1))
+        self.assertIn("there is no study 'nowhere'; those that ship: consolidation", self.call("run", "nowhere", status=1))
+        self.assertIn("no runs at the resolutions fine", self.call(
+            "run", self.study("good.prm"), "--resolutions", "fine", "--program", self.program, status=1))
+        self.call("run", "nowhere", "--program", "nothing", status=2)
+        self.call("run", "nowhere", "--cores", "0", status=2)
+
+
+class Parts(unittest.TestCase):
+    def test_matrix(self):
+        block = study_file.Block(["mandel", "column/rod"], ["none", "peridynamics"], ["coarse", "fine"], [1, 2],
+                                 {"Coupling/Scheme": ["monolithic", "undrained"], "Time/Initial step": ["1"]})
+        jobs = matrix.jobs(study_file.Study("s", [block, block]))
+        self.assertEqual(len(jobs), 2 * 2 * 2 * 2 * 2)
+        self.assertEqual([j.case for j in jobs if not j.deck], ["mandel"] * 8)  # a hole that is said
+        self.assertEqual(jobs[0].name, "mandel/none/monolithic_Initial_step_1/coarse")
+        self.assertEqual(jobs[0].variant, "monolithic")
+        self.assertEqual(len({j.name for j in jobs}), len(jobs))
+
+    def test_studies_that_ship(self):
+        for name in os.listdir(study_file.SHIPPED):
+            jobs = matrix.jobs(study_file.read(os.path.join(study_file.SHIPPED, name)))
+            self.assertGreater(len(jobs), 10)
+
+    def test_cost(self):
+        rows = pandas.DataFrame({"status": ["finished"] * 4 + ["failed"], "curve": list("aabba"),
+                                 "cpu_seconds": [1., 8., 2., 16., 0.1], "error": [0.08, 0.02, 0.03, 0.03, 0.001],
+                                 "cell_size": [1., 0.5, 1., 0.5, 2.]})
+        front = cost.front(cost.points(rows, "cpu_seconds", "error"))
+        self.assertEqual([p[:2] for p in front], [(1., 0.08), (2., 0.03), (8., 0.02)])
+        self.assertEqual([best and best[0] for _, best in cost.cheapest(rows, "error")], [1., 2., 8., None])
+        orders = cost.orders(rows, "error")
+        self.assertAlmostEqual(orders["a"][0][2], 2.)
+        self.assertAlmostEqual(orders["b"][0][2], 0.)
+
+    def test_estimate(self):
+        job = matrix.Job("c", "m", "d", "fine", 2, (), (), 0.)
+        checked = {"seconds": 100., "fingerprint": "new"}
+        record = {"case": "c", "model": "m", "ranks": 1, "wall_seconds": 5., "estimate": 50., "fingerprint": "old"}
+        self.assertEqual(estimate.guess(job, checked, []), (50., "--check, at most"))
+        self.assertEqual(estimate.guess(job, checked, [record, {**record, "case": "other", "wall_seconds": 50.}]),
+                         (5., "earlier runs like it"))
+        self.assertEqual(estimate.guess(job, checked, [{**record, "fingerprint": "new"}]),
+                         (5., "an earlier run"))
+        self.assertEqual(estimate.guess(job, {**checked, "seconds": None}, []), (None, ""))
+
+    def test_quantities_that_are_compared(self):
+        self.assertIn("net_inlet_pressure", difference.QUANTITIES)
+        with self.assertRaisesRegex(ResultError, "there is no study"):
+            study_file.find("nowhere")
+
+
+@unittest.skipUnless(PROGRAM, "no program given")
+class Real(InADirectory):
+    def test_a_run_that_fails_and_one_that_does_not(self):
+        study = self.file("splits.toml", 'cases = ["mandel"]\nresolutions = ["coarse"]\n[set]\n'
+                          '"Coupling/Scheme" = ["monolithic", "drained"]\n"Time/End time" = "600"\n')
+        text = self.call("run", study, "--program", PROGRAM, "--output", "out", status=1)
+        self.assertRegex(text, "none +drained +coarse +FAILED: ")
+        self.assertIn("this split diverges above 1", text)
+        table = pandas.read_csv("out/report/results.csv")
+        self.assertLess(table["error_mean_pore_pressure"][0], 0.05)
+        self.assertIn("coupling strength alpha^2 M / K_dr", self.page("out/report")[0])
+        browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+        if browser is None:
+            self.skipTest("no browser on this machine: the page was only parsed")
+        for width in (1200, 500):
+            self.seen(browser, "out/report/index.html", width)
+
+    def seen(self, browser, path, width):
+        """A browser shows every picture, nothing sticks out, and nothing is fetched."""
+        with open(path, encoding="utf-8") as file:
+            page = file.read()
+        script = ("<script>onload = () => { const i = [...document.images]; document.title = 'seen ' + i.filter(x => "
+                  "x.naturalWidth > 100).length + '/' + i.length + ' ' + (document.documentElement.scrollWidth <= "
+                  "innerWidth) + ' ' + performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:'))"
+                  ".length; }</script></body>")
+        copy = self.file("looked_at.html", page.replace("</body>", script))
+        dom = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={self.top}/browser",
+                              f"--window-size={width},1000", "--dump-dom", "file://" + copy], check=True, text=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=60).stdout
+        title = re.search("<title>(.*?)</title>", dom)[1]
+        found = re.fullmatch(r"seen (\d+)/(\d+) true 0", title)
+        self.assertTrue(found and found[1] == found[2] and int(found[1]) > 3, title)
+
+
+if __name__ == "__main__":
+    unittest.main()

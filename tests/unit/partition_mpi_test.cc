@@ -1,0 +1,41 @@
+// Cells shared out among the ranks by the work that they are.
+#include <deal.II/distributed/tria.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <doctest/doctest.h>
+
+#include "mesh/partition.h"
+
+namespace stockwork::partition_test
+{
+using namespace dealii;
+
+TEST_CASE("ranks have as much work as one another where some cells are more of it")
+{
+  parallel::distributed::Triangulation<3> triangulation(
+    MPI_COMM_WORLD, Triangulation<3>::limit_level_difference_at_vertices,
+    parallel::distributed::Triangulation<3>::no_automatic_repartitioning);
+  GridGenerator::subdivided_hyper_cube(triangulation, 4);
+  triangulation.refine_global(1);
+  triangulation.repartition();
+  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const auto work = [&triangulation]()
+  {
+    std::vector<unsigned int> of_cells(triangulation.n_active_cells(), 1);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->center()[2] < 0.25)
+        of_cells[cell->active_cell_index()] = 9;
+    return of_cells;
+  };
+  // A quarter of the cells is three quarters of the work.
+  const double before = greatest_share(triangulation, work());
+  share_out(triangulation, work());
+  const double after = greatest_share(triangulation, work());
+  CHECK(triangulation.n_global_active_cells() == 512);
+  CHECK(after >= 1. / n_ranks);
+  // Eight cells of one parent stay together.
+  CHECK(after - 1. / n_ranks <= 8. * 9. / (128. * 9. + 384.));
+  if (n_ranks > 1)
+    CHECK(before > 1.2 / n_ranks);
+}
+} // namespace stockwork::partition_test
