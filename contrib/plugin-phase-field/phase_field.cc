@@ -162,6 +162,10 @@ public:
               "the crack does not come to rest in " + std::to_string(max_passes) + " passes"};
     trial = next;
     describe_crack(collectives);
+    if (stations.size() > n_committed && breaks_large_cells)
+      return {cell_size > 0. ? Verdict::Kind::reject : Verdict::Kind::stop,
+              "the crack has come to cells larger than those it began in, which 'Fracture/"
+              "phase_field/Cell size' refines ahead of it, step by step"};
     verdict.kind = Verdict::Kind::topology_changed;
     return verdict;
   }
@@ -419,15 +423,18 @@ private:
   {
     ++terms_version;
     std::vector<std::pair<double, double>> broken;
+    double large = 0.;
     for (const auto &cell : fields.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
       {
         double least = 1.;
         for (const unsigned int v : cell->vertex_indices())
           least = std::min<double>(least, trial(cell->vertex_dof_index(v, 0)));
+        large = std::max(large, least > 0.9 ? std::sqrt(cell->measure()) : 0.);
         if (least > 0.9)
           broken.emplace_back(cell->center()[0], cell->center()[1]);
       }
+    breaks_large_cells = collectives.max(large) > 1.5 * length / cells_per_length;
     broken = collectives.gather(broken);
     std::sort(broken.begin(), broken.end()); // the same on any number of ranks
     while (true)
@@ -625,6 +632,7 @@ private:
   std::vector<Tensor<1, dim>> normals; ///< of the crack at stations
   std::vector<Segment<dim>> all_segments;
 
+  bool breaks_large_cells = false;
   unsigned int terms_version = 0, pass = 0;
   std::vector<std::string> messages;
 };
