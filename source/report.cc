@@ -117,10 +117,19 @@ void Report<dim>::observe_energy(const State &state,
                                  const double not_stored_in_rock,
                                  Values &values)
 {
-  const MechanicalEnergy energy = mechanical_energy<dim>(
+  MechanicalEnergy energy = mechanical_energy<dim>(
     system.mesh_view(), rock, system.nonlinear_rock(), system.loads(),
     [this](const auto &cell) { return model.role(cell); }, stepper.last_context(), state,
     system.collectives());
+  if (const OpeningControl<dim> *const control = system.opening_control())
+  {
+    const unsigned int index = system.index_of_control();
+    const double before = control->displacement(state.committed, system.collectives());
+    values["load_displacement"] = control->displacement(state.current, system.collectives());
+    energy.load = control->force(state.current, index);
+    energy.work += 0.5 * (control->force(state.committed, index) + energy.load) *
+                   (values["load_displacement"] - before);
+  }
   external_work += energy.work;
   if (stepper.last_context().acceleration > 0.)
     values["kinetic_energy"] = energy.kinetic;

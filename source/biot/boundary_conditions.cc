@@ -160,6 +160,13 @@ void BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
     prm.declare_entry("Traction " + axis_names[d], "", Patterns::Anything(),
                       "'side: value' pairs; component of the traction, increment over the in-situ "
                       "stress [Pa].");
+  prm.declare_entry("Controlled load", "", Patterns::Anything(),
+                    "A side that the pressure acts on, the same all over it, that moves two other "
+                    "sides apart as 'Controlled opening' says. What snaps back under a given "
+                    "displacement can be followed so.");
+  prm.declare_entry("Controlled opening", "", Patterns::Anything(),
+                    "'side, side: value': by how much their distance has grown, in the mean [m], a "
+                    "function of t in SI units; for 'Controlled load'.");
   prm.leave_subsection();
 }
 
@@ -241,6 +248,27 @@ void BoundaryConditions<dim>::parse_parameters(
       position->second[d] = parse_value<dim>(entry, value, dimension::pressure);
     }
   }
+  const std::string loaded = get("Controlled load"), opening = prm.get("Controlled opening");
+  if (loaded.empty() != opening.empty())
+    throw EntryError("Boundary conditions/" +
+                       std::string(loaded.empty() ? "Controlled load" : "Controlled opening"),
+                     "", "a value, for the other of 'Controlled load' and 'Controlled opening' has one");
+  if (!loaded.empty())
+  {
+    ControlledLoad<dim> load;
+    load.loaded = side(loaded);
+    get("Controlled opening");
+    const auto pairs = split_by_side("Controlled opening", opening);
+    const auto names = Utilities::split_string_list(pairs.front().first);
+    if (pairs.size() != 1 || names.size() != 2 || names[0] == names[1])
+      throw EntryError("Boundary conditions/Controlled opening", opening,
+                       "'side, side: value' with two sides, once");
+    load.from = side(names[0]);
+    load.to = side(names[1]);
+    load.opening =
+      parse_value<dim>("Controlled opening", pairs.front().second, dimension::length);
+    controlled = load;
+  }
   rollers = prm.get("Roller");
   refuse_contradictions(prm);
   prm.leave_subsection();
@@ -275,6 +303,8 @@ void BoundaryConditions<dim>::refuse_contradictions(ParameterHandler &prm) const
                              "', where '" + condition.side_name + "' ";
     if (condition.component == dim && prescribed_loads.flux.count(condition.side) > 0)
       refuse("Flux", also + "is given a pressure");
+    if (condition.component != dim && controlled && controlled->loaded == condition.side)
+      refuse("Controlled load", also + "has a given displacement");
     // The axis of a roller is known with the mesh only; its normal traction is another name for it.
     if ((condition.component == normal_component || condition.entry == "Fixed") &&
         prescribed_loads.normal_traction.count(condition.side) > 0)

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,14 @@ struct Loads
   {
     return traction.empty() && normal_traction.empty() && flux.empty();
   }
+};
+
+/// A pressure that moves two other sides apart as given, see OpeningControl.
+template <int dim>
+struct ControlledLoad
+{
+  dealii::types::boundary_id loaded, from, to;
+  PrescribedValue<dim> opening; ///< of time alone [m]
 };
 
 /// The boundary conditions of the deck, by named side.
@@ -107,6 +116,11 @@ public:
     return prescribed_loads;
   }
 
+  const std::optional<ControlledLoad<dim>> &controlled_load() const
+  {
+    return controlled;
+  }
+
 private:
   struct Dirichlet
   {
@@ -136,6 +150,7 @@ private:
   std::string rollers; ///< as the deck gives them
   std::vector<Dirichlet> dirichlet;
   Loads<dim> prescribed_loads;
+  std::optional<ControlledLoad<dim>> controlled;
   std::shared_ptr<dealii::Function<dim>> reference;
   std::string reference_entry;
 };

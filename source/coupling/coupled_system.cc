@@ -149,7 +149,7 @@ NonlinearReport CoupledSystem<dim>::pass_as_published(const StepContext &context
   constexpr double trace = 1e-9;
   for (unsigned int i = 0; i < unknowns.n_extra(); ++i)
     current.extra[i] =
-      i < unknowns.n_model_extra() ? (1. - trace) * current.extra[i] : start.extra[i];
+      i < unknowns.n_mechanical_extra() ? (1. - trace) * current.extra[i] : start.extra[i];
   const State state = this->state(current, current, current, current);
   assembly.assemble_linear(context, state);
   assembly.assemble_nonlinear(context, state);

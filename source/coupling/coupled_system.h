@@ -130,6 +130,17 @@ public:
     return assembly.nonlinear_rock();
   }
 
+  /// A load that an opening controls; null: there is none.
+  const OpeningControl<dim> *opening_control() const
+  {
+    return assembly.opening_control();
+  }
+
+  unsigned int index_of_control() const
+  {
+    return assembly.index_of_control();
+  }
+
   /// Of the fracture model; null: it has none.
   NodalFields<dim> *nodal_fields() const
   {

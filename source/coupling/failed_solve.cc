@@ -68,11 +68,11 @@ void Newton<dim>::explain(NonlinearReport &report, const ResidualNorms &toleranc
        << " times its tolerance";
   if (worst < 2)
     text << ", most of it at (" << place_in_bulk(worst) << ") m";
-  else if (worst == 3 && unknowns.n_extra() > unknowns.n_model_extra())
+  else if (worst == 3 && unknowns.n_extra() > unknowns.n_mechanical_extra())
   {
     const auto &segments = network.segments();
     const std::vector<double> &residual = assembly.linear_system().residual_extra;
-    const unsigned int n_model = unknowns.n_model_extra();
+    const unsigned int n_model = unknowns.n_mechanical_extra();
     const auto greater = [](const double a, const double b) { return std::abs(a) < std::abs(b); };
     const unsigned int i = std::max_element(residual.begin() + n_model, residual.end(), greater) -
                            residual.begin() - n_model;

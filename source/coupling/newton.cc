@@ -71,7 +71,7 @@ ResidualNorms Newton<dim>::allowed()
   // rock exerts on the fracture, for a solve may start in equilibrium and with no residual.
   const auto begin = assembly.linear_residual_of_extra().begin();
   const double rock_on_fracture =
-    std::sqrt(std::inner_product(begin, begin + unknowns.n_model_extra(), begin, 0.));
+    std::sqrt(std::inner_product(begin, begin + unknowns.n_mechanical_extra(), begin, 0.));
   force = std::max({greatest.momentum, greatest.extra, rock_on_fracture});
   const ResidualNorms rounding = assembly.rounding_errors(values, context, state);
   ResidualNorms allowed;
@@ -241,11 +241,11 @@ double Newton<dim>::pressure_factor() const
   // A fracture that is pumped open at once takes, for a moment, many times the pressure that
   // drives it later: the limit must let it come, and only keep it from a single leap.
   double maximum_change = network.typical_pressure(), factor = 1.;
-  for (unsigned int i = unknowns.n_model_extra(); i < unknowns.n_extra(); ++i)
+  for (unsigned int i = unknowns.n_mechanical_extra(); i < unknowns.n_extra(); ++i)
     if (!network.is_of_rock(i))
       maximum_change = std::max(maximum_change, std::abs(current.extra[i] - extra_at_start[i]));
   const double limit = parameters.pressure_limit.value_or(maximum_change);
-  for (unsigned int i = unknowns.n_model_extra(); i < unknowns.n_extra(); ++i)
+  for (unsigned int i = unknowns.n_mechanical_extra(); i < unknowns.n_extra(); ++i)
     if (const double change = std::abs(dx_extra[i]);
         factor * change > limit && !network.is_of_rock(i))
       factor = limit / change;
@@ -272,7 +272,7 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // be unloaded, sends it further still.
   const unsigned int most_halvings = assembly.nonlinear_rock() != nullptr ? 8 : 4;
   move(factor);
-  if ((unknowns.n_model_extra() > 0 || assembly.nonlinear_rock() != nullptr) && iteration > 0)
+  if ((unknowns.n_mechanical_extra() > 0 || assembly.nonlinear_rock() != nullptr) && iteration > 0)
     for (unsigned int halving = 0;
          halving < most_halvings && !(imbalance(norms) < (iteration < 6 ? 3. : 1.) * before);
          ++halving)

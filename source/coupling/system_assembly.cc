@@ -64,6 +64,9 @@ void SystemAssembly<dim>::mesh_changed()
   bulk = std::make_unique<BulkAssembly<dim>>(scene.rock, loads, unknowns.elements.stabilisation,
                                              unknowns.mesh_view(),
                                              [this](const auto &cell) { return model.role(cell); });
+  if (const auto &load = unknowns.controlled_load())
+    control = std::make_unique<OpeningControl<dim>>(*load, scene.rock.main().young_modulus,
+                                                    unknowns.mesh_view(), unknowns.communication);
   if (nonlinear)
     nonlinear->setup(unknowns.mesh_view());
   has_rock_change = false;
@@ -73,7 +76,7 @@ void SystemAssembly<dim>::mesh_changed()
 template <int dim>
 void SystemAssembly<dim>::topology_changed()
 {
-  system.n_mechanical_extra = unknowns.n_model_extra();
+  system.n_mechanical_extra = unknowns.n_mechanical_extra();
   bulk->forget_cuts();
   if (nonlinear)
     nonlinear->topology_changed();
@@ -160,12 +163,14 @@ void SystemAssembly<dim>::assemble_linear(const StepContext &context, const Stat
   system.extra_bulk.clear();
   linear_extra_extra.clear();
   linear_residual_extra.assign(unknowns.n_extra(), 0.);
-  if (unknowns.n_model_extra() > 0)
+  if (unknowns.n_mechanical_extra() > 0)
   {
     SystemSink sink(unknowns.increment_constraints(), system, system.bulk, system.residual_bulk,
                     linear_residual_extra, linear_extra_extra);
     bulk->cut_cells(
       context, state, [this](const auto &cell) { return model.role(cell); }, sink);
+    if (control)
+      control->assemble(context, state, index_of_control(), sink);
     system.residual_bulk.compress(VectorOperation::add);
     unknowns.communication.sum(linear_residual_extra);
   }
@@ -224,7 +229,7 @@ void SystemAssembly<dim>::assemble_nonlinear(const StepContext &context, const S
   for (unsigned int i = 0; i < n_extra; ++i)
     system.residual_extra[i] += linear_residual_extra[i];
   // The cubic law has no potential, so a flowing fracture makes the matrix unsymmetric.
-  system.symmetric = model.requirements().symmetric && unknowns.n_model_extra() == n_extra;
+  system.symmetric = model.requirements().symmetric && !control && unknowns.n_mechanical_extra() == n_extra;
   ++changes.extra_values;
 }
 
@@ -307,7 +312,7 @@ ResidualNorms SystemAssembly<dim>::residual_norms() const
   if (has_pores())
     norms.mass = system.residual_bulk.block(1).l1_norm();
   for (unsigned int i = 0; i < unknowns.n_extra(); ++i)
-    if (i < unknowns.n_model_extra())
+    if (i < unknowns.n_mechanical_extra())
       norms.extra += system.residual_extra[i] * system.residual_extra[i];
     else
       norms.fracture_fluid += std::abs(system.residual_extra[i]);

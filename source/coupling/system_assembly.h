@@ -8,6 +8,7 @@
 
 #include "biot/bulk_assembly.h"
 #include "biot/nonlinear_rock.h"
+#include "biot/opening_control.h"
 #include "coupling/residual_norms.h"
 #include "coupling/unknown_numbering.h"
 #include "flow/network.h"
@@ -136,6 +137,17 @@ public:
     return *bulk;
   }
 
+  /// A load that an opening controls; null: there is none.
+  const OpeningControl<dim> *opening_control() const
+  {
+    return control.get();
+  }
+
+  unsigned int index_of_control() const
+  {
+    return unknowns.n_mechanical_extra() - 1;
+  }
+
 private:
   void assemble_bulk_matrix(const StepContext &context);
 
@@ -166,6 +178,7 @@ private:
 
   std::unique_ptr<BulkAssembly<dim>> bulk;
   std::unique_ptr<NonlinearRock<dim>> nonlinear; ///< null: the rock is linear whatever happens
+  std::unique_ptr<OpeningControl<dim>> control; ///< null: no load is controlled
   dealii::TrilinosWrappers::BlockSparseMatrix rock_change; ///< see LinearSystem
   bool has_rock_change = false;                            ///< memory, that is
 

@@ -1,5 +1,6 @@
 #include "coupling/unknown_numbering.h"
 
+#include "biot/opening_control.h"
 #include "coupling/visible_constraints.h"
 
 #include <deal.II/dofs/dof_renumbering.h>
@@ -173,7 +174,9 @@ void UnknownNumbering<dim>::adopt_extra(const ExtraNumbering &from,
                                         const std::vector<std::vector<double> *> &values)
 {
   std::vector<ExtraUnknown> unknowns = model.extra_unknowns();
-  n_of_model = unknowns.size();
+  if (boundary_conditions.controlled_load())
+    unknowns.push_back({OpeningControl<dim>::key});
+  n_mechanical = unknowns.size();
   const std::vector<double> &earlier = *values.front();
   network.set_segments(model.segments(), communication,
                        [&](const std::uint64_t key)
@@ -181,7 +184,7 @@ void UnknownNumbering<dim>::adopt_extra(const ExtraNumbering &from,
                          const auto i = from.find(key);
                          return i ? std::optional<double>(earlier[*i]) : std::nullopt;
                        });
-  network.set_offset(n_of_model);
+  network.set_offset(n_mechanical);
   const std::vector<ExtraUnknown> pressures = network.unknowns();
   unknowns.insert(unknowns.end(), pressures.begin(), pressures.end());
 

@@ -120,10 +120,16 @@ public:
     return extra_numbering.size();
   }
 
-  /// The first extra unknowns are the model's, the rest belong to fluid.
-  unsigned int n_model_extra() const
+  /// The first extra unknowns are the model's, then comes that of a controlled load; the rest belong
+  /// to fluid.
+  unsigned int n_mechanical_extra() const
   {
-    return n_of_model;
+    return n_mechanical;
+  }
+
+  const std::optional<ControlledLoad<dim>> &controlled_load() const
+  {
+    return boundary_conditions.controlled_load();
   }
 
   dealii::types::global_dof_index n_bulk() const
@@ -164,6 +170,6 @@ private:
   void find_lines();
 
   ExtraNumbering extra_numbering;
-  unsigned int n_of_model = 0;
+  unsigned int n_mechanical = 0;
 };
 } // namespace stockwork
