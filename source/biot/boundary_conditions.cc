@@ -267,6 +267,11 @@ void BoundaryConditions<dim>::parse_parameters(
     load.to = side(names[1]);
     load.opening =
       parse_value<dim>("Controlled opening", pairs.front().second, dimension::length);
+    const Point<dim> elsewhere = 1.23 * Point<dim>::unit_vector(0) + Point<dim>::unit_vector(1);
+    for (const double time : {0., 0.77})
+      if (load.opening.value(Point<dim>(), time) != load.opening.value(elsewhere, time))
+        throw EntryError("Boundary conditions/Controlled opening", opening,
+                         "a function of t alone");
     controlled = load;
   }
   rollers = prm.get("Roller");

@@ -1,5 +1,7 @@
 #include "biot/opening_control.h"
 
+#include "stockwork/base/error.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -56,6 +58,9 @@ OpeningControl<dim>::OpeningControl(const ControlledLoad<dim> &load,
   Tensor<1, dim> direction;
   for (unsigned int d = 0; d < dim; ++d)
     direction[d] = centres[to * dim + d] / area[to] - centres[from * dim + d] / area[from];
+  if (!(direction.norm() > 0.))
+    throw InputError("The two sides of 'Boundary conditions/Controlled opening' have the same "
+                     "middle: their distance has no direction.");
   direction /= direction.norm();
   force_of_unknown = modulus * (dim == 3 ? std::sqrt(area[loaded]) : 1.);
 

@@ -38,6 +38,7 @@ const Entry table[] = {
   {"crack in box", reference::make_crack_in_box, nullptr},
   {"parallel cracks", reference::make_parallel_cracks, nullptr},
   {"double cantilever", reference::make_double_cantilever, nullptr},
+  {"three point bending", reference::make_three_point_bending, nullptr},
   {"kgd", reference::make_kgd, nullptr},
   {"kgd vertex", reference::make_kgd_vertex, nullptr},
   {"kgd carter", reference::make_kgd_carter, nullptr},
@@ -76,7 +77,8 @@ void declare_reference_parameters(ParameterHandler &prm)
     "bar wave, porous wave: along the last "
     "axis, loaded at the top. line crack, penny crack (3-D): in an infinite body; crack in "
     "box: with rollers all round. double cantilever: beams along x joined by a cohesive "
-    "layer, a crack from the left, ends moved apart by equal displacements. kgd: at the deck's own "
+    "layer, a crack from the left, ends moved apart by equal displacements. three point bending: greatest load of a brittle beam "
+    "along x with a notch from below, four times as long as deep, held at its ends. kgd: at the deck's own "
     "toughness and viscosity; "
     "kgd vertex: without viscosity; kgd carter: with Carter leak-off; kgd box: with "
     "the rollers of the domain all round. radial (3-D): circular, at the deck's own toughness and "

@@ -1,5 +1,6 @@
 #include "reference_table.h"
 #include "verification/analytical/double_cantilever.h"
+#include "verification/analytical/three_point_bending.h"
 
 #include <doctest/doctest.h>
 
@@ -24,6 +25,13 @@ TEST_CASE("double cantilever beam: brittle")
                [&](const auto i) { return solution.crack_length(table(i, "opening_m")); });
   CHECK(solution.force(0.5 * solution.opening_at_onset()) ==
         doctest::Approx(0.5 * solution.force(solution.opening_at_onset())));
+}
+
+TEST_CASE("three-point bending: factor of the stress intensity")
+{
+  const ReferenceTable table("three_point_bending");
+  CHECK_COLUMN(table, "f", 1e-6, RelativeTo::each,
+               [&](const auto i) { return three_point_bending_factor(table(i, "a_over_W")); });
 }
 
 TEST_CASE("double cantilever beam: bilinear cohesive layer")

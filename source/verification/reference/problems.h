@@ -27,6 +27,8 @@ Made<2> make_line_crack(const dealii::ParameterHandler &prm, const ReferenceInpu
 Made<2> make_crack_in_box(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<2> make_parallel_cracks(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<2> make_double_cantilever(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
+Made<2> make_three_point_bending(const dealii::ParameterHandler &prm,
+                                 const ReferenceInput<2> &input);
 Made<2> make_kgd(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<2> make_kgd_vertex(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
 Made<2> make_kgd_carter(const dealii::ParameterHandler &prm, const ReferenceInput<2> &input);
