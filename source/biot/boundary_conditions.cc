@@ -250,9 +250,10 @@ void BoundaryConditions<dim>::parse_parameters(
   }
   const std::string loaded = get("Controlled load"), opening = prm.get("Controlled opening");
   if (loaded.empty() != opening.empty())
-    throw EntryError("Boundary conditions/" +
-                       std::string(loaded.empty() ? "Controlled load" : "Controlled opening"),
-                     "", "a value, for the other of 'Controlled load' and 'Controlled opening' has one");
+    throw EntryError(
+      "Boundary conditions/" +
+        std::string(loaded.empty() ? "Controlled load" : "Controlled opening"),
+      "", "a value, for the other of 'Controlled load' and 'Controlled opening' has one");
   if (!loaded.empty())
   {
     ControlledLoad<dim> load;
@@ -265,8 +266,7 @@ void BoundaryConditions<dim>::parse_parameters(
                        "'side, side: value' with two sides, once");
     load.from = side(names[0]);
     load.to = side(names[1]);
-    load.opening =
-      parse_value<dim>("Controlled opening", pairs.front().second, dimension::length);
+    load.opening = parse_value<dim>("Controlled opening", pairs.front().second, dimension::length);
     const Point<dim> elsewhere = 1.23 * Point<dim>::unit_vector(0) + Point<dim>::unit_vector(1);
     for (const double time : {0., 0.77})
       if (load.opening.value(Point<dim>(), time) != load.opening.value(elsewhere, time))

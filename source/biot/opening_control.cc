@@ -82,7 +82,8 @@ OpeningControl<dim>::OpeningControl(const ControlledLoad<dim> &load,
                 double inward = 0., along = 0.;
                 for (const unsigned int q : values.quadrature_point_indices())
                 {
-                  const Tensor<1, dim> u = values.JxW(q) / area[side] * values[displacement].value(i, q);
+                  const Tensor<1, dim> u =
+                    values.JxW(q) / area[side] * values[displacement].value(i, q);
                   inward -= u * values.normal_vector(q);
                   along += u * direction;
                 }

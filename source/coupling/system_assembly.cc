@@ -229,7 +229,8 @@ void SystemAssembly<dim>::assemble_nonlinear(const StepContext &context, const S
   for (unsigned int i = 0; i < n_extra; ++i)
     system.residual_extra[i] += linear_residual_extra[i];
   // The cubic law has no potential, so a flowing fracture makes the matrix unsymmetric.
-  system.symmetric = model.requirements().symmetric && !control && unknowns.n_mechanical_extra() == n_extra;
+  system.symmetric =
+    model.requirements().symmetric && !control && unknowns.n_mechanical_extra() == n_extra;
   ++changes.extra_values;
 }
 

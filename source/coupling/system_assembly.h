@@ -178,7 +178,7 @@ private:
 
   std::unique_ptr<BulkAssembly<dim>> bulk;
   std::unique_ptr<NonlinearRock<dim>> nonlinear; ///< null: the rock is linear whatever happens
-  std::unique_ptr<OpeningControl<dim>> control; ///< null: no load is controlled
+  std::unique_ptr<OpeningControl<dim>> control;  ///< null: no load is controlled
   dealii::TrilinosWrappers::BlockSparseMatrix rock_change; ///< see LinearSystem
   bool has_rock_change = false;                            ///< memory, that is
 

@@ -120,8 +120,8 @@ public:
     return extra_numbering.size();
   }
 
-  /// The first extra unknowns are the model's, then comes that of a controlled load; the rest belong
-  /// to fluid.
+  /// The first extra unknowns are the model's, then comes that of a controlled load; the rest
+  /// belong to fluid.
   unsigned int n_mechanical_extra() const
   {
     return n_mechanical;
