@@ -498,7 +498,7 @@ double swelling_share(const Case<dim> &the_case,
 
 
 /// From this share on, nothing that such a run says is of use: kgd/wang/permeable with pore
-/// pressures of 20, 19, 17 and 10 MPa, shares of 0.11, 0.30, 0.69 and 2.0, has after 10 s net
+/// pressures of 20, 19, 17 and 10 MPa, shares of 0.11, 0.30, 0.67 and 2.0, has after 10 s net
 /// pressures 1.1, 1.7, 2.4 and 4.2 times those of the network, and with the last it does not grow.
 constexpr double greatest_swelling_share = 0.5;
 
