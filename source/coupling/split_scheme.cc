@@ -101,6 +101,11 @@ void CouplingParameters::parse_parameters(ParameterHandler &prm)
     throw EntryError("Coupling/Time of full rate", prm.get("Time of full rate"),
                      "0 s without 'Coupling/Scheme = as published': give 'Wells/Well 1/Rate' a "
                      "course in time");
+  for (const char *entry : {"Maximum passes", "Acceleration"})
+    if (const std::string passes_alone = entry == std::string("Acceleration") ? "auto" : "500";
+        restarts() && prm.get(entry) != passes_alone)
+      throw EntryError(std::string("Coupling/") + entry, prm.get(entry),
+                       passes_alone + " with 'Coupling/Scheme = as published', which has one pass");
   prm.leave_subsection();
 }
 

@@ -129,6 +129,13 @@ foreach(angle 0 15 30 45)
     EXPECT "direction > ${least}" "direction < ${most}" "final/fracture_length > 5.5"
            "fluid_balance/relative_error < 1e-8")
 endforeach()
+# From a notch of four cells along the greatest compression, which lies at 22.5 degrees to the mesh, with its middle off
+# the lines of the mesh: as the stress (22.50 seen), over at least 20 cells.
+stockwork_case_test(NAME convergence/damage/bias/22 DECK prm/kgd/rotated/0/damage.prm
+  SET "Resolution=coarse" "Time/End time=3 s" "Output/Fields=false"
+      "In situ/Stress=-22.12132 MPa, -17.87868 MPa, -2.12132 MPa"
+      "Cracks/Open=-0.309552 m, -0.118073 m -> 0.429552 m, 0.188073 m" "Wells/Well 1/Perforations=0.06 m, 0.035 m"
+  EXPECT "direction > 17.5" "direction < 27.5" "final/fracture_length > 3.7" "fluid_balance/relative_error < 1e-8")
 # A disc that grows.
 stockwork_case_test(NAME convergence/damage/disc DECK tests/data/growing_disc.prm NEGATIVE
   SET "Resolution=coarse" "Output/Fields=false"

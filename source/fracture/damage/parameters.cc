@@ -2,6 +2,7 @@
 
 #include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
+#include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
 namespace stockwork::damage
@@ -61,6 +62,19 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.growth = prm.get_bool("Growth");
   p.linear_jumps = prm.get("Jump") == "linear" || (prm.get("Jump") == "auto" && dim == 2);
   p.tensor_fluid = permeability_tensor::is_chosen(prm);
+  prm.leave_subsection();
+  prm.leave_subsection();
+  prm.enter_subsection("Coupling");
+  const bool divides_storage =
+    prm.get("Scheme") == "as published" && prm.get("Storage") == "1/(1-D)";
+  prm.leave_subsection();
+  prm.enter_subsection("Fracture");
+  prm.enter_subsection("damage");
+  if (prm.get("Least integrity") != "0.01" && !divides_storage)
+    throw EntryError(
+      "Fracture/damage/Least integrity", prm.get("Least integrity"),
+      "0.01 without 'Coupling/Scheme = as published' and 'Storage = 1/(1-D)': it has "
+      "no meaning there");
   if (p.tensor_fluid)
   {
     prm.leave_subsection();
