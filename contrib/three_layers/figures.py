@@ -43,9 +43,10 @@ class Run:
         self.resolution = read_deck(directory).get("Resolution", "")
 
     def breakdown(self):
-        """Number of the step with the greatest pressure of the first tenth of the run."""
-        early = max(2, int(np.searchsorted(self.time, 0.1 * self.time[-1])))
-        return int(np.argmax(self.pressure[:early]))
+        """Number of the step with the greatest pressure before it first falls, by a fiftieth of its rise."""
+        greatest = np.maximum.accumulate(self.pressure)
+        fallen = np.flatnonzero(self.pressure < greatest - 0.02 * (greatest - self.pressure[0]))
+        return int(np.argmax(self.pressure[:fallen[0]] if len(fallen) else self.pressure))
 
     def stages(self):
         """Times at which stage II, III and IV begin; NaN where one does not. The pressure falls in II, from

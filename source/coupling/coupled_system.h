@@ -74,6 +74,7 @@ public:
   {
     const double full = coupling_parameters.full_rate_time;
     context.share_of_rates = context.dt < full ? context.dt / full : 1.;
+    context.restarts = true;
     context.damaged_pores = coupling_parameters.damaged_pores;
   }
 

@@ -27,6 +27,7 @@ struct StepContext
   double pressure_rate = 0.;  ///< [1/s]
   double acceleration = 0.;   ///< [1/s^2], zero when quasi-static
   double share_of_rates = 1.; ///< of the rates that are given, what wells inject or produce
+  bool restarts = false;      ///< begins at the start of the run, and is one pass
   bool damaged_pores = false; ///< take up what is injected, see Segment::damaged_storage
 
   /// 1/rate [s]. Mass balances are integrated over this time, see Sink.

@@ -276,8 +276,12 @@ double Damage<dim>::largest_cell(const CrackCell<dim> &crack) const
 
 
 template <int dim>
-void Damage<dim>::begin_step(const StepContext &)
+void Damage<dim>::begin_step(const StepContext &context)
 {
+  // A single pass does not find out that faces part: they have from the start.
+  if (context.restarts && !started)
+    for (CrackCell<dim> &crack : band.cells)
+      crack.carried = 0.;
   n_presses = 0;
   n_advances = 0;
   needs_mesh = arrested = false;
