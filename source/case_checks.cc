@@ -355,6 +355,8 @@ void check_restarts(ParameterHandler &prm, const Case<dim> &the_case)
     refuse({"Fracture flow"}, "Leak-off", "none");
   if (the_case.network.may_cavitate())
     refuse({"Fracture flow"}, "Vapour pressure", "-inf");
+  if (the_case.boundary_conditions.controlled_load())
+    refuse({"Boundary conditions"}, "Controlled load", "nothing (an empty entry)");
 }
 
 
