@@ -182,10 +182,9 @@ void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
     if (properties.stiffness && laws.may_yield())
       refuse("Law", "'elastic' beside rock that may yield");
     const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
-    const bool stress_counts = std::isfinite(properties.permeability_decay_stress);
-    if ((!properties.has_isotropic_permeability() || stress_counts) &&
+    if (!properties.has_isotropic_permeability() &&
         (leak_off == "resolved" || leak_off == "filter cake"))
-      refuse(stress_counts ? "Permeability decay stress" : "Permeability across the layers",
+      refuse("Permeability across the layers",
              "nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
                "', which knows one permeability; or another law of leak-off");
   }
@@ -229,6 +228,13 @@ void check_permeability(ParameterHandler &prm, const Case<dim> &the_case)
         refuse("nothing (an empty entry) with inertia");
       if (the_case.rock(region).plane_stress)
         refuse("nothing (an empty entry) in plane stress; or 'Rock/Plane state = plane strain'");
+      const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
+      // In the elements of the pore pressure, the rock's permeability is what it is there.
+      if ((leak_off == "resolved" && !the_case.model->requirements().fluid_in_pores) ||
+          leak_off == "filter cake")
+        refuse("nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
+               "' from a network of cracks, which knows one permeability; or another law of "
+               "leak-off; or 'Fluid = permeability tensor' with a fracture model that has it");
     }
 }
 

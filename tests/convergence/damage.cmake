@@ -115,6 +115,12 @@ stockwork_same_test(NAME parallel/damage/tensor DECK prm/kgd/sun/permeable/damag
 stockwork_restart_test(NAME restart/damage/tensor DECK prm/kgd/sun/permeable/damage.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 8
   SET "Resolution=coarse" "Time/End time=1 s" "Output/Fields=false" "Fracture/damage/Fluid=permeability tensor"
   IGNORE "balance_error|defect")
+# Where the permeability hangs on the stress but little, it is as if it did not; where it does, on two ranks as on one.
+set(permeable "Resolution=coarse" "Time/End time=1 s" "Output/Fields=false" "Fracture/damage/Fluid=permeability tensor")
+stockwork_same_test(NAME convergence/damage/permeability/constant DECK prm/kgd/sun/permeable/damage.prm TOLERANCE 1e-5
+  IGNORE "balance_error|defect|permeability" SET ${permeable} "Rock/Permeability decay stress=1e5 GPa" SECOND_SET ${permeable})
+stockwork_same_test(NAME parallel/damage/permeability DECK prm/kgd/sun/permeable/damage.prm RANKS 1,2 TOLERANCE 1e-8
+  IGNORE "balance_error|defect" SET ${permeable} "Rock/Permeability decay stress=1 MPa")
 # A minifrac closes at the least in-situ stress, 4 MPa.
 stockwork_case_test(NAME convergence/minifrac/damage DECK prm/minifrac/damage.prm
   EXPECT "closure/first_contact = 4e6 within 0.02" "closure/g_function = 4e6 within 0.02" # 0.0054, 0.013
