@@ -117,11 +117,14 @@ void Damage<dim>::find_segments()
     // Zhang et al., Eqs 23 and 24: with D the compressibility of the pores grows by 1/(1 - D). That
     // of the rock is 1/K for grains that are not compressed. At D = 1 it would be infinite.
     const double integrity = std::max(1. - damage(crack), parameters.least_integrity);
-    segment.damaged_storage =
-      crack.size_across() /
-      (scene.rock.at(crack.region, crack.centre()).bulk_modulus() * integrity);
+    const RockProperties rock = scene.rock.at(crack.region, crack.centre());
+    segment.damaged_storage = crack.size_across() / (rock.bulk_modulus() * integrity);
     if (parameters.tensor_fluid)
+    {
+      // The intact rock's, alpha^2/K, is in the elements of the pore pressure already.
+      segment.damaged_storage *= std::pow(rock.biot_coefficient, 2) * (1. - integrity);
       permeability_tensor::leave_to_pores(segment);
+    }
   }
 }
 
