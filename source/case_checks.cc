@@ -373,7 +373,7 @@ void check_restarts(ParameterHandler &prm, const Case<dim> &the_case)
     const double closing = closing_stress(the_case.scene, crack),
                  pores = the_case.scene.in_situ_pore_pressure(crack.disc ? crack.disc->centre
                                                                          : crack.points.front());
-    if (in_pores && std::abs(closing - pores) > 1e-6 * std::abs(closing))
+    if (in_pores && std::abs(closing - pores) > 1e-3 * std::abs(closing))
       refuse({"In situ"}, "Pore pressure",
              "the stress across the crack '" + crack.text + "', " +
                to_string(closing, dimension::pressure) +
