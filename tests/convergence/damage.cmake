@@ -209,7 +209,8 @@ stockwork_case_test(NAME convergence/damage/as_published/compliance DECK ${publi
 set(pair prm/kgd/wang/as_published/permeable/damage.prm)
 stockwork_case_test(NAME convergence/damage/as_published/pair DECK ${pair} LABELS quick SET "Resolution=coarse"
   EXPECT "final/fluid_balance_error > 0.5" # 0.85
-         "final/lost_volume = final/fluid_volume_defect within 1e-9" "final/fracture_length < 8" "warnings == 2" WARNS "in the fracture and in the pores, and the difference is lost")
+         "final/lost_volume = final/fluid_volume_defect within 1e-4" # which counts the compression of the fluid in the crack
+         "final/fracture_length < 8" "warnings == 2" WARNS "in the fracture and in the pores, and the difference is lost")
 stockwork_case_test(NAME convergence/damage/as_published/pair/compliance DECK ${pair} LABELS quick
   SET "Resolution=coarse" "Coupling/Storage=compliance"
   EXPECT "final/fluid_balance_error = 0.244 within 0.02" # 0.2471
@@ -218,7 +219,7 @@ set(without_biot "Coupling/Scheme=as published" "Coupling/Storage=compliance" "R
   "Rock/Biot modulus=22 GPa")
 stockwork_case_test(NAME convergence/damage/as_published/pair/no_biot DECK ${pair} LABELS quick
   SET "Resolution=coarse" ${without_biot} "Fluid/Bulk modulus=inf"
-  EXPECT "final/fluid_balance_error < 1e-6" "final/fluid_volume_defect < 1e-8" "final/fluid_volume_defect > -1e-8")
+  EXPECT "final/fluid_balance_error < 1e-9" "final/fluid_volume_defect < 1e-12" "final/fluid_volume_defect > -1e-12") # 3e-12, 3e-14
 stockwork_same_test(NAME parallel/damage/as_published/pair DECK ${pair} RANKS 1,2 TOLERANCE 1e-7
   SET "Resolution=coarse" "Time/End time=10 s" "Output/Fields=false" "Coupling/Storage=compliance")
 stockwork_restart_test(NAME restart/damage/as_published/pair DECK ${pair} RANKS 1,2 TOLERANCE 1e-7 AFTER 20
