@@ -30,7 +30,7 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "of rows that yield up to which multigrid is helped by a factor of these.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
   prm.declare_entry("Restart", "50", Integer(2), "Basis vectors FGMRES keeps before a restart.");
-  prm.declare_entry("Dense fracture below", "100", Integer(0),
+  prm.declare_entry("Dense fracture below", "0", Integer(0),
                     "Unknowns of the fracture up to which the iterative solver's system for the "
                     "fracture is dense; beyond, it is sparse and approximate.");
   prm.leave_subsection();
