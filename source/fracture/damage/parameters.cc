@@ -28,7 +28,8 @@ void Parameters::declare(dealii::ParameterHandler &prm)
   number("Front share per step", "0", Range::closed(0., 1.),
          "Share of the cells at the front, of those at half of their threshold or beyond, that may "
          "crack in a step without making the next one shorter. 0: none. A front of many cells, in "
-         "three dimensions, has some that crack in nearly every step; 0.5 takes fewer steps, at a cost in "
+         "three dimensions, has some that crack in nearly every step; 0.5 takes fewer steps, at a "
+         "cost in "
          "accuracy.");
   prm.declare_entry(
     "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
