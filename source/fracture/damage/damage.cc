@@ -286,7 +286,7 @@ void Damage<dim>::begin_step(const StepContext &context)
     for (CrackCell<dim> &crack : band.cells)
       crack.carried = 0.;
   n_presses = 0;
-  n_advances = 0;
+  n_advances = n_moving = n_cracked = 0;
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;
