@@ -335,13 +335,20 @@ void Report<dim>::watch(const WellReport &well, const double net_pressure)
              to_string(well.inlet_aperture, dimension::length) +
              "): the faces of the fracture overlap there" + now);
   }
+  const double volume = stepper.fluid_balance().fracture_volume;
+  if (volume < -1e-3 * open * shown.length && !warned_of_volume)
+  {
+    warned_of_volume = true;
+    run.warn("The fracture holds less than nothing: its faces overlap by " +
+             to_string(-volume / shown.length, dimension::length) +
+             " on the average, and the wells produce fluid that was not injected" + now);
+  }
   const RockProperties &main = rock.main();
   const double wing = shown.length / std::max(shown.n_tips, 1u);
   if (warned_of_pressure || dim != 2 || !(wing > 0.) || std::isnan(main.energy_release_rate))
     return;
   // What opens a crack of this length against toughness, what the flow along it takes, and what a
   // short one needs besides to part the rock; three times that is far above all of them.
-  const double volume = stepper.fluid_balance().fracture_volume;
   const double aperture = std::max({well.inlet_aperture, volume / shown.length, 1e-12});
   const double flow =
     12. * rock.fluid().viscosity * std::abs(well.rate) * wing / std::pow(aperture, 3);

@@ -250,6 +250,19 @@ void Damage<dim>::start(const Collectives &collectives)
            << " m as in the deck: cracks of this model have whole cells.";
       messages.push_back(text.str());
     }
+    if (crack.disc)
+    {
+      // Of a disc that planes of symmetry cut, the model has a part.
+      const double wanted = dealii::numbers::PI * crack.disc->radius * crack.disc->radius,
+                   size = passed.front().size();
+      if (length > 1.02 * wanted || size > 0.5 * crack.disc->radius)
+      {
+        std::ostringstream text;
+        text << "A disc of radius " << crack.disc->radius << " m, " << wanted << " m^2, is "
+             << passed.size() << " whole cells of " << size << " m here, " << length << " m^2.";
+        messages.push_back(text.str());
+      }
+    }
   }
   band.replace(all);
   committed = all;
