@@ -1,6 +1,8 @@
 """Curves: error against cost, histories, profiles and paths."""
+import math
+
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from plot import profile as along
 from plot import vtu
@@ -11,47 +13,77 @@ from study.difference import histories
 from study.look import legend_below, plt
 
 COSTS = (("cpu_seconds", "CPU time [s]"), ("unknowns", "unknowns"))
+MARK_SIZES = {"coarse": 3.5, "medium": 5.5, "fine": 7.5}
 
 
 def error_against_cost(rows, error, label, styles):
-    """Log-log, one line per model and variant; the Pareto front, and the cheapest for each accuracy wanted."""
+    """Log-log, against CPU time and against unknowns."""
     figure, axes = plt.subplots(1, 2, figsize=(10, 3.4), sharey=True)
     for ax, (cost, cost_label) in zip(axes, COSTS):
-        for curve, of_curve in rows.groupby("curve", sort=False):
-            there = sorted(points(of_curve, cost, error), key=lambda p: p[0])
-            if there:
-                ax.plot([p[0] for p in there], [100 * p[1] for p in there], label=curve, lw=1.2, ms=5,
-                        **styles[curve])
-        best = front(points(rows, cost, error))
-        if len(best) > 1:
-            ax.plot([p[0] for p in best], [100 * p[1] for p in best], color="0.75", lw=6, zorder=0,
-                    solid_capstyle="round", label="Pareto front")
-        marked = {}
-        for wanted, point in cheapest(rows, error, cost):
-            if point:
-                marked.setdefault(point[:2], []).append(f"{100 * wanted:g}")
-        for (x, y), texts in marked.items():
-            ax.plot(x, 100 * y, "o", ms=12, mfc="none", mec="0.3", mew=0.8)
-            ax.annotate(f"≤ {', '.join(texts)} %", (x, 100 * y), xytext=(7, 7), textcoords="offset points",
-                        fontsize=8, color="0.2")
-        ax.set_xscale("log")
-        ax.set_yscale("log")
+        accuracy(ax, rows, error, cost, styles)
         ax.set_xlabel(cost_label)
-        for axis in (ax.xaxis, ax.yaxis):
-            few_decades(axis)
-        ax.margins(0.12)
-        ax.grid(which="both")
     axes[0].set_ylabel(label)
     return legend_below(figure)
 
 
+def all_cases(cases, styles):
+    """Error against CPU time, a panel for each of [(case, rows, error, label)]."""
+    columns = min(3, len(cases))
+    lines = -(-len(cases) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(max(3.6 * columns, 5), 2.9 * lines), squeeze=False)
+    for ax in axes.flat[len(cases):]:
+        ax.remove()
+    for ax, (case, rows, error, label) in zip(axes.flat, cases):
+        accuracy(ax, rows, error, "cpu_seconds", styles)
+        ax.set_title(case, fontsize=9)
+        ax.set_xlabel("CPU time [s]")
+        ax.set_ylabel(label)
+    return legend_below(figure)
+
+
+def accuracy(ax, rows, error, cost, styles):
+    """One line per model and variant, larger marks where the mesh is finer; the Pareto front, and the cheapest for each
+    accuracy wanted."""
+    for curve, of_curve in rows.groupby("curve", sort=False):
+        there = sorted(points(of_curve, cost, error), key=lambda p: p[0])
+        line = {k: v for k, v in styles[curve].items() if k != "marker"}
+        mark = {k: v for k, v in styles[curve].items() if k != "linestyle"}
+        if there:
+            ax.plot([p[0] for p in there], [100 * p[1] for p in there], lw=1.2, **line)
+            ax.plot([], [], label=curve, lw=1.2, ms=5, **styles[curve])
+        for x, y, row in there:
+            ax.plot(x, 100 * y, ms=MARK_SIZES.get(row["resolution"], 5), linestyle="", **mark)
+    best = front(points(rows, cost, error))
+    if len(best) > 1:
+        ax.plot([p[0] for p in best], [100 * p[1] for p in best], color="0.85", lw=6, zorder=0,
+                solid_capstyle="round", label="Pareto front")
+    marked = {}
+    for wanted, point in cheapest(rows, error, cost):
+        if point:
+            marked.setdefault(point[:2], []).append(f"{100 * wanted:g}")
+    for (x, y), texts in marked.items():
+        ax.plot(x, 100 * y, "o", ms=13, mfc="none", mec="0.3", mew=0.8)
+        ax.annotate(f"≤ {', '.join(texts)} %", (x, 100 * y), xytext=(7, 7), textcoords="offset points",
+                    fontsize=8, color="0.2")
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.margins(0.12)
+    for axis in (ax.xaxis, ax.yaxis):
+        few_decades(axis)
+
+
 def few_decades(axis):
-    """Numbers that can be read where there is less than a decade or two."""
-    axis.set_major_locator(LogLocator(subs=(1.,)))
-    axis.set_minor_locator(LogLocator(subs=(2., 5.)))
+    """From one of 1, 2, 5, 10, ... to another, so that there are numbers to read however little the values differ."""
+    low, high = axis.get_view_interval()
+    numbers = [m * 10.**e for e in range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 1) for m in (1, 2, 5)]
+    first, last = max(n for n in numbers if n <= low), min(n for n in [*numbers, 10. * numbers[-1]] if n >= high)
+    shown = [n for n in numbers if first <= n <= last]
+    if last > 300. * first:
+        shown = [n for n in shown if math.log10(n) % 1 < 1e-9]
+    axis.set_view_interval(first, last, ignore=True)
+    axis.set_major_locator(FixedLocator(shown))
+    axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axis.set_minor_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axis.set_tick_params(which="minor", labelsize=7)
 
 
 def finest(results):

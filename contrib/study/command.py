@@ -51,7 +51,7 @@ def run_study(options, study):
     title = study.title or study.name
     write_about(output, {"title": title, "text": study.text, "quantities": study.quantities})
     show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), title, study.text,
-         study.quantities)
+         study.quantities, options.into)
     return 1 if any(record["status"] == "failed" for record in records) else 0
 
 
@@ -61,16 +61,19 @@ def report(options):
     study = about(first) if len(options.directories) == 1 else {}
     show(options.directories, options.output or os.path.join(first, "report"),
          options.title or study.get("title") or os.path.basename(os.path.abspath(first)), study.get("text", ""),
-         options.quantities or study.get("quantities", []))
+         options.quantities or study.get("quantities", []), options.into)
     return 0
 
 
-def show(directories, folder, title, text, quantities):
+def show(directories, folder, title, text, quantities, into=None):
     """The page and, on the terminal, the table."""
+    from study import markdown, verdict
     from study import report as pages
-    from study import verdict
     from study.collect import results
-    path, rows = pages.write(results(directories), folder, title, text, quantities)
+    found = results(directories)
+    path, rows = pages.write(found, folder, title, text, quantities)
+    if into:
+        markdown.write(found, rows, into.removesuffix(".md"), title, text, quantities)
     print(verdict.by_case(rows, quantities, verdict.plain) + "\n\n" + path)
     there = [c[len("error_end_"):] for c in rows.columns if c.startswith("error_end_")]
     missing = [name for name in quantities if name not in there]
@@ -103,6 +106,9 @@ def main():
     sub.add_argument("--output", metavar="DIR", help="otherwise DIRECTORY/report")
     sub.add_argument("--title")
     sub.add_argument("--quantities", nargs="+")
+    for sub in commands.choices.values():
+        sub.add_argument("--into", metavar="FILE", help="a page of Markdown as well, and its picture: FILE.md, FILE.png; "
+                         "what its author has written above the runs is kept")
     options = parser.parse_args()
 
     def interrupted(*_):

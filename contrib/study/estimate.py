@@ -5,8 +5,9 @@ import subprocess
 
 from study.fingerprint import fingerprint
 
-SECONDS = {"s": 1., "min": 60., "h": 3600., "days": 86400.}
+SECONDS = {"ms": 1e-3, "s": 1., "min": 60., "h": 3600., "days": 86400.}
 START = 0.5    # seconds until a program has loaded its libraries
+AT_MOST = "if none were longer than the first"    # what the program says of steps whose growth it cannot tell
 
 
 def check(program, job, record):
@@ -22,7 +23,7 @@ def check(program, job, record):
         command += ["--set", setting]
     audit = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                            check=False, text=True, errors="replace").stdout
-    found = re.search(r"would take (\S+) (s|min|h|days) on one core", audit)
+    found = re.search(r"would take (\S+) (ms|s|min|h|days) on one core", audit)
     seconds = max(START, float(found[1]) * SECONDS[found[2]]) if found else None
     return {"audit": audit, "fingerprint": mark, "seconds": seconds}
 
@@ -40,7 +41,7 @@ def guess(job, checked, records):
                   if all(r[key] == getattr(job, key) for key in alike)]
         if ratios:
             return statistics.median(ratios) * checked["seconds"] / job.ranks, "earlier runs like it"
-    return checked["seconds"] / job.ranks, "--check, at most"
+    return checked["seconds"] / job.ranks, "--check, at most" if AT_MOST in checked["audit"] else "--check"
 
 
 def in_time(seconds):

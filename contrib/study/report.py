@@ -11,6 +11,8 @@ from study.page import Page
 from study.sketch import sketch
 
 WORST = "error_mean_the_worst_quantity"
+CHART = ("Circles: the cheapest setting for the error beside them. Grey: the Pareto front. The finer the mesh, the larger "
+         "the mark.")
 
 
 def write(results, folder, title, text="", wanted=()):
@@ -81,41 +83,58 @@ def table_of_runs(page, rows, wanted):
                   "the processor on all ranks. " + verdict.ALONE, note=True)
 
 
+def charted(rows, wanted):
+    """(rows with the worst of several errors, [(column of the error, name)], "error" or "difference")."""
+    names = verdict.quantities(rows, wanted)
+    rows = rows.copy()
+    columns = [(f"error_mean_{name}", name.replace("_", " ")) for name in names]
+    if len(names) > 1:
+        rows[WORST] = worst_of(rows, names)
+        columns.insert(0, (WORST, "the worst of " + ", ".join(n.replace("_", " ") for n in names)))
+    return rows, columns, "difference" if rows["differs"].any() else "error"
+
+
+def axis_label(error, name, what):
+    return f"mean {what} [%]" if error == WORST else f"mean {what} of the\n{name} [%]"
+
+
+def overview(rows, wanted, look):
+    """The first chart of each case, in one picture; None without any."""
+    cases = [(case, *charted(here, wanted)) for case, here in rows.groupby("case", sort=False)]
+    panels = [(case, here, columns[0][0], axis_label(*columns[0], what)) for case, here, columns, what in cases if columns]
+    return charts.all_cases(panels, look) if panels else None
+
+
 def cost(page, rows, wanted, look):
     page.section("cost", "Error against cost")
-    for case, here in rows.groupby("case", sort=False):
-        names = verdict.quantities(here, wanted)
+    cases = list(rows.groupby("case", sort=False))
+    if len(cases) > 1:
+        page.picture("overview", overview(rows, wanted, look), "All cases: the first chart of each. " + CHART)
+    for case, here in cases:
         page.heading(case)
-        if not names:
+        here, columns, what = charted(here, wanted)
+        if not columns:
             page.text("No errors and no differences: one run, or none that has finished.")
             continue
-        here = here.copy()
-        what = "difference" if here["differs"].any() else "error"
-        charted = [(f"error_mean_{name}", name.replace("_", " ")) for name in names]
-        if len(names) > 1:
-            here[WORST] = worst_of(here, names)
-            charted.insert(0, (WORST, "the worst of " + ", ".join(n.replace("_", " ") for n in names)))
         disturbed = (here["others_share"].fillna(0.) > verdict.ALONE_BELOW).sum()
         if disturbed:
             page.text(f"Of {len(here)} runs, {disturbed} had to share their core with others while they ran: their times are "
                       "too long, and not fit to be compared.")
-        for error, name in charted:
-            figure = charts.error_against_cost(
-                here, error, f"mean {what} [%]" if error == WORST else f"mean {what} of the\n{name} [%]", look)
+        for error, name in columns:
+            figure = charts.error_against_cost(here, error, axis_label(error, name, what), look)
             page.picture(file_name(case, "cost", error[len("error_mean_"):]), figure,
-                         f"{case}: mean {what} of {name} against CPU time and unknowns. Circles: the cheapest setting for "
-                         f"the {what} beside it. Grey: the Pareto front.")
-        error, name = charted[0]
+                         f"{case}: mean {what} of {name} against CPU time and unknowns. " + CHART)
+        error, name = columns[0]
         page.text(f"The cheapest setting for a mean {what} of {name}:")
         page.table(["wanted [%]", "setting", f"{what} [%]", "CPU [s]", "unknowns"],
                    [[f"{100 * w:g}", *(setting(best) if best else ["none of these runs", "", "", ""])]
                     for w, best in cheapest(here, error)])
         found = [[curve, f"{a['resolution']} → {b['resolution']}", *order]
                  for curve, pairs in orders(here, error).items()
-                 for (a, b, _), order in zip(pairs, zip(*(orders_of(here, e, curve) for e, _ in charted)))]
+                 for (a, b, _), order in zip(pairs, zip(*(orders_of(here, e, curve) for e, _ in columns)))]
         if found:
             page.text("Observed orders in the size of the cells (time steps as the decks refine them):")
-            page.table(["model", "between", *(n if e != WORST else "worst" for e, n in charted)], found)
+            page.table(["model", "between", *(n if e != WORST else "worst" for e, n in columns)], found)
 
 
 def setting(best):

@@ -38,7 +38,7 @@ deck = open(sys.argv[1]).read().split()[0]
 settings = dict(a.split("=", 1) for a in sys.argv if "=" in a)
 h = {"coarse": 1., "medium": 0.5}[settings.get("Resolution", "coarse")]
 if "--check" in sys.argv:
-    print("Scene audit\\n  a number  7  decides\\n 5 steps of 1 s would take 2 s on one core")
+    print("Scene audit\\n  a number  7  decides\\n about 5 steps would take 2 s on one core")
 else:
     output = sys.argv[sys.argv.index("--output") + 1]
     open(os.path.join(os.path.dirname(sys.argv[1]), "started"), "a").write(deck + " ")
@@ -141,7 +141,7 @@ class StandIn(InADirectory):
         study = self.study("good.prm", "bad.prm", resolutions=["coarse", "medium"])
         command = ("run", study, "--program", self.program, "--output", "out", "--cores", "1")
         text = self.call(*command, "--estimate", status=0)
-        self.assertIn("4 runs, 4 of them to do: about 8 s on 1 core(s) (4 by --check, at most)", text)
+        self.assertIn("4 runs, 4 of them to do: about 8 s on 1 core(s) (4 by --check)", text)
         self.assertFalse(os.path.exists("started"))
         text = self.call(*command, status=1)
         self.assertEqual(self.started(), ["good", "good", "bad", "bad"])
@@ -211,6 +211,17 @@ class StandIn(InADirectory):
                   "--output", "out", status=0)
         self.call("report", "out", "--output", "titled", status=0)
         self.assertIn("<h1>A title</h1>", self.page("titled")[0])
+        self.call("report", "out", "--into", "doc/page", status=0)
+        with open("doc/page.md", encoding="utf-8") as file:
+            text = file.read()
+        self.assertTrue(text.startswith("# A title\n\n## The runs\n"), text)
+        self.assertIn("| good |  | finished | 1 (2) | 4 | 5 | 0.1 |", text)
+        self.assertIn("(page.png)", text)
+        self.assertTrue(os.path.exists("doc/page.png"))
+        self.file("doc/page.md", text.replace("A title", "By hand"))
+        self.call("report", "out", "--into", "doc/page.md", status=0)
+        with open("doc/page.md", encoding="utf-8") as file:
+            self.assertEqual(file.read(), text.replace("A title", "By hand"))
         self.assertIn("no run has an error of 'foo'", self.call(
             "run", self.study("good.prm", quantities=["foo"]), "--program", self.program, "--output", "out", status=1))
         self.assertIn("there is no directory 'three'", self.call("report", "three", status=1))
@@ -271,9 +282,11 @@ class Parts(unittest.TestCase):
 
     def test_estimate(self):
         job = matrix.Job("c", "m", "d", "fine", 2, (), (), 0.)
-        checked = {"seconds": 100., "fingerprint": "new"}
+        checked = {"seconds": 100., "fingerprint": "new", "audit": "about 5 steps"}
         record = {"case": "c", "model": "m", "ranks": 1, "wall_seconds": 5., "estimate": 50., "fingerprint": "old"}
-        self.assertEqual(estimate.guess(job, checked, []), (50., "--check, at most"))
+        self.assertEqual(estimate.guess(job, checked, []), (50., "--check"))
+        self.assertEqual(estimate.guess(job, {**checked, "audit": "5 steps if none were longer than the first"}, []),
+                         (50., "--check, at most"))
         self.assertEqual(estimate.guess(job, checked, [record, {**record, "case": "other", "wall_seconds": 50.}]),
                          (5., "earlier runs like it"))
         self.assertEqual(estimate.guess(job, checked, [{**record, "fingerprint": "new"}]),

@@ -1,0 +1,46 @@
+"""A study as a page of Markdown with one picture, for doc/."""
+import os
+
+from study import report, verdict
+from study.collect import RESOLUTIONS
+from study.estimate import in_time
+from study.look import plt, styles
+
+# What stands above this line was written by hand, and is kept.
+MADE = "## The runs"
+
+
+def write(results, rows, path, title, text="", wanted=()):
+    """Write PATH.md and PATH.png."""
+    name = os.path.basename(path)
+    os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
+    figure = report.overview(rows, wanted, styles(results))
+    lines = [by_hand(path + ".md") or f"# {title}\n\n{text}".rstrip(), "", MADE, "", made(results, rows)]
+    if figure:
+        figure.savefig(path + ".png", dpi=100, bbox_inches="tight", metadata={"Software": None})
+        plt.close(figure)
+        lines += ["", f"![Error against CPU time]({name}.png)", "", report.CHART]
+    for case, here in rows.groupby("case", sort=False):
+        against = next((a for a in here["against"] if a), "nothing")
+        lines += ["", f"### {case}", "", f"Measured against: {against}.", "",
+                  verdict.markdown(verdict.shown(here, wanted).drop(columns=["case"]))]
+    with open(path + ".md", "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+def by_hand(path):
+    if not os.path.exists(path):
+        return ""
+    with open(path, encoding="utf-8") as file:
+        return file.read().split(MADE)[0].rstrip()
+
+
+def made(results, rows):
+    """How many runs, how long, and where."""
+    done = ", ".join(r for r in RESOLUTIONS if (rows["resolution"] == r).any())
+    versions = sorted({f"Stockwork {s.get('version', '')} with deal.II {s.get('dealii_version', '')}, {s.get('machine', '')}, "
+                       f"{s.get('date', '')[:10]}" for s in (r.summary for r in results) if s})
+    failed = (rows["status"] == "failed").sum()
+    return (f"{len(rows)} runs{done and f' ({done})'}, {failed} of them failed; {in_time(rows['cpu_seconds'].sum())} of the "
+            f"processor in all. {'; '.join(versions)}. Errors are relative, at the end and, in brackets, on average over the "
+            f"history. {verdict.ALONE}")
