@@ -1,8 +1,10 @@
 #include "case_checks.h"
 
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
 
 #include "base/parameter_tree.h"
+#include "scales.h"
 
 #include <algorithm>
 #include <set>
@@ -182,10 +184,9 @@ void check_layers(ParameterHandler &prm, const RockLaws &laws, const Rock &rock)
     if (properties.stiffness && laws.may_yield())
       refuse("Law", "'elastic' beside rock that may yield");
     const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
-    const bool stress_counts = std::isfinite(properties.permeability_decay_stress);
-    if ((!properties.has_isotropic_permeability() || stress_counts) &&
+    if (!properties.has_isotropic_permeability() &&
         (leak_off == "resolved" || leak_off == "filter cake"))
-      refuse(stress_counts ? "Permeability decay stress" : "Permeability across the layers",
+      refuse("Permeability across the layers",
              "nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
                "', which knows one permeability; or another law of leak-off");
   }
@@ -229,6 +230,13 @@ void check_permeability(ParameterHandler &prm, const Case<dim> &the_case)
         refuse("nothing (an empty entry) with inertia");
       if (the_case.rock(region).plane_stress)
         refuse("nothing (an empty entry) in plane stress; or 'Rock/Plane state = plane strain'");
+      const std::string leak_off = value_of(prm, {"Fracture flow"}, "Leak-off");
+      // In the elements of the pore pressure, the rock's permeability is what it is there.
+      if ((leak_off == "resolved" && !the_case.model->requirements().fluid_in_pores) ||
+          leak_off == "filter cake")
+        refuse("nothing (an empty entry) with 'Fracture flow/Leak-off = " + leak_off +
+               "' from a network of cracks, which knows one permeability; or another law of "
+               "leak-off; or 'Fluid = permeability tensor' with a fracture model that has it");
     }
 }
 
@@ -347,12 +355,30 @@ void check_restarts(ParameterHandler &prm, const Case<dim> &the_case)
     refuse({"Fracture"}, "Model", "damage");
   if (the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
     refuse({"Time"}, "Scheme", "auto or backward Euler");
-  if (the_case.elements.has_pore_pressure)
-    refuse({"Rock"}, "Bulk model", "elastic (fluid in a network of cracks, none in pores)");
+  const bool in_pores = the_case.model->requirements().fluid_in_pores;
+  if (the_case.elements.has_pore_pressure && !in_pores)
+    refuse({"Rock"}, "Bulk model",
+           "elastic (fluid in a network of cracks, none in pores), or 'Fracture/damage/Fluid = "
+           "permeability tensor',");
+  for (const auto &[region, law] : the_case.laws.all())
+    if (law->changes_permeability())
+      refuse_in_region(prm, region, "Permeability decay stress", "nothing (an empty entry)" + with);
   if (!the_case.laws.are_linear())
     refuse({"Rock"}, "Law", "elastic");
-  if (the_case.network.leak_off_law() != LeakOff::none)
+  if (the_case.network.leak_off_law() != LeakOff::none && !in_pores)
     refuse({"Fracture flow"}, "Leak-off", "none");
+  // One pass does not find out when faces part: they have from the start.
+  for (const InitialCrack<dim> &crack : the_case.scene.cracks)
+  {
+    const double closing = closing_stress(the_case.scene, crack),
+                 pores = the_case.scene.in_situ_pore_pressure(crack.disc ? crack.disc->centre
+                                                                         : crack.points.front());
+    if (in_pores && std::abs(closing - pores) > 1e-3 * std::abs(closing))
+      refuse({"In situ"}, "Pore pressure",
+             "the stress across the crack '" + crack.text + "', " +
+               to_string(closing, dimension::pressure) +
+               ", where the elements of the pore pressure carry the fluid of fractures,");
+  }
   if (the_case.network.may_cavitate())
     refuse({"Fracture flow"}, "Vapour pressure", "-inf");
   if (the_case.boundary_conditions.controlled_load())

@@ -126,7 +126,7 @@ private:
   Outcome shown;
   std::set<unsigned int> dry_wells, reached_wells,
     fracturing_wells; ///< of which this has been said
-  bool warned_of_aperture = false, warned_of_pressure = false;
+  bool warned_of_aperture = false, warned_of_volume = false, warned_of_pressure = false;
   RunSummary summary;
   double start_of_run;
   unsigned int steps_of_run = 0; ///< a restarted run has more in its summary

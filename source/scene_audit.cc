@@ -344,20 +344,31 @@ void add_strength(const Case<dim> &the_case,
 
 namespace
 {
-/// What the in-situ stress leaves of the permeability, in the middle of the domain.
+/// Share of the permeability that the in-situ stress leaves at a place.
+template <int dim>
+double permeability_left(const Case<dim> &the_case,
+                         const types::material_id region,
+                         const Point<dim> &place)
+{
+  if (!the_case.laws(region).changes_permeability())
+    return 1.;
+  const RockProperties &rock = the_case.rock(region);
+  RockState state;
+  state.in_situ_stress = the_case.scene.in_situ_tensor(place, rock);
+  state.in_situ_pressure = the_case.scene.in_situ_pore_pressure(place);
+  RockResponse response;
+  the_case.laws(region).evaluate(ArrayView<const RockState>(&state, 1),
+                                 ArrayView<RockResponse>(&response, 1));
+  return trace(response.permeability) / trace(rock.template permeability_tensor<3>());
+}
+
+
 template <int dim>
 void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
 {
-  const RockProperties &rock = the_case.rock.main();
   const Point<dim> centre =
     the_case.geometry.lower() + 0.5 * (the_case.geometry.upper() - the_case.geometry.lower());
-  RockState state;
-  state.in_situ_stress = the_case.scene.in_situ_tensor(centre, rock);
-  state.in_situ_pressure = the_case.scene.in_situ_pore_pressure(centre);
-  RockResponse response;
-  the_case.laws(0).evaluate(ArrayView<const RockState>(&state, 1),
-                            ArrayView<RockResponse>(&response, 1));
-  const double left = trace(response.permeability) / trace(rock.template permeability_tensor<3>());
+  const double left = permeability_left(the_case, 0, centre);
   const bool is_tight = left<1e-6, is_wide = left> 1e3;
   numbers.push_back({"share of the permeability left in situ", left,
                      std::string("in the middle of the domain, by the mean effective stress; ") +
@@ -365,7 +376,8 @@ void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbe
                                    "stress' right?"
                         : is_wide ? "tension widens the pores: are the signs of the stress and the "
                                     "unit of 'Rock/Permeability decay stress' right?"
-                                  : "the numbers of diffusion here are with 'Rock/Permeability'"),
+                                  : "the numbers of diffusion here are with 'Rock/Permeability' "
+                                    "itself, but for fluid in pores"),
                      is_tight || is_wide});
 }
 
@@ -521,9 +533,10 @@ void add_fluid_in_pores(const Case<dim> &the_case,
   double diffusivity = std::numeric_limits<double>::infinity(), swelling = 0.;
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)
   {
-    const types::material_id region =
-      mesh.region_at(crack.disc ? crack.disc->centre : crack.points.front());
-    diffusivity = std::min(diffusivity, pressure_diffusivity(the_case, region));
+    const Point<dim> place = crack.disc ? crack.disc->centre : crack.points.front();
+    const types::material_id region = mesh.region_at(place);
+    diffusivity = std::min(diffusivity, permeability_left(the_case, region, place) *
+                                          pressure_diffusivity(the_case, region));
     const RockProperties &rock = the_case.rock(region);
     if (!std::isnan(rock.energy_release_rate))
       swelling = std::max(swelling, swelling_share(the_case, crack, rock, mesh.smallest));

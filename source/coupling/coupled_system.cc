@@ -150,9 +150,29 @@ NonlinearReport CoupledSystem<dim>::pass_as_published(const StepContext &context
   for (unsigned int i = 0; i < unknowns.n_extra(); ++i)
     current.extra[i] =
       i < unknowns.n_mechanical_extra() ? (1. - trace) * current.extra[i] : start.extra[i];
+  auto values = unknowns.owned_vector();
+  copy_owned(values, current.bulk);
+  // What the stress that the step before has left presses into the pores, less than none where it
+  // is a compression: Q_pc of Eq. 37, alpha div u - alpha^2/K_dr p.
+  auto pressed_in = unknowns.owned_vector();
+  const bool has_pores = values.n_blocks() > 1;
+  if (has_pores)
+  {
+    const LinearSystem &system = assembly.linear_system();
+    const auto pressures = values.block(1);
+    values.block(1) = 0.;
+    unknowns.constrain(values, current.bulk);
+    assembly.assemble_linear(context, this->state(current, current, start, start));
+    system.fixed_stress_mass.vmult(pressed_in.block(1), pressures);
+    pressed_in.block(1) += system.residual_bulk.block(1);
+    assembly.assemble_linear(context, this->state(current, current, current, current));
+    pressed_in.block(1) -= system.residual_bulk.block(1);
+  }
   const State state = this->state(current, current, current, current);
   assembly.assemble_linear(context, state);
   assembly.assemble_nonlinear(context, state);
+  if (has_pores)
+    assembly.linear_system().residual_bulk.block(1) += pressed_in.block(1);
 
   NonlinearReport report;
   auto dx_bulk = unknowns.owned_vector();
@@ -170,8 +190,6 @@ NonlinearReport CoupledSystem<dim>::pass_as_published(const StepContext &context
     report.reason = error.what();
     return report;
   }
-  auto values = unknowns.owned_vector();
-  copy_owned(values, current.bulk);
   values.add(1., dx_bulk);
   unknowns.constrain(values, current.bulk);
   for (unsigned int i = 0; i < dx_extra.size(); ++i)

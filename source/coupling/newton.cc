@@ -121,7 +121,8 @@ double Newton<dim>::linear_tolerance(const ResidualNorms &allowed)
   if (linear)
     return parameters.tolerance;
   // Where the rock's factor solves the system, a looser one would save nothing.
-  if (assembly.linear_system().rock_change == nullptr)
+  const LinearSystem &system = assembly.linear_system();
+  if (system.rock_change == nullptr && !solver.wants_hierarchy(system.residual_bulk.size()))
     return ForcingTerm::exact;
   double residual = 0., excess = 0.;
   const auto add = [&](const double norm, const double scale, const double allowed)

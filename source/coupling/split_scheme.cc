@@ -179,7 +179,7 @@ double SplitScheme::update_blocks(const SystemOperator &whole, const SystemStamp
       parameters.scheme == Scheme::undrained && has_pore_pressure)
     undrained_term(mechanics.bulk());
   if (flow.update(whole, stamps, {has_pore_pressure, 1, n_mechanical, whole.n_extra()}) &&
-      parameters.adds_compliance())
+      (parameters.adds_compliance() || parameters.restarts()))
     flow.bulk().add(-parameters.stabilisation, whole.system().fixed_stress_mass);
   return parameters.adds_compliance() && whole.n_extra() > n_mechanical ? stabilise_fracture(whole)
                                                                         : 0.;

@@ -100,7 +100,8 @@ struct CouplingParameters
 /// a pass as preconditioner finds it (Castelletto, White & Tchelepi 2015, Int. J. Numer. Anal.
 /// Methods Geomech. 39).
 ///
-/// As published (Zhang et al. 2022): one pass and no more, whatever residual it leaves.
+/// As published (Zhang et al. 2022): one pass and no more, whatever residual it leaves. Pores have
+/// the storage of constant stress, as with fixed stress, which is the paper's phi C (Eq. 33).
 class SplitScheme : public LinearSolver
 {
 public:

@@ -6,9 +6,9 @@
 #include "solvers/system_operator.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/solver_cg.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace stockwork
@@ -19,9 +19,6 @@ namespace
 {
 using AMG = TrilinosWrappers::PreconditionAMG;
 
-/// Of the products in the Schur complement of the extra unknowns, which preconditions only.
-constexpr double product_tolerance = 1e-6;
-
 /// One application of the block triangular preconditioner.
 class BlockTriangular
 {
@@ -30,14 +27,14 @@ public:
                   const MPI_Comm communicator,
                   const DisplacementMultigrid &displacement,
                   const PatchSolver &patch,
-                  std::function<void(std::vector<double> &)> solve_extra,
+                  const SparseFractureSchur &extra,
                   const AMG &pressure,
                   const double pressure_unit)
     : op(op)
     , communicator(communicator)
     , displacement(displacement)
     , patch(patch)
-    , solve_extra(std::move(solve_extra))
+    , extra(extra)
     , pressure(pressure)
     , pressure_unit(pressure_unit)
     , coupling(op.scaling().bulk.block(0))
@@ -66,7 +63,7 @@ public:
       Utilities::MPI::sum(drained, communicator, drained);
       for (unsigned int i = 0; i < op.n_extra(); ++i)
         z.extra[i] = r.extra[i] - drained[i];
-      solve_extra(z.extra);
+      extra.solve(z.extra);
       for (const auto &e : op.bulk_extra())
       {
         const auto [block, local] = op.locate(e.row);
@@ -83,7 +80,7 @@ private:
   MPI_Comm communicator;
   const DisplacementMultigrid &displacement;
   const PatchSolver &patch;
-  const std::function<void(std::vector<double> &)> solve_extra;
+  const SparseFractureSchur &extra;
   const AMG &pressure;
   double pressure_unit;
   TrilinosWrappers::MPI::Vector coupling;
@@ -95,46 +92,8 @@ BlockAmgSolver::BlockAmgSolver(const LinearSolverParameters &parameters,
   : parameters(parameters)
   , communicator(communicator)
   , patch(communicator)
-  , extra(communicator,
-          [this](const auto &left, const auto &right) { return multiply(left, right); })
-  , many_extra(communicator)
+  , extra(communicator)
 {
-}
-
-std::vector<double> BlockAmgSolver::multiply(const ExtraSchur::SparseVectors &left,
-                                             const ExtraSchur::SparseVectors &right) const
-{
-  TrilinosWrappers::MPI::Vector x(stiffness->locally_owned_range_indices(), communicator), b(x);
-  const auto [begin, end] = b.local_range();
-  std::vector<double> result;
-  for (const auto *column : right)
-  {
-    b = 0.;
-    for (const auto &[i, value] : *column)
-      if (begin <= static_cast<unsigned int>(i) && static_cast<unsigned int>(i) < end)
-        b.trilinos_vector()[0][i - begin] += value;
-    x = 0.;
-    ReductionControl control(parameters.max_iterations, 0., product_tolerance);
-    try
-    {
-      if (b.l2_norm() > 0.)
-        SolverCG<TrilinosWrappers::MPI::Vector>(control).solve(*stiffness, x, b, displacement);
-    }
-    catch (const SolverControl::NoConvergence &)
-    {
-      // A worse preconditioner, and FGMRES will tell.
-    }
-    for (const auto *row : left)
-    {
-      double sum = 0.;
-      for (const auto &[i, value] : *row)
-        if (begin <= static_cast<unsigned int>(i) && static_cast<unsigned int>(i) < end)
-          sum += value * x.trilinos_vector()[0][i - begin];
-      result.push_back(sum);
-    }
-  }
-  Utilities::MPI::sum(result, communicator, result);
-  return result;
 }
 
 void BlockAmgSolver::build(const LinearSystem &system,
@@ -161,20 +120,9 @@ void BlockAmgSolver::build(const LinearSystem &system,
 void BlockAmgSolver::update_extra(const SystemOperator &op, const bool new_stiffness)
 {
   if (new_stiffness)
-  {
     extra.forget();
-    many_extra.forget();
-  }
-  if (op.n_extra() == 0)
-    return;
-  if (has_many_extra(op))
-  {
-    extra.forget();
-    many_extra.update(op, stiffness->trilinos_matrix());
-  }
-  else
-    // A preconditioner may take the rock for symmetric where rows of bonds are not quite.
-    extra.update(op, op.border(), stiffness->m(), true);
+  if (op.n_extra() > 0)
+    extra.update(op, stiffness->trilinos_matrix());
 }
 
 LinearReport BlockAmgSolver::solve(const LinearSystem &system,
@@ -191,7 +139,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   // part is cheap and depends on the time step.
   const bool new_mesh =
     !is_built || stamps.mesh != built_for.mesh || stamps.matrix != built_for.matrix;
-  const bool worn_out = last_iterations > first_iterations + first_iterations / 2;
+  const bool worn_out = last_iterations > 1.5 * first_iterations;
   report.factorised = new_mesh || (worn_out && stamps.displacement_values != multigrid_values);
   if (new_mesh || stamps.bulk_values != built_for.bulk_values)
     build(system, stamps, report.factorised);
@@ -212,9 +160,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   SystemVector dx = op.make_vector();
   const auto iterate = [&]()
   {
-    const auto solve_extra = [&](std::vector<double> &x)
-    { has_many_extra(op) ? many_extra.solve(x) : extra.solve(x); };
-    BlockTriangular preconditioner(op, communicator, displacement, patch, solve_extra, pressure,
+    BlockTriangular preconditioner(op, communicator, displacement, patch, extra, pressure,
                                    schur_unit);
     solve_by_krylov(op, communicator, std::ref(preconditioner), limits, dx, report);
   };
@@ -227,9 +173,9 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
     report.factorised = true;
     iterate();
   }
-  last_iterations = report.iterations;
+  last_iterations = report.iterations / -std::log10(std::min(tolerance, 0.1));
   if (report.factorised)
-    first_iterations = report.iterations;
+    first_iterations = last_iterations;
   dx_bulk = dx.bulk;
   dx_extra = dx.extra;
   return report;

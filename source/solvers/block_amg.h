@@ -3,7 +3,6 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include "solvers/displacement_multigrid.h"
-#include "solvers/extra_schur.h"
 #include "solvers/linear_solver.h"
 #include "solvers/patch_solver.h"
 #include "solvers/sparse_fracture_schur.h"
@@ -19,11 +18,8 @@ namespace stockwork
 ///   M_p
 ///
 /// with one multigrid cycle each for K and for S_p, the fixed-stress approximation of the Schur
-/// complement (White, Castelletto & Tchelepi 2016), and S_a. Of few extra unknowns that is dense
-/// (ExtraSchur), and the products with K^-1 in it are Krylov solutions of their own, computed once
-/// for each extra unknown, for K is the same in all steps; of many it is sparse
-/// (SparseFractureSchur). Where rock yields, the cycle for K is followed by a factor of the rows
-/// that do (PatchSolver).
+/// complement (White, Castelletto & Tchelepi 2016), and a sparse S_a (SparseFractureSchur). Where
+/// rock yields, the cycle for K is followed by a factor of the rows that do (PatchSolver).
 class BlockAmgSolver : public LinearSolver
 {
 public:
@@ -46,19 +42,10 @@ public:
                      std::vector<double> &dx_extra) override;
 
 private:
-  bool has_many_extra(const SystemOperator &op) const
-  {
-    return op.n_extra() > parameters.dense_fracture_below;
-  }
-
   /// The Schur complement of the extra unknowns.
   void update_extra(const SystemOperator &, bool new_stiffness);
 
   void build(const LinearSystem &, const SystemStamps &, bool with_displacement);
-
-  /// See ExtraSchur; A is the displacement block.
-  std::vector<double> multiply(const ExtraSchur::SparseVectors &left,
-                               const ExtraSchur::SparseVectors &right) const;
 
   LinearSolverParameters parameters;
   MPI_Comm communicator;
@@ -68,13 +55,12 @@ private:
   dealii::TrilinosWrappers::PreconditionAMG pressure;
   dealii::TrilinosWrappers::SparseMatrix schur; ///< positive, in units of its largest entry
   double schur_unit = 1.;
-  ExtraSchur extra;
-  SparseFractureSchur many_extra; ///< in its place where there are many
+  SparseFractureSchur extra;
   const dealii::TrilinosWrappers::SparseMatrix *stiffness = nullptr; ///< during solve()
   SystemStamps built_for;
   unsigned int multigrid_values = 0; ///< displacement_values that the multigrid was built for
   bool is_built = false;
-  unsigned int first_iterations = 0; ///< with it newly built
-  unsigned int last_iterations = 0;
+  double first_iterations = 0.; ///< per decade of the residual, with it newly built
+  double last_iterations = 0.;
 };
 } // namespace stockwork

@@ -30,9 +30,6 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "of rows that yield up to which multigrid is helped by a factor of these.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
   prm.declare_entry("Restart", "50", Integer(2), "Basis vectors FGMRES keeps before a restart.");
-  prm.declare_entry("Dense fracture below", "100", Integer(0),
-                    "Unknowns of the fracture up to which the iterative solver's system for the "
-                    "fracture is dense; beyond, it is sparse and approximate.");
   prm.leave_subsection();
 }
 
@@ -47,7 +44,6 @@ void LinearSolverParameters::parse_parameters(dealii::ParameterHandler &prm)
   direct_below = prm.get_integer("Direct below");
   max_iterations = prm.get_integer("Maximum iterations");
   restart = prm.get_integer("Restart");
-  dense_fracture_below = prm.get_integer("Dense fracture below");
   prm.leave_subsection();
 }
 

@@ -49,7 +49,6 @@ struct LinearSolverParameters
   unsigned int direct_below = 30000; ///< unknowns in 3-D up to which "auto" is direct
   unsigned int max_iterations = 200;
   unsigned int restart = 50;
-  unsigned int dense_fracture_below = 100; ///< extra unknowns, of the iterative solver
 
   static void declare_parameters(dealii::ParameterHandler &);
   void parse_parameters(dealii::ParameterHandler &);

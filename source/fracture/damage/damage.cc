@@ -117,11 +117,14 @@ void Damage<dim>::find_segments()
     // Zhang et al., Eqs 23 and 24: with D the compressibility of the pores grows by 1/(1 - D). That
     // of the rock is 1/K for grains that are not compressed. At D = 1 it would be infinite.
     const double integrity = std::max(1. - damage(crack), parameters.least_integrity);
-    segment.damaged_storage =
-      crack.size_across() /
-      (scene.rock.at(crack.region, crack.centre()).bulk_modulus() * integrity);
+    const RockProperties rock = scene.rock.at(crack.region, crack.centre());
+    segment.damaged_storage = crack.size_across() / (rock.bulk_modulus() * integrity);
     if (parameters.tensor_fluid)
+    {
+      // The intact rock's, alpha^2/K, is in the elements of the pore pressure already.
+      segment.damaged_storage *= std::pow(rock.biot_coefficient, 2) * (1. - integrity);
       permeability_tensor::leave_to_pores(segment);
+    }
   }
 }
 
@@ -247,6 +250,19 @@ void Damage<dim>::start(const Collectives &collectives)
            << " m as in the deck: cracks of this model have whole cells.";
       messages.push_back(text.str());
     }
+    if (crack.disc)
+    {
+      // Of a disc that planes of symmetry cut, the model has a part.
+      const double wanted = dealii::numbers::PI * crack.disc->radius * crack.disc->radius,
+                   size = passed.front().size();
+      if (length > 1.02 * wanted || size > 0.5 * crack.disc->radius)
+      {
+        std::ostringstream text;
+        text << "A disc of radius " << crack.disc->radius << " m, " << wanted << " m^2, is "
+             << passed.size() << " whole cells of " << size << " m here, " << length << " m^2.";
+        messages.push_back(text.str());
+      }
+    }
   }
   band.replace(all);
   committed = all;
@@ -283,7 +299,7 @@ void Damage<dim>::begin_step(const StepContext &context)
     for (CrackCell<dim> &crack : band.cells)
       crack.carried = 0.;
   n_presses = 0;
-  n_advances = 0;
+  n_advances = n_moving = n_cracked = 0;
   needs_mesh = arrested = false;
   n_messages_before = messages.size();
   laws_before = laws;

@@ -166,11 +166,18 @@ private:
                                          const State &state,
                                          const Collectives &collectives) const;
 
-  /// Whether a candidate cracks.
+  /// Stress ahead of a candidate and pressure behind it, over the threshold at which it cracks.
+  double drive(const Candidate &candidate,
+               const Behind &behind,
+               const dealii::SymmetricTensor<2, dim> &stress);
+
+  /// Whether a candidate that is driven enough cracks.
   /// Notes in `arrested` if it does not although pressure and tension are hopelessly much.
-  bool is_driven(const Candidate &candidate,
-                 const Behind &behind,
-                 const dealii::SymmetricTensor<2, dim> &stress);
+  bool may_crack(const Candidate &candidate, const Behind &behind);
+
+  /// Cells by which the front has advanced in this step, as the length of the next should see it:
+  /// none where few of those that were near to it have cracked ('Front share per step').
+  unsigned int front_advances() const;
 
   /// A fracture that the fluid has grown has nowhere to go, and takes more of it all the same.
   bool swells_in_vain(const State &state) const;
@@ -205,6 +212,8 @@ private:
 
   // Of the current step.
   unsigned int n_presses = 0, n_advances = 0;
+  unsigned int n_moving = 0; ///< candidates that were at half of their threshold or beyond
+  unsigned int n_cracked = 0;
   bool needs_mesh = false, arrested = false;
   dealii::Point<dim> misfit; ///< where cells of another size are in the crack's way
   std::size_t n_messages_before = 0;

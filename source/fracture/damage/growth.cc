@@ -192,12 +192,22 @@ std::vector<RockAhead<dim>> Damage<dim>::look_ahead(const std::vector<Candidate>
 
 
 template <int dim>
-bool Damage<dim>::is_driven(const Candidate &candidate,
-                            const Behind &behind,
-                            const SymmetricTensor<2, dim> &stress)
+double Damage<dim>::drive(const Candidate &candidate,
+                          const Behind &behind,
+                          const SymmetricTensor<2, dim> &stress)
 {
   if (laws.count(candidate.cell.region) == 0)
     choose_strength(candidate.cell.region, candidate.cell.size());
+  const Tensor<1, dim> &normal = band.cells[candidate.behind[0]].normal;
+  const double tension =
+    parameters.straight ? normal * (stress * normal) : dealii::eigenvalues(stress)[0];
+  return (behind.pressure + tension) / (parameters.growth_threshold * law(candidate.cell).strength);
+}
+
+
+template <int dim>
+bool Damage<dim>::may_crack(const Candidate &candidate, const Behind &behind)
+{
   const double strength = law(candidate.cell).strength;
   // A crack that has not begun to open needs no more length, and where the fluid's pressure alone
   // exceeds the strength there would be no end to it. Where it does so by far, there is no process
@@ -210,12 +220,14 @@ bool Damage<dim>::is_driven(const Candidate &candidate,
   }
   // Suction at the front and the tension ahead, both many times the strength, leave a difference
   // that tells nothing: there the fluid has to have arrived.
-  if (behind.reached < 1.)
-    return false;
-  const Tensor<1, dim> &normal = band.cells[candidate.behind[0]].normal;
-  const double drive = behind.pressure + (parameters.straight ? normal * (stress * normal)
-                                                              : dealii::eigenvalues(stress)[0]);
-  return drive >= parameters.growth_threshold * strength * (1. - 1e-6);
+  return behind.reached >= 1.;
+}
+
+
+template <int dim>
+unsigned int Damage<dim>::front_advances() const
+{
+  return n_cracked <= parameters.front_share * n_moving ? 0 : n_advances;
 }
 
 
@@ -242,7 +254,7 @@ Verdict
 Damage<dim>::advance(const StepContext &, const State &state, const Collectives &collectives)
 {
   Verdict verdict;
-  verdict.advances = n_advances;
+  verdict.advances = front_advances();
   const auto stop = [&verdict](const std::string &reason)
   {
     verdict.kind = Verdict::Kind::stop;
@@ -264,12 +276,16 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   std::vector<Candidate> all = candidates(collectives);
   const auto rock = look_ahead(all, state, collectives);
   arrested = false;
+  if (n_advances == 0)
+    n_moving = 0;
   std::vector<CrackCell<dim>> more;
   for (unsigned int i = 0; i < all.size(); ++i)
   {
     Candidate &candidate = all[i];
     const Behind behind = look_behind(candidate, state);
-    if (!is_driven(candidate, behind, rock[2 * i].stress))
+    const double driven = drive(candidate, behind, rock[2 * i].stress);
+    n_moving += n_advances == 0 && driven > 0.5;
+    if (!may_crack(candidate, behind) || driven < 1. - 1e-6)
       continue;
     if (n_advances >= parameters.most_advances || !candidate.fits)
     {
@@ -314,10 +330,11 @@ Damage<dim>::advance(const StepContext &, const State &state, const Collectives 
   if (!more.empty())
   {
     ++n_advances;
+    n_cracked += more.size();
     band.add(more);
     find_segments();
     verdict.kind = Verdict::Kind::topology_changed;
-    verdict.advances = n_advances;
+    verdict.advances = front_advances();
   }
   return verdict;
 }

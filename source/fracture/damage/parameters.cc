@@ -25,6 +25,12 @@ void Parameters::declare(dealii::ParameterHandler &prm)
          "it to the lines of the mesh.");
   prm.declare_entry("Most advances per step", "4", dealii::Patterns::Integer(1),
                     "Cells by which a crack may advance within a time step.");
+  number("Front share per step", "0", Range::closed(0., 1.),
+         "Share of the cells at the front, of those at half of their threshold or beyond, that may "
+         "crack in a step without making the next one shorter. 0: none. A front of many cells, in "
+         "three dimensions, has some that crack in nearly every step; 0.5 takes fewer steps, at a "
+         "cost in "
+         "accuracy.");
   prm.declare_entry(
     "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
     "Wanted size of the cells along the crack and ahead of it [m]; zero: that of the given mesh.");
@@ -54,6 +60,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.averaging_radius = get_quantity(prm, "Averaging radius", dimension::number);
   p.direction_radius = get_quantity(prm, "Direction radius", dimension::number);
   p.most_advances = prm.get_integer("Most advances per step");
+  p.front_share = get_quantity(prm, "Front share per step", dimension::number);
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.least_integrity = get_quantity(prm, "Least integrity", dimension::number);
   p.rings_ahead = prm.get_integer("Rings ahead");

@@ -12,6 +12,7 @@ struct Parameters
   double averaging_radius;    ///< of the stress ahead, in cells
   double direction_radius;    ///< of the stress that the crack turns to, in cells
   unsigned int most_advances; ///< cells by which the front may advance in a step
+  double front_share;         ///< of cells at the front that may advance unheeded in a step
   double cell_size;           ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;   ///< cells of that size ahead of the front
   double friction;            ///< Coulomb's coefficient, of faces that touch
