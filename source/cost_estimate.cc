@@ -23,8 +23,8 @@ CostEstimate estimate_cost(const unsigned int dim,
             4e-5 * n * (has_fracture ? 4. : 1.)};
   const double factor = 60. * n * std::log2(n);
   const double new_factor = 3e-5 * n + 2e-8 * std::pow(n, 1.5), iteration = 1e-6 * n;
-  return {program + 2e3 * n + factor,
-          (has_pore_pressure ? new_factor : 0.) + iteration * (has_fracture ? 6. : 1.)};
+  return {program + 2e3 * n + factor, (has_pore_pressure && has_fracture ? new_factor : 0.) +
+                                        iteration * (has_fracture ? 6. : 1.)};
 }
 
 
@@ -74,21 +74,49 @@ std::string in_bytes(const double bytes)
 
 std::string in_time(const double seconds)
 {
-  return seconds < 120.      ? two_digits(seconds, "s")
+  return seconds < 1.        ? two_digits(1000. * seconds, "ms")
+         : seconds < 120.    ? two_digits(seconds, "s")
          : seconds < 7200.   ? two_digits(seconds / 60., "min")
          : seconds < 172800. ? two_digits(seconds / 3600., "h")
                              : two_digits(seconds / 86400., "days");
 }
 
 
-std::string
-in_words(const CostEstimate &cost, const double duration, const double dt, const bool longer)
+ExpectedSteps expected_steps(const StepControl &control,
+                             const double duration,
+                             const double dt,
+                             const bool has_fracture,
+                             const double cells)
 {
-  const double steps = std::ceil(duration / dt);
+  const double equal = std::ceil(duration / dt);
+  if (equal <= 1. || control.growth == 1. || (control.growth < 0. && !has_fracture))
+    return {equal, false};
+  double number = 0.;
+  if (std::isfinite(control.error_tolerance))
+    // What diffuses changes with the logarithm of time. The error of a step of BDF2 is then as
+    // (dt/t)^3, which the tolerance sets; the factor is that of mandel, column, cryer and drawdown.
+    number = 0.55 * std::log(std::max(duration / dt, 2.)) / std::cbrt(control.error_tolerance);
+  else if (!std::isnan(cells))
+  {
+    number = std::max({2. * cells, duration / control.maximum_step, 1.}); // step_limit()
+    const double growth = control.growth < 0. ? growth_beside_fractures : control.growth;
+    number += std::max(std::log(duration / number / dt) / std::log(growth), 0.);
+  }
+  else
+    return {equal, true};
+  return {std::min(std::ceil(number), equal), false};
+}
+
+
+std::string in_words(const CostEstimate &cost, const ExpectedSteps &steps)
+{
+  constexpr double start = 0.5; // loading libraries, making the mesh [s]
   std::ostringstream text;
   text << "roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
-       << " per step; " << steps << " steps of " << dt << " s would take "
-       << in_time(steps * cost.step) << " on one core" << (longer ? "; steps may grow" : "");
+       << " per step; " << (steps.at_most ? "at most " : "about ") << steps.number
+       << " steps would take " << in_time(start + steps.number * cost.step) << " on one core";
+  if (steps.at_most)
+    text << " if none were longer than the first";
   return text.str();
 }
 } // namespace stockwork

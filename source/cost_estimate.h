@@ -1,5 +1,7 @@
 #pragma once
 
+#include "coupling/stepper.h"
+
 #include <mpi.h>
 
 #include <string>
@@ -14,14 +16,26 @@ struct CostEstimate
 };
 
 /// From runs of the shipped cases. A factor of the matrix grows with N log N in two dimensions; it
-/// lasts as long as the rock stays as it is, in porous rock the step. In three dimensions large
-/// systems are solved by iteration.
+/// lasts as long as the rock stays as it is, in porous rock the step, which a fracture changes all
+/// the time. In three dimensions large systems are solved by iteration.
 CostEstimate
 estimate_cost(unsigned int dim, double n_unknowns, bool has_pore_pressure, bool has_fracture);
 
-/// The estimate in words, for a run of this length [s].
-/// @param dt length of the first step [s]; others may be @p longer
-std::string in_words(const CostEstimate &cost, double duration, double dt, bool longer);
+/// How many steps a run will take.
+struct ExpectedSteps
+{
+  double number;
+  bool at_most; ///< that many if none were longer than the first; nothing tells how long they grow
+};
+
+/// Of a run of this duration from now on [s].
+/// @param dt of the next step [s]
+/// @param cells that a wing of the fracture will grow by; NaN: not known
+ExpectedSteps expected_steps(
+  const StepControl &control, double duration, double dt, bool has_fracture, double cells);
+
+/// The estimate in words.
+std::string in_words(const CostEstimate &cost, const ExpectedSteps &steps);
 
 /// Of the machines that the ranks run on, or less where a limit is set (ulimit -v) [bytes].
 /// Collective.

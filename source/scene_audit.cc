@@ -197,14 +197,21 @@ void add_start(const Case<2> &the_case,
 }
 
 
+analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping)
+{
+  const RockProperties &rock = the_case.rock.main();
+  return {rock.plane_modulus(), 0., the_case.rock.fluid().viscosity, rock.toughness(),
+          pumping.rate};
+}
+
+
 void add_hydraulic_numbers(const Case<2> &the_case,
                            const Pumping &pumping,
                            const MeshSizes<2> &mesh,
                            std::vector<SceneNumber> &numbers)
 {
   const RockProperties &rock = the_case.rock.main();
-  const analytical::KgdParameters parameters{
-    rock.plane_modulus(), 0., the_case.rock.fluid().viscosity, rock.toughness(), pumping.rate};
+  const analytical::KgdParameters parameters = plane_fracture(the_case, pumping);
   const double K_m = parameters.dimensionless_toughness();
   numbers.push_back(
     {"dimensionless toughness K_m", K_m,
@@ -601,6 +608,21 @@ void add_random_fields(const Case<dim> &the_case,
 
 
 template <int dim>
+double final_half_length(const Case<dim> &the_case)
+{
+  if constexpr (dim == 2)
+    if (!the_case.scene.cracks.empty() && the_case.rock.main().energy_release_rate > 0.)
+      if (const Pumping pumping = first_pumping(the_case.network, the_case.control);
+          pumping.rate > 0.)
+        return std::max(analytical::leaking_kgd(plane_fracture(the_case, pumping),
+                                                leak_off_coefficient(the_case), pumping.duration)
+                          .half_length,
+                        0.5 * the_case.scene.cracks[0].size());
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+
+template <int dim>
 std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
   std::vector<SceneNumber> numbers;
@@ -692,6 +714,8 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
 }
 
 
+template double final_half_length<2>(const Case<2> &);
+template double final_half_length<3>(const Case<3> &);
 template double distance_to_walls<2>(const Case<2> &);
 template double distance_to_walls<3>(const Case<3> &);
 template std::vector<SceneNumber> scene_numbers<2>(const Case<2> &, const MeshSizes<2> &);

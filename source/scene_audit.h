@@ -38,6 +38,11 @@ struct MeshSizes
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case);
 
+/// Half length of the first fracture when its pumping ends, of the plane-strain fracture with
+/// leak-off, or of its crack if that is longer [m]; NaN where nothing tells it.
+template <int dim>
+double final_half_length(const Case<dim> &the_case);
+
 /// 1/M + alpha^2/(lambda + 2 G): of rock that is held sideways [1/Pa].
 double storage_coefficient(const RockProperties &rock);
 

@@ -399,11 +399,16 @@ void Simulation<dim>::announce()
     run.warn(message);
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
-  const CostEstimate cost = estimate_cost(
-    dim, system.n_unknowns(), the_case.elements.has_pore_pressure, !the_case.scene.cracks.empty());
+  const bool cracked =
+    !the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture;
+  const CostEstimate cost =
+    estimate_cost(dim, system.n_unknowns(), the_case.elements.has_pore_pressure, cracked);
+  const double cells =
+    cracked ? (final_half_length(the_case) - 0.5 * the_case.scene.cracks[0].size()) / mesh.smallest
+            : 0.;
   run.out << "  "
-          << in_words(cost, the_case.control.end_time - clock.time, clock.dt,
-                      the_case.control.maximum_step > clock.dt)
+          << in_words(cost, expected_steps(the_case.control, the_case.control.end_time - clock.time,
+                                           clock.dt, cracked, cells))
           << std::endl;
 }
 

@@ -154,7 +154,7 @@ std::string help_text()
        "  0  the run reached its end time (or the check found nothing wrong)\n"
        "  1  the deck or the command line cannot be used; nothing was computed\n"
        "  2  the run failed on its way; the last good checkpoint is kept\n\n"
-       "Read on: README.md, doc/ (cases, models, theory, parameters) of the source tree.\n";
+       "Read on: README.md, doc/ (tutorial, deck, cases, theory, parameters) of the source tree.\n";
   return out.str();
 }
 } // namespace stockwork

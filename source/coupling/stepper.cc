@@ -240,7 +240,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       const double dt_limit = step_limit(verdict, dt, first_dt);
       double growth = control.growth;
       if (growth < 0.)
-        growth = std::isfinite(dt_limit) ? 1.3 : 1.;
+        growth = std::isfinite(dt_limit) ? growth_beside_fractures : 1.;
       if (error > 0. && std::isfinite(control.error_tolerance))
       {
         // A new step costs a new factor of the matrix: it must be worth it.

@@ -22,6 +22,9 @@ struct StepControl
   void parse_parameters(dealii::ParameterHandler &prm);
 };
 
+/// Greatest ratio of successive steps where the fracture chooses them and the deck gives none.
+constexpr double growth_beside_fractures = 1.3;
+
 /// The longest that the next step may be, by what the model says of the one it has accepted [s].
 /// @param dt of that step, @p first_dt of its first attempt [s]
 double step_limit(const Verdict &verdict, double dt, double first_dt);

@@ -1,0 +1,63 @@
+// The number of steps that --check announces, beside those that runs of the shipped cases took
+// (doc/cases: kgd, mandel, column, cryer, drawdown).
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "cost_estimate.h"
+
+namespace stockwork::cost_estimate_test
+{
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+StepControl control(const double maximum_step, const double growth, const double tolerance)
+{
+  StepControl c{};
+  c.maximum_step = maximum_step;
+  c.growth = growth;
+  c.error_tolerance = tolerance;
+  return c;
+}
+
+void check_within_half(const ExpectedSteps &expected, const double taken)
+{
+  CHECK_FALSE(expected.at_most);
+  CHECK(expected.number > taken / 1.5);
+  CHECK(expected.number < taken * 1.5);
+}
+
+TEST_CASE("a tip crosses a cell in every other step")
+{
+  const StepControl c = control(2., -1., infinite);
+  check_within_half(expected_steps(c, 100., 0.02, true, 39.),
+                    107.); // kgd/toughness, half-length 20.1 m
+  check_within_half(expected_steps(c, 100., 0.02, true, 78.), 181.);
+  check_within_half(expected_steps(c, 100., 0.02, true, 157.), 335.);
+  CHECK(expected_steps(c, 100., 0.02, true, 0.).number >= 50.); // the maximum step
+  CHECK(expected_steps(c, 1., 0.5, true, 157.).number == 2.);   // no more than equal steps
+}
+
+TEST_CASE("steps chosen by their error follow the logarithm of time")
+{
+  check_within_half(expected_steps(control(infinite, 2., 1e-4), 21493., 2., false, 0.), 106.);
+  check_within_half(expected_steps(control(infinite, 2., 2e-6), 21493., 2., false, 0.), 369.);
+  check_within_half(expected_steps(control(infinite, 2., 1.5e-5), 600., 0.02, false, 0.), 238.);
+  check_within_half(expected_steps(control(infinite, 2., 2e-4), 2., 0.001, false, 0.), 71.);
+  check_within_half(expected_steps(control(infinite, 2., 1e-3), 86400., 60., false, 0.), 56.);
+}
+
+TEST_CASE("equal steps are counted; where nothing tells how they grow, that is said")
+{
+  CHECK(expected_steps(control(infinite, -1., infinite), 1., 0.1, false, 0.).number == 10.);
+  CHECK_FALSE(expected_steps(control(infinite, -1., infinite), 1., 0.1, false, 0.).at_most);
+  const ExpectedSteps steps =
+    expected_steps(control(infinite, -1., infinite), 1., 0.1, true, unknown);
+  CHECK(steps.at_most);
+  CHECK(steps.number == 10.);
+  CHECK(
+    in_words({2e8, 0.014}, steps) ==
+    "roughly 200 MB of memory, 14 ms per step; at most 10 steps would take 640 ms on one core if "
+    "none were longer than the first");
+}
+} // namespace stockwork::cost_estimate_test
