@@ -49,6 +49,12 @@ Otherwise the first line with 'error:' above says what is wrong."
   cmake --build "$1" -j "$jobs" ${4:+--target "${@:4}"}
 }
 
+case "${1:-}" in
+  "" | --test | --install-only | --build-only) ;;
+  --help | -h) sed -n '2,6s/^# //p' contrib/quickstart.sh; exit ;;
+  *) printf 'quickstart: "%s" is not one of --test, --install-only, --build-only, --help.\n' "$1" >&2; exit 2 ;;
+esac
+
 cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc) # which would else believe these
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
