@@ -377,12 +377,11 @@ double Report<dim>::pore_balance_error(const typename CoupledSystem<dim>::PoreFl
   const double from_fractures = network.leaks_into_pores() ? step.leaked : 0.;
   const double scheme = context.effective_dt() / context.dt;
   const double entered = scheme * (step.in_rock + from_fractures);
-  const double moved =
-    std::max({std::abs(step.in_rock), std::abs(from_fractures), std::abs(pores.stored),
-              std::abs(pores.outflow),
-              context.time > control.start_time ? (total.injected + total.outflow) * context.dt /
-                                                    (context.time - control.start_time)
-                                                : 0.});
+  const double moved = std::max(
+    {std::abs(step.in_rock), std::abs(from_fractures), std::abs(pores.stored), pores.through,
+     context.time > control.start_time
+       ? (total.injected + total.outflow) * context.dt / (context.time - control.start_time)
+       : 0.});
   return moved > 0. ? std::abs(entered - pores.stored - pores.outflow) / moved : 0.;
 }
 

@@ -444,12 +444,18 @@ double BulkAssembly<dim>::fluid_content(const BlockVector &bulk,
 
 
 template <int dim>
-double BulkAssembly<dim>::outflow(const StepContext &context, const State &state) const
+typename BulkAssembly<dim>::BoundaryFlow BulkAssembly<dim>::outflow(const StepContext &context,
+                                                                    const State &state) const
 {
   const auto &layout = matrices.layout();
   std::vector<types::global_dof_index> dofs(mesh_view.dof_handler.get_fe().n_dofs_per_cell());
   Vector<double> local(dofs.size()), x(dofs.size()), reference(dofs.size());
-  double volume = 0.;
+  BoundaryFlow flow;
+  const auto add = [&flow](const double volume)
+  {
+    flow.out += volume;
+    flow.through += std::abs(volume);
+  };
   for (const CellIterator &cell : drained_cells)
   {
     matrices.reinit(cell, context);
@@ -463,7 +469,7 @@ double BulkAssembly<dim>::outflow(const StepContext &context, const State &state
     subtract_history(context, reference, local);
     subtract_loads(context, cell, local);
     for (const unsigned int i : layout.p)
-      volume += prescribed_share(mesh_view.constraints, dofs[i]) * local(i);
+      add(prescribed_share(mesh_view.constraints, dofs[i]) * local(i));
   }
   if (!loads.flux.empty())
   {
@@ -481,11 +487,11 @@ double BulkAssembly<dim>::outflow(const StepContext &context, const State &state
               continue;
             face_values.reinit(cell, f);
             for (const unsigned int q : face_values.quadrature_point_indices())
-              volume -= context.effective_dt() * face_values.JxW(q) *
-                        flux->second.value(face_values.quadrature_point(q), context.time);
+              add(-context.effective_dt() * face_values.JxW(q) *
+                  flux->second.value(face_values.quadrature_point(q), context.time));
           }
   }
-  return volume;
+  return flow;
 }
 
 

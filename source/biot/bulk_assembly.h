@@ -88,7 +88,12 @@ public:
 
   /// Fluid that has left the owned cells through the boundary in the step [m^3 (/m)]: the reactions
   /// to prescribed pore pressures, less the prescribed flux.
-  double outflow(const StepContext &context, const State &state) const;
+  struct BoundaryFlow
+  {
+    double out = 0.;     ///< less what has come in
+    double through = 0.; ///< out and in
+  };
+  BoundaryFlow outflow(const StepContext &context, const State &state) const;
 
 private:
   /// What matrix() does where cells are visited, but for the pressure block.

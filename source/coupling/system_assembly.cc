@@ -178,6 +178,8 @@ void SystemAssembly<dim>::assemble_linear(const StepContext &context, const Stat
   all_linear_extra_extra.columns = all_gather(run.communicator, linear_extra_extra.columns);
   all_linear_extra_extra.values = all_gather(run.communicator, linear_extra_extra.values);
   linear_residual_bulk = system.residual_bulk;
+  system.bulk_extra.shrink_to_fit();
+  system.extra_bulk.shrink_to_fit();
   n_linear_bulk_extra = system.bulk_extra.values.size();
   n_linear_extra_bulk = system.extra_bulk.values.size();
 }
@@ -357,7 +359,9 @@ typename SystemAssembly<dim>::PoreFluid SystemAssembly<dim>::pore_fluid(const St
   const auto role = [this](const auto &cell) { return model.role(cell); };
   fluid.stored = bulk->stored_fluid(context, state, role);
   fluid.volume = bulk->pore_volume(state.current, role);
-  fluid.outflow = bulk->outflow(context, state);
+  const auto at_boundary = bulk->outflow(context, state);
+  fluid.outflow = at_boundary.out;
+  fluid.through = unknowns.communication.sum(at_boundary.through);
   if (nonlinear)
   {
     fluid.stored += nonlinear->totals().content_change;

@@ -107,6 +107,7 @@ public:
   {
     double stored = 0.;
     double outflow = 0.;
+    double through = 0.; ///< through the boundary, out and in
     double volume = 0.;
   };
   PoreFluid pore_fluid(const StepContext &context, const State &state) const;

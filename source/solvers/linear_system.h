@@ -33,6 +33,14 @@ struct Triplets
     columns.clear();
     values.clear();
   }
+
+  /// Give back the room for more of them: as much again as they take.
+  void shrink_to_fit()
+  {
+    rows.shrink_to_fit();
+    columns.shrink_to_fit();
+    values.shrink_to_fit();
+  }
 };
 
 /// One linear system J dx = -R in the bulk unknowns (blocks: displacement and, if present, pore

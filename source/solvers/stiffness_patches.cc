@@ -24,9 +24,13 @@ namespace
 /// elements in three dimensions there are 4^3 nodes.
 constexpr std::size_t largest_patch = 400;
 
+/// Unknowns at which each column of a patch's solution has less of its greatest value are left out:
+/// half of a patch.
+constexpr double smallest_share = 0.1;
+
 /// Entries of the product that are smaller, after scaling, are left out: those of unknowns far
 /// apart.
-constexpr double smallest_entry = 0.03;
+constexpr double smallest_entry = 0.06;
 
 /// C X, where C is sorted by row and X, too; what is small between scalings is left out.
 std::vector<SystemOperator::Entry> multiply(const std::vector<SystemOperator::Entry> &C,
@@ -202,7 +206,7 @@ struct StiffnessPatches::Workspace
 
 
 StiffnessPatches::Solution StiffnessPatches::solve(const Group &group,
-                                                   std::vector<int> patch,
+                                                   const std::vector<int> &patch,
                                                    const Rows &rows,
                                                    Workspace &workspace)
 {
@@ -227,11 +231,28 @@ StiffnessPatches::Solution StiffnessPatches::solve(const Group &group,
       x(place(group.rows[i]), c) = group.values[c * group.rows.size() + i];
   matrix.compute_lu_factorization();
   matrix.solve(x);
-  Solution solution{std::move(patch), {}};
-  solution.values.reserve(n * m);
+
+  std::vector<bool> is_kept(n, false);
+  for (std::size_t c = 0; c < m; ++c)
+  {
+    double greatest = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+      greatest = std::max(greatest, std::abs(x(i, c)));
+    for (std::size_t i = 0; i < n; ++i)
+      if (std::abs(x(i, c)) > smallest_share * greatest)
+        is_kept[i] = true;
+  }
+  const std::size_t n_kept = std::count(is_kept.begin(), is_kept.end(), true);
+  Solution solution;
+  solution.rows.reserve(n_kept);
+  solution.values.reserve(n_kept * m);
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_kept[i])
+      solution.rows.push_back(patch[i]);
   for (std::size_t c = 0; c < m; ++c)
     for (std::size_t i = 0; i < n; ++i)
-      solution.values.push_back(static_cast<float>(x(i, c)));
+      if (is_kept[i])
+        solution.values.push_back(static_cast<float>(x(i, c)));
   return solution;
 }
 
@@ -262,7 +283,7 @@ void StiffnessPatches::solve_new(const std::vector<Group> &groups, const Epetra_
   rows.see(wanted);
   Workspace workspace;
   for (std::size_t i = 0; i < unsolved.size(); ++i)
-    known.emplace(unsolved[i]->key, solve(*unsolved[i], std::move(patches[i]), rows, workspace));
+    known.emplace(unsolved[i]->key, solve(*unsolved[i], patches[i], rows, workspace));
 }
 
 

@@ -46,7 +46,8 @@ private:
     std::uint64_t key;                 ///< of rows and values
   };
 
-  /// K_patch^-1 B of a group: a preconditioner needs no more than single precision.
+  /// K_patch^-1 B of a group, where it counts: a preconditioner needs no more than that, in single
+  /// precision.
   struct Solution
   {
     std::vector<int> rows;
@@ -61,7 +62,7 @@ private:
   /// Unknowns of a group's patch.
   static std::vector<int> unknowns_of_patch(const Group &, const Rows &);
 
-  static Solution solve(const Group &, std::vector<int> patch, const Rows &, Workspace &);
+  static Solution solve(const Group &, const std::vector<int> &patch, const Rows &, Workspace &);
 
   void solve_new(const std::vector<Group> &, const Epetra_CrsMatrix &K);
 

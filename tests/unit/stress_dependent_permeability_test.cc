@@ -184,4 +184,17 @@ TEST_CASE("stress-dependent permeability: steady flow through a column")
     {"Boundary conditions/Pore pressure=", "Boundary conditions/Flux=bottom: " + flux.str()});
   CHECK(driven < 1e-9);
 }
+
+
+TEST_CASE("stress-dependent permeability: a damaged cell in the column")
+{
+  // A crack across the column that stays shut: k_n is the rock's present permeability, so that
+  // nothing changes.
+  const double error =
+    error_of_column({"Fracture/Model=damage", "Fracture/damage/Fluid=permeability tensor",
+                     "Fracture flow/Leak-off=resolved", "Fracture flow/Minimum aperture=10 nm",
+                     "Rock/Fracture toughness=1 MPa m^0.5", "Cracks/Open=0, 4.4 -> 1, 4.4",
+                     "Mesh/Box/X spacing=1 m"});
+  CHECK(error < 1e-9);
+}
 } // namespace stockwork::stress_dependent_permeability_test
