@@ -12,8 +12,8 @@ endforeach()
 stockwork_case_test(NAME stability/h/isotropic DECK ${deck} LABELS quick
   SET ${rod} "Fracture/peridynamics/Bond volumes=isotropic" EXPECT "errors/displacement/final < 0.002")
 # At 30 degrees to the mesh, bonds lead a fracture into its lines, whatever the horizon; cells with jumps do not.
-set(turned "Resolution=coarse" "Time/End time=1 s" "Output/Fields=false")
+set(turned "Resolution=coarse" "Time/End time=2 s" "Output/Fields=false")
 stockwork_case_test(NAME stability/h/grid_angle/fails DECK prm/kgd/rotated/30/peridynamics.prm
   SET ${turned} EXPECT "direction < 20")
 stockwork_case_test(NAME stability/h/grid_angle/jumps DECK prm/kgd/rotated/30/damage.prm
-  SET ${turned} EXPECT "direction > 27" "direction < 33" "final/fracture_length > 2.2")
+  SET ${turned} EXPECT "direction > 27" "direction < 33" "final/fracture_length > 2.5")
