@@ -91,7 +91,7 @@ def draw(panels, x, y, numbers, label, limit=None):
     limit."""
     everything = [r for _, group in panels for r in group]
     xs, ys = along(everything, x), along(everything, y)
-    figure, axes = plt.subplots(1, len(panels), figsize=(1.6 + 0.62 * len(xs) * len(panels), 1.3 + 0.4 * len(ys)),
+    figure, axes = plt.subplots(1, len(panels), figsize=(1.6 + 0.62 * len(xs) * len(panels), 1.5 + 0.4 * len(ys)),
                                 sharey=True, squeeze=False, layout="constrained")
     there = [n for n in numbers.values() if math.isfinite(n)]
     scale = scale_of(there)
@@ -100,7 +100,7 @@ def draw(panels, x, y, numbers, label, limit=None):
         for result in group:
             its = settings_of(result)
             field(ax, xs.index(its[x]), ys.index(its[y]), numbers[result.directory], result, scale, limit)
-        ax.set_title(title, fontsize=9)
+        ax.set_title(title.replace(", ", "\n"), fontsize=9)
         ax.set_xlim(0, len(xs))
         ax.set_ylim(0, len(ys))
         turned = dict(rotation=45, ha="right", rotation_mode="anchor") if max(map(len, xs)) > 6 else {}
@@ -114,13 +114,20 @@ def draw(panels, x, y, numbers, label, limit=None):
 
 
 def scale_of(there):
-    """Of colours: logarithmic where numbers differ by much."""
+    """Of colours: logarithmic where numbers differ by much, over four decades at most: what is less is nil."""
     if not there:
         return Normalize(0., 1.)
     low, high = min(there), max(there)
     if low > 0. and high > 5. * low:
-        return LogNorm(low, high)
+        return LogNorm(max(low, 1e-4 * high), high, clip=True)
     return Normalize(low, high if high > low else low + 1.)
+
+
+def ended(result):
+    """How a run ended that has no number: a deck that the program refuses is told with the place of what is wrong."""
+    if result.status != "failed":
+        return ""
+    return "refused" if re.search(r"(\.prm:\d+|command line): ", result.reason) else "fails"
 
 
 def field(ax, column, row, number, result, scale, limit):
@@ -129,6 +136,6 @@ def field(ax, column, row, number, result, scale, limit):
     dark = known and scale(number) > 0.5
     ax.add_patch(plt.Rectangle((column, row), 1, 1, facecolor=plt.cm.viridis_r(scale(number)) if known else "0.85",
                                edgecolor="0.8" if dark else "0.3", hatch="////" if failed else None, lw=0.))
-    text = (f"{number:.3g}" if abs(number) < 1000. else f"{number:.0f}") if known else "fails" if failed else ""
+    text = (f"{number:.3g}" if abs(number) < 1000. else f"{number:.0f}") if known else ended(result)
     ax.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=7,
             bbox=dict(facecolor="white", edgecolor="none", pad=0.8, alpha=0.85))
