@@ -15,6 +15,7 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/prm DESTINATION ${CMAKE_INSTALL_DATADIR}/s
 set(scripts_dir ${CMAKE_INSTALL_DATADIR}/stockwork/contrib)
 install(PROGRAMS ${CMAKE_SOURCE_DIR}/contrib/stockwork-study DESTINATION ${scripts_dir})
 install(FILES ${CMAKE_SOURCE_DIR}/contrib/arguments.py ${CMAKE_SOURCE_DIR}/contrib/results.py
+  ${CMAKE_SOURCE_DIR}/contrib/measures.py ${CMAKE_SOURCE_DIR}/contrib/closure.py
   DESTINATION ${scripts_dir})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/contrib/study ${CMAKE_SOURCE_DIR}/contrib/plot
   DESTINATION ${scripts_dir} FILES_MATCHING PATTERN "*.py")

@@ -23,7 +23,7 @@ function(stockwork_run_test mode)
   endforeach()
   # Side by side: a test empties its directory, and must not empty that of another below it.
   string(REPLACE "/" "." scratch ${T_NAME})
-  add_test(NAME ${T_NAME} COMMAND Python3::Interpreter ${CMAKE_SOURCE_DIR}/tests/run_case.py
+  add_test(NAME ${T_NAME} COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/run_case.py
     --program $<TARGET_FILE:stockwork_program> --scratch ${CMAKE_BINARY_DIR}/tests/runs/${scratch}
     --timeout ${timeout} ${mode} --deck ${CMAKE_SOURCE_DIR}/${T_DECK} --ranks ${ranks}
     ${settings} ${T_ARGS})

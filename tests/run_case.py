@@ -1,5 +1,5 @@
-#!/usr/bin/env python3
-"""Run Stockwork on a deck and check what it did. Python standard library only.
+#!/usr/bin/python3
+"""Run Stockwork on a deck and check what it did.
 
     run_case.py --program build/source/stockwork --scratch DIR MODE ...
 
@@ -14,11 +14,8 @@
     error    a deck which must be refused with given sentences and the place of the mistake, before
              anything is computed
 
-An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH leads into summary.json
-(`errors/pore_pressure/final`), or is `rates/COLUMN` of statistics.csv, its growth per time in the
-second half of the run, or `minimum/COLUMN` or `maximum/COLUMN`, of all steps, or
-`closure/QUANTITY` of contrib/closure.py, or `direction`, the slope of the fractures' diagonal in
-degrees; OP is one of
+An expectation is `PATH OP VALUE [within TOLERANCE]`: PATH is a name of contrib/measures.py
+(`errors/pore_pressure/final`, `maximum/inlet_pressure`); OP is one of
 < <= > >= ==, or = which needs the relative TOLERANCE;
 VALUE is a number or another path. A list stands for its length (`warnings == 0`), and what is
 missing, null or not finite fails.
@@ -37,7 +34,7 @@ import threading
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "contrib"))
-from closure import closure  # noqa: E402
+from measures import with_measures  # noqa: E402
 from results import ResultError, lookup, read_statistics, read_summary  # noqa: E402
 
 MPIRUN = "mpirun --allow-run-as-root --oversubscribe -np"
@@ -112,14 +109,6 @@ def check_all(expectations, summary):
         if not holds:
             failed.append(f"{expectation.text}: {found}")
     return failed
-
-
-def late_rates(table):
-    """Of each column that is all numbers."""
-    times = table["time"]
-    first = next(i for i, time in enumerate(times) if time >= 0.5 * times[-1])
-    return {name: (column[-1] - column[first]) / (times[-1] - times[first])
-            for name, column in table.items() if all(isinstance(x, float) for x in column)}
 
 
 # ------------------------------------------------------------------------------------------ runs
@@ -199,18 +188,7 @@ def run_case(runner, options):
         factors = sorted({f for e in bounds for f in wrong_factors(e)})
         settings.append("Verification/Wrong factors=" + ",".join(map(repr, factors)))
     summary = runner.run("run", options.deck, settings, options.ranks)
-    if any(e.path.startswith("rates/") for e in expectations):
-        summary["rates"] = late_rates(read_statistics(runner.output("run")))
-    if any(e.path.startswith(("minimum/", "maximum/")) for e in expectations):
-        columns = {name: [x for x in column if isinstance(x, float)]
-                   for name, column in read_statistics(runner.output("run")).items()}
-        summary["minimum"] = {name: min(column) for name, column in columns.items() if column}
-        summary["maximum"] = {name: max(column) for name, column in columns.items() if column}
-    if any(e.path.startswith("closure/") for e in expectations):
-        summary["closure"] = closure(read_statistics(runner.output("run")))[0]
-    if any(e.path == "direction" for e in expectations):
-        final = summary["final"]
-        summary["direction"] = math.degrees(math.atan2(final["extent_y"], final["extent_x"]))
+    summary = with_measures(runner.output("run"), summary, [name for e in expectations for name in (e.path, e.value)])
     failed = check_all(expectations, summary)
     failed += [f"no warning says '{text}', but {summary['warnings']}" for text in options.warns
                if not any(text in warning for warning in summary["warnings"])]

@@ -49,9 +49,9 @@ def run_study(options, study):
     if records is None:  # only the estimate was asked for
         return 0
     title = study.title or study.name
-    write_about(output, {"title": title, "text": study.text, "quantities": study.quantities})
+    write_about(output, {"title": title, "text": study.text, "quantities": study.quantities, "map": study.map})
     show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), title, study.text,
-         study.quantities, options.into)
+         study.quantities, study.map, options)
     return 1 if any(record["status"] == "failed" for record in records) else 0
 
 
@@ -61,19 +61,19 @@ def report(options):
     study = about(first) if len(options.directories) == 1 else {}
     show(options.directories, options.output or os.path.join(first, "report"),
          options.title or study.get("title") or os.path.basename(os.path.abspath(first)), study.get("text", ""),
-         options.quantities or study.get("quantities", []), options.into)
+         options.quantities or study.get("quantities", []), study.get("map", {}), options)
     return 0
 
 
-def show(directories, folder, title, text, quantities, into=None):
-    """The page and, on the terminal, the table."""
+def show(directories, folder, title, text, quantities, chosen, options):
+    """The page and, on the terminal, the table; chosen: what the map shows."""
     from study import markdown, verdict
     from study import report as pages
     from study.collect import results
     found = results(directories)
-    path, rows = pages.write(found, folder, title, text, quantities)
-    if into:
-        markdown.write(found, rows, into.removesuffix(".md"), title, text, quantities)
+    path, rows = pages.write(found, folder, title, text, quantities, chosen, options.map)
+    if options.into:
+        markdown.write(found, rows, options.into.removesuffix(".md"), title, text, quantities)
     print(verdict.by_case(rows, quantities, verdict.plain) + "\n\n" + path)
     there = [c[len("error_end_"):] for c in rows.columns if c.startswith("error_end_")]
     missing = [name for name in quantities if name not in there]
@@ -109,6 +109,7 @@ def main():
     for sub in commands.choices.values():
         sub.add_argument("--into", metavar="FILE", help="a page of Markdown as well, and its picture: FILE.md, FILE.png; "
                          "what its author has written above the runs is kept")
+        sub.add_argument("--map", metavar="FILE", help="the study's map as a picture as well: FILE.png")
     options = parser.parse_args()
 
     def interrupted(*_):

@@ -6,7 +6,7 @@ from study import audit, charts, verdict
 from study.cost import WANTED, cheapest, orders, worst_of
 from study.fields import fields
 from study.look import styles
-from study.maps import maps
+from study.maps import chosen_map, maps
 from study.page import Page
 from study.sketch import sketch
 
@@ -15,19 +15,26 @@ CHART = ("Circles: the cheapest setting for the error beside them. Grey: the Par
          "the mark.")
 
 
-def write(results, folder, title, text="", wanted=()):
-    """(path of the page, table of all runs). CSV, Markdown and pictures stand beside the page."""
+def write(results, folder, title, text="", wanted=(), chosen=None, map_file=None):
+    """(path of the page, table of all runs). CSV, Markdown and pictures stand beside the page; chosen: what the study's
+    map shows, which is written into a file of its own besides if one is named."""
     rows = verdict.table(results)
     page = Page(title, folder)
     if text:
         page.text(text)
     cases = {case: [r for r in results if r.case == case] for case in dict.fromkeys(r.case for r in results)}
     look = styles(results)
+    if chosen:
+        page.section("map", "Where it holds")
+        page.picture("map", chosen_map(results, chosen, map_file), "; ".join(
+            [chosen.get("label", chosen["measure"])] + (["hatched where it fails: more than "
+             f"{chosen['limit']:g}, or the run did not end"] if "limit" in chosen else ["hatched where runs did not end"])))
     problem(page, cases)
     table_of_runs(page, rows, wanted)
-    cost(page, rows, wanted, look)
-    curves(page, cases, look)
-    assumptions(page, cases, rows)
+    if not chosen:  # else there are dozens of runs whose curves nobody wants
+        cost(page, rows, wanted, look)
+        curves(page, cases, look)
+    assumptions(page, cases, rows, draws_maps=not chosen)
     repeat(page, results)
     rows.drop(columns=["curve"]).to_csv(os.path.join(folder, "results.csv"), index=False)
     with open(os.path.join(folder, "results.md"), "w", encoding="utf-8") as file:
@@ -164,7 +171,7 @@ def curves(page, cases, look):
             page.text("No run has written histories or fields.")
 
 
-def assumptions(page, cases, rows):
+def assumptions(page, cases, rows, draws_maps):
     page.section("assumptions", "Assumptions that did not hold, warnings, stability")
     names = verdict.quantities(rows)
     errors = dict(zip(rows["directory"], worst_of(rows, names))) if names else {}
@@ -178,7 +185,7 @@ def assumptions(page, cases, rows):
                 said.setdefault(text, []).append(r.label)
         page.items([f"{text} ({len(labels)} of {len(results)} runs: {'; '.join(labels)})"
                     for text, labels in said.items()] or ["Nothing: all assumptions held, and nothing was warned of."])
-        for title, figure in maps(results, errors):
+        for title, figure in maps(results, errors) if draws_maps else []:
             page.picture(file_name(case, "map", title), figure, f"{case}, {title}: which runs end, and with what error.")
 
 

@@ -12,6 +12,13 @@
     [runs.set]                             # --set, each entry with its values
     "Coupling/Scheme" = ["monolithic", "fixed stress"]
 
+    [map]                                  # where a method holds: one number of each run over two entries
+    x       = "Time/Initial step"          # what varies across and up: an entry of set, or "case"
+    y       = "Rock/Permeability"
+    measure = "final/inlet_pressure"       # a name of contrib/measures.py
+    label   = "inlet pressure [Pa]"        # none: the name
+    limit   = 1e6                          # more is a failure; none: only runs that do not end are
+
 cases, models, resolutions, ranks, time_limit and set may stand above, for all [[runs]].
 """
 import dataclasses
@@ -26,7 +33,8 @@ SHIPPED = os.path.join(DECKS, "studies")
 
 LISTS = ("cases", "models", "resolutions", "ranks")
 OF_RUNS = (*LISTS, "set", "time_limit")
-OF_STUDY = ("title", "text", "quantities", "runs", *OF_RUNS)
+OF_STUDY = ("title", "text", "quantities", "runs", "map", *OF_RUNS)
+OF_MAP = ("x", "y", "measure", "label", "limit")
 
 
 @dataclasses.dataclass
@@ -47,6 +55,7 @@ class Study:
     title: str = ""
     text: str = ""
     quantities: list = dataclasses.field(default_factory=list)
+    map: dict = dataclasses.field(default_factory=dict)
     folder: str = "."    # that decks of one's own are relative to
 
 
@@ -57,8 +66,13 @@ def find(name):
         return name
     if os.path.isfile(shipped):
         return shipped
-    there = sorted(f[:-5] for f in os.listdir(SHIPPED) if f.endswith(".toml")) if os.path.isdir(SHIPPED) else []
+    there = shipped_names()
     raise ResultError(f"there is no study '{name}'; those that ship: {', '.join(there) or 'none'}")
+
+
+def shipped_names():
+    return sorted(os.path.relpath(os.path.join(folder, f), SHIPPED)[:-5]
+                  for folder, _, files in os.walk(SHIPPED) for f in files if f.endswith(".toml"))
 
 
 def read(path):
@@ -79,7 +93,29 @@ def read(path):
     if not texts(data.get("quantities", [])):
         raise ResultError(f"{path}: quantities = {data['quantities']!r}, but it is a list of texts")
     return Study(os.path.splitext(os.path.basename(path))[0], blocks, data.get("title", ""), data.get("text", ""),
-                 data.get("quantities", []), os.path.dirname(os.path.abspath(path)))
+                 data.get("quantities", []), map_of(path, data.get("map", {}), blocks), os.path.dirname(os.path.abspath(path)))
+
+
+def map_of(path, given, blocks):
+    """The map of a study; empty if it has none."""
+    if not given:
+        return {}
+    if not isinstance(given, dict):
+        raise ResultError(f"{path}: what a map shows stands below [map]")
+    known(path, "[map]", given, OF_MAP)
+    for key in ("x", "y", "measure"):
+        if key not in given:
+            raise ResultError(f"{path}: [map] has no '{key}'")
+    if not all(isinstance(given.get(key, ""), str) for key in ("x", "y", "measure", "label")):
+        raise ResultError(f"{path}: x, y, measure and label of [map] are texts")
+    if isinstance(given.get("limit", 0.), bool) or not isinstance(given.get("limit", 0.), (int, float)):
+        raise ResultError(f"{path}: limit = {given['limit']!r}, but it is a number")
+    entries = {"case", *(entry for b in blocks for entry in b.set)}
+    for key in ("x", "y"):
+        if given[key] not in entries:
+            raise ResultError(f"{path}: [map] has {key} = '{given[key]}', which is not varied; there is: "
+                              f"{', '.join(sorted(entries))}")
+    return given
 
 
 def block(path, shared, own):

@@ -109,7 +109,8 @@ class InADirectory(unittest.TestCase):
         with open(os.path.join(folder, "index.html"), encoding="utf-8") as file:
             text = file.read()
         found = Elements(text)
-        self.assertEqual(found.ids, ["problem", "verdict", "cost", "results", "assumptions", "repeat"])
+        self.assertEqual(found.ids, ["map", "problem", "verdict", "assumptions", "repeat"] if "map" in found.ids else
+                         ["problem", "verdict", "cost", "results", "assumptions", "repeat"])
         for image in found.images:
             self.assertTrue(image["alt"])
             kind, data = image["src"].split(",", 1)
@@ -189,6 +190,20 @@ class StandIn(InADirectory):
         self.call("run", study, "--program", self.program, "--output", "out", status=0)
         self.assertIn("good, good: which runs end, and with what error", self.page("out/report")[0])
 
+    def test_map_of_a_number(self):
+        text = ('cases = ["good.prm", "bad.prm"]\n[set]\nX = [1, 2]\n[map]\nx = "X"\ny = "case"\n'
+                'measure = "errors/inlet_aperture/mean"\nlimit = 0.01\n')
+        command = ("run", self.file("study.toml", text), "--program", self.program, "--output", "out", "--map", "map.png")
+        self.call(*command, status=1)
+        self.assertTrue(os.path.getsize("map.png") > 1000)
+        with open("out/report/map.svg", encoding="utf-8") as file:
+            drawn = file.read()
+        for label in ("fails", "0.02", "good", "bad"):
+            self.assertIn(f"<!-- {label} -->", drawn)
+        self.assertIn("hatched where it fails: more than 0.01, or the run did not end", self.page("out/report")[0])
+        self.file("study.toml", text.replace("errors/inlet_aperture/mean", "final/depth"))
+        self.assertIn("the map shows 'final/depth', but", self.call(*command, status=1))
+
     def test_time_limit_and_too_many_ranks(self):
         text = self.call("run", self.study("slow.prm", time_limit=1), "--program", self.program, "--output", "a",
                          status=1)
@@ -240,6 +255,11 @@ class StandIn(InADirectory):
                            ("cases = ['good.prm']\ntime_limit = 'x'", "a number of seconds"),
                            ("cases = ['good.prm']\nmodels = ['damage']", "none of the cases good.prm has a deck for"),
                            ("cases = ['nothing']", "there is no case 'nothing'"),
+                           ("cases = ['good.prm']\n[map]\nx = 'case'", "[map] has no 'y'"),
+                           ("cases = ['good.prm']\n[map]\nx = 'case'\ny = 'A/B'\nmeasure = 'steps'",
+                            "y = 'A/B', which is not varied; there is: case"),
+                           ("cases = ['good.prm']\n[map]\nx = 'case'\ny = 'case'\nmeasure = 1", "are texts"),
+                           ("cases = ['good.prm']\nmap = 1", "below [map]"),
                            ("cases = ['nothing.prm']", "there is no deck 'nothing.prm'"),
                            ("cases = ['good.prm']\n[set]\n'A/B' = []", "a value or a list of values"),
                            ("cases = ['mandel']\nmodels = ['dammage']", "there is: none")):
@@ -265,8 +285,8 @@ class Parts(unittest.TestCase):
         self.assertEqual(len({j.name for j in jobs}), len(jobs))
 
     def test_studies_that_ship(self):
-        for name in os.listdir(study_file.SHIPPED):
-            jobs = matrix.jobs(study_file.read(os.path.join(study_file.SHIPPED, name)))
+        for name in study_file.shipped_names():
+            jobs = matrix.jobs(study_file.read(study_file.find(name)))
             self.assertGreater(len(jobs), 1)
 
     def test_cost(self):

@@ -1,0 +1,51 @@
+"""Numbers of a finished run by name, for tests and for maps of studies.
+
+A name is a path into summary.json (`errors/pore_pressure/final`), or one of
+
+    rates/COLUMN          of statistics.csv: its growth per time in the second half of the run
+    minimum/COLUMN        and maximum/COLUMN, of all steps
+    closure/QUANTITY      of contrib/closure.py
+    direction             the slope of the fractures' diagonal [degrees]
+    fields/FIELD/minimum  and fields/FIELD/maximum, over the last fields that were written; of a tensor or a vector, over
+                          its components (needs numpy)
+"""
+import math
+
+from closure import closure
+from results import read_statistics
+
+
+def with_measures(directory, summary, names):
+    """The summary with what the names ask for besides."""
+    kinds = {name.split("/")[0] for name in names}
+    found = dict(summary)
+    if "rates" in kinds:
+        found["rates"] = late_rates(read_statistics(directory))
+    if kinds & {"minimum", "maximum"}:
+        columns = {name: [x for x in column if isinstance(x, float)]
+                   for name, column in read_statistics(directory).items()}
+        found["minimum"] = {name: min(column) for name, column in columns.items() if column}
+        found["maximum"] = {name: max(column) for name, column in columns.items() if column}
+    if "closure" in kinds:
+        found["closure"] = closure(read_statistics(directory))[0]
+    if "direction" in kinds:
+        final = summary["final"]
+        found["direction"] = math.degrees(math.atan2(final["extent_y"], final["extent_x"]))
+    if "fields" in kinds:
+        found["fields"] = extremes(directory)
+    return found
+
+
+def late_rates(table):
+    """Of each column that is all numbers."""
+    times = table["time"]
+    first = next(i for i, time in enumerate(times) if time >= 0.5 * times[-1])
+    return {name: (column[-1] - column[first]) / (times[-1] - times[first])
+            for name, column in table.items() if all(isinstance(x, float) for x in column)}
+
+
+def extremes(directory):
+    """{field: {minimum, maximum}} of the last fields that were written."""
+    from plot import vtu  # here, for all else is the standard library's
+    data = vtu.read(vtu.at_time(vtu.series(directory, "fields"))[1]).point_data
+    return {name: {"minimum": float(values.min()), "maximum": float(values.max())} for name, values in data.items()}
