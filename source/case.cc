@@ -151,6 +151,12 @@ void declare_all_parameters(ParameterHandler &prm, const PlugIns &plug_ins)
   Deck::declare_parameters(prm);
   prm.declare_entry("Title", "", Patterns::Anything(), "For people; appears in the log.");
   prm.declare_entry("Dimension", "2", Patterns::Selection("2|3"), "Of space.");
+  prm.declare_entry("Physics", "as the deck says", Patterns::Selection("as the deck says|auto"),
+                    "auto: inertia, plasticity, and the pore pressure with its diffusion are left "
+                    "out where the numbers of the scene promise that this changes the answer by no "
+                    "more than Accuracy. The scene audit says what and why, or why not.");
+  prm.declare_entry("Accuracy", "2 %", Quantity(dimension::number, Range::positive()),
+                    "What a choice of the program may change the answer by; for Physics = auto.");
   prm.declare_entry("Output directory", "output", Patterns::Anything(),
                     "Where results go; --output overrides it.");
   prm.declare_entry("Additional shared libraries", "", Patterns::Anything(),

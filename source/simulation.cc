@@ -9,12 +9,15 @@
 #include "case.h"
 #include "cost_estimate.h"
 #include "coupling/mesh_adaptation.h"
+#include "left_out.h"
 #include "output/checkpoint.h"
 #include "output/directory.h"
 #include "output/field_output.h"
 #include "output/signals.h"
+#include "physics_choice.h"
 #include "report.h"
 #include "scene_audit.h"
+#include "scene_estimates.h"
 
 #include <deal.II/numerics/vector_tools.h>
 
@@ -138,6 +141,9 @@ private:
   /// What laws of the rock remark on the last step, each remark once in a run.
   void pass_on_remarks();
 
+  /// What 'Physics = auto' has left out, now and then.
+  void watch_what_is_left_out();
+
   /// What has become of the rock's strength, for people.
   void say_how_far_rock_went() const;
 
@@ -168,6 +174,7 @@ private:
   std::unique_ptr<DirectoryLock> lock;
   Clock clock;
   std::set<std::string> remarks; ///< passed on already
+  double looked_at;              ///< what is left out, the last time
 };
 
 
@@ -253,6 +260,7 @@ template <int dim>
 void Simulation<dim>::start(ParameterHandler &prm)
 {
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
+  looked_at = clock.time;
   {
     const auto scope = run.timers.scope("adaptation");
     the_case.geometry.create(triangulation);
@@ -341,6 +349,21 @@ void Simulation<dim>::pass_on_remarks()
     for (const std::string &remark : of_rank)
       if (remarks.insert(remark).second)
         run.warn(remark);
+}
+
+
+template <int dim>
+void Simulation<dim>::watch_what_is_left_out()
+{
+  constexpr unsigned int n_looks = 20;
+  const double duration = the_case.control.end_time - the_case.control.start_time;
+  if (clock.time < looked_at + duration / n_looks && !finished())
+    return;
+  looked_at = clock.time;
+  if (std::none_of(the_case.decisions.begin(), the_case.decisions.end(),
+                   [](const PhysicsDecision &decision) { return decision.left_out; }))
+    return;
+  report.watch(observe_left_out(the_case, system, stepper));
 }
 
 
@@ -469,6 +492,7 @@ void Simulation<dim>::resume()
   boost::archive::binary_iarchive archive(bytes);
   std::vector<std::uint64_t> keys;
   archive >> clock >> the_case.scheme >> keys;
+  looked_at = clock.time;
   if (finished())
     throw EntryError("Time/End time", to_string(the_case.control.end_time, dimension::time),
                      "a time after that of the checkpoint, " +
@@ -538,6 +562,7 @@ void Simulation<dim>::march()
     ++clock.step;
     report.add_step(clock.step, taken);
     pass_on_remarks();
+    watch_what_is_left_out();
     for (const std::string &message : the_case.model->take_messages())
       run.warn(message);
     if (fields.due(clock.step, clock.time, finished()))
@@ -577,7 +602,11 @@ void run_case(RunContext &run,
               const PlugIns &plug_ins,
               const SimulationOptions &options)
 {
+  std::vector<PhysicsDecision> decisions;
+  if (prm.get("Physics") == "auto")
+    decisions = leave_out_physics<dim>(deck, prm, plug_ins);
   Case<dim> the_case(deck, prm, plug_ins);
+  the_case.decisions = decisions;
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
   for (const std::string &warning : the_case.warnings)
