@@ -43,14 +43,6 @@ PhysicsDecision kept(const std::string &name, const std::string &why)
   return decision;
 }
 
-/// Half length of the first crack when the run ends, as far as anything tells it [m].
-template <int dim>
-double half_length_at_end(const Case<dim> &the_case)
-{
-  const double grown = final_half_length(the_case);
-  return std::isnan(grown) ? 0.5 * the_case.scene.cracks[0].size() : grown;
-}
-
 template <int dim>
 double duration_of(const Case<dim> &the_case)
 {
@@ -404,6 +396,8 @@ std::string why_pores_matter(const Case<dim> &the_case, const Deck &deck)
     return "there is no estimate for this law of leak-off";
   if (law == LeakOff::resolved && (dim == 3 || !(first_pumping(the_case).rate > 0.)))
     return "there is no estimate of what leaks off without a plane fracture and a rate";
+  if (is_cracked(the_case) && std::isnan(half_length_at_end(the_case)))
+    return "there is no estimate of how long the fracture will be";
   if (law == LeakOff::resolved && first_pumping(the_case).is_shut_in)
     return "after shut-in the leak-off decides";
   return "";

@@ -132,6 +132,20 @@ double final_half_length(const Case<dim> &the_case)
 }
 
 
+template <int dim>
+double half_length_at_end(const Case<dim> &the_case)
+{
+  if (const double grown = final_half_length(the_case);
+      !std::isnan(grown) || the_case.network.has_wells())
+    return grown;
+  const InitialCrack<dim> &crack = the_case.scene.cracks[0];
+  const bool is_half =
+    std::any_of(crack.points.begin(), crack.points.end(),
+                [&](const Point<dim> &point) { return the_case.geometry.on_side(point); });
+  return (is_half ? 1. : 0.5) * crack.size();
+}
+
+
 template double distance_to_walls<2>(const Case<2> &);
 template double distance_to_walls<3>(const Case<3> &);
 template Pumping first_pumping<2>(const Case<2> &);
@@ -140,4 +154,6 @@ template double pressure_diffusivity<2>(const Case<2> &, types::material_id);
 template double pressure_diffusivity<3>(const Case<3> &, types::material_id);
 template double final_half_length<2>(const Case<2> &);
 template double final_half_length<3>(const Case<3> &);
+template double half_length_at_end<2>(const Case<2> &);
+template double half_length_at_end<3>(const Case<3> &);
 } // namespace stockwork

@@ -15,6 +15,12 @@ double distance_to_walls(const Case<dim> &the_case);
 template <int dim>
 double final_half_length(const Case<dim> &the_case);
 
+/// Half length or radius of the first fracture when the run ends, as far as anything tells it: as
+/// above, or of its crack, of which symmetry may show one half [m]. NaN: a well drives it, and
+/// there is no estimate.
+template <int dim>
+double half_length_at_end(const Case<dim> &the_case);
+
 /// 1/M + alpha^2/(lambda + 2 G): of rock that is held sideways [1/Pa].
 double storage_coefficient(const RockProperties &rock);
 

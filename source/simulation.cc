@@ -132,6 +132,12 @@ public:
 
   void march();
 
+  /// [m]. Collective.
+  double smallest_cell() const
+  {
+    return smallest_cell_size(triangulation);
+  }
+
 private:
   void save();
 
@@ -593,6 +599,29 @@ void Simulation<dim>::march()
 } // namespace
 
 
+template <int dim>
+double cells_in_half_length(RunContext &run,
+                            const Deck &deck,
+                            ParameterHandler &prm,
+                            const PlugIns &plug_ins)
+{
+  if (prm.get("Physics") == "auto")
+    leave_out_physics<dim>(deck, prm, plug_ins);
+  Case<dim> the_case(deck, prm, plug_ins);
+  const SimulationOptions options;
+  Simulation<dim> simulation(run, the_case, prm, options);
+  try
+  {
+    simulation.start(prm);
+  }
+  catch (const SolveError &error)
+  {
+    throw InputError(error.what()); // nothing has been computed
+  }
+  return half_length_at_end(the_case) / simulation.smallest_cell();
+}
+
+
 namespace
 {
 template <int dim>
@@ -607,6 +636,7 @@ void run_case(RunContext &run,
     decisions = leave_out_physics<dim>(deck, prm, plug_ins);
   Case<dim> the_case(deck, prm, plug_ins);
   the_case.decisions = decisions;
+  the_case.chosen.insert(the_case.chosen.begin(), options.chosen.begin(), options.chosen.end());
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
   for (const std::string &warning : the_case.warnings)
@@ -662,6 +692,10 @@ void simulate(RunContext &run,
 }
 
 
+template double
+cells_in_half_length<2>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
+template double
+cells_in_half_length<3>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
 template void simulate<2>(
   RunContext &, const Deck &, ParameterHandler &, const PlugIns &, const SimulationOptions &);
 template void simulate<3>(
