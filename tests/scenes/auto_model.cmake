@@ -33,3 +33,9 @@ stockwork_choice_test(permeable 1 "no chart covers this scene, for the rock has 
 stockwork_choice_test(stress_at_an_angle 1 "the stress in situ shears the crack"
   --set "In situ/Stress=-10 MPa, -10 MPa, 2 MPa")
 stockwork_choice_test(moving 1 "inertia is on" --set "Time/Inertia=on" --set "Rock/Density=2500")
+
+# A crack that does not grow. Growing under its pressure, it is in no chart.
+stockwork_case_test(NAME scenes/model/static DECK tests/scenes/auto_model_static.prm LABELS quick
+  EXPECT "errors/fracture_volume/final < 0.005" "errors/displacement/final < 0.005")
+stockwork_scene_test(model/growing_under_pressure DECK tests/scenes/auto_model_static.prm LABELS quick
+  ARGS --checked --ends 1 --says "the given pressure lets the crack grow" --set "Cracks/Fluid pressure=10 MPa")
