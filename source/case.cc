@@ -151,6 +151,13 @@ void declare_all_parameters(ParameterHandler &prm, const PlugIns &plug_ins)
   Deck::declare_parameters(prm);
   prm.declare_entry("Title", "", Patterns::Anything(), "For people; appears in the log.");
   prm.declare_entry("Dimension", "2", Patterns::Selection("2|3"), "Of space.");
+  prm.declare_entry("Physics", "as the deck says", Patterns::Selection("as the deck says|auto"),
+                    "auto: inertia, plasticity, and the pore pressure with its diffusion are left "
+                    "out where the numbers of the scene promise that this changes the answer by no "
+                    "more than Accuracy. The scene audit says what and why, or why not.");
+  prm.declare_entry("Accuracy", "2 %", Quantity(dimension::number, Range::positive()),
+                    "What Physics = auto may change the answer by, and Fracture/Model = auto or "
+                    "Resolution = auto may err by.");
   prm.declare_entry("Output directory", "output", Patterns::Anything(),
                     "Where results go; --output overrides it.");
   prm.declare_entry("Additional shared libraries", "", Patterns::Anything(),
@@ -176,7 +183,10 @@ void declare_all_parameters(ParameterHandler &prm, const PlugIns &plug_ins)
   std::string names;
   for (const auto &[name, entry] : plug_ins.fracture_models.all())
     names += (names.empty() ? "" : "|") + name;
-  prm.declare_entry("Model", "none", Patterns::Selection(names), "The fracture model.");
+  prm.declare_entry("Model", "none", Patterns::Selection("auto|" + names),
+                    "The fracture model. auto: the cheapest for which the charts that ship promise "
+                    "Accuracy, with the settings of models/<model>.part.prm, which is read after "
+                    "the deck.");
   for (const auto &[name, entry] : plug_ins.fracture_models.all())
   {
     // An empty section would be printed, and is none when it is read again.

@@ -12,6 +12,7 @@
 #include "coupling/time_scheme.h"
 #include "flow/network.h"
 #include "mesh/geometry.h"
+#include "physics_decision.h"
 #include "rock/laws.h"
 #include "scales.h"
 #include "verification/reference_solution.h"
@@ -53,6 +54,9 @@ struct Case
 
   /// What the scene's scales give where the deck leaves an entry empty.
   std::vector<ChosenValue> chosen;
+
+  /// Of 'Physics = auto'.
+  std::vector<PhysicsDecision> decisions;
 
   /// The walls move as the reference says, so they are not felt.
   bool walls_follow_reference = false;

@@ -8,6 +8,7 @@
 
 #include "base/catalogue.h"
 #include "case.h"
+#include "model_choice.h"
 #include "plug_ins.h"
 #include "simulation.h"
 
@@ -61,10 +62,13 @@ int run_program(const CommandLine &command_line, RunContext &run)
   std::vector<std::string> overrides = command_line.overrides;
   if (command_line.output)
     overrides.push_back("Output directory=" + *command_line.output);
-  const Deck deck = Deck::read(command_line.deck, overrides);
+  Deck deck = Deck::read(command_line.deck, overrides);
+  SimulationOptions options;
   try
   {
     plug_ins.load(deck);
+    if (leaves_model_to_program(deck))
+      deck = choose_model(run, deck, overrides, plug_ins, options.chosen);
     declare_all_parameters(prm, plug_ins);
     deck.parse_into(prm);
     if (command_line.action == CommandLine::Action::print_parameters)
@@ -74,7 +78,6 @@ int run_program(const CommandLine &command_line, RunContext &run)
       return 0;
     }
 
-    SimulationOptions options;
     options.deck = std::filesystem::absolute(command_line.deck).string();
     options.output_directory = prm.get("Output directory");
     options.check_only = command_line.action == CommandLine::Action::check;

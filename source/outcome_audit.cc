@@ -1,6 +1,6 @@
 #include "outcome_audit.h"
 
-#include "scene_audit.h"
+#include "scene_estimates.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -33,6 +33,9 @@ template <int dim>
 std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outcome &outcome)
 {
   std::vector<Assumption> assumptions;
+  for (const PhysicsDecision &decision : the_case.decisions)
+    if (decision.left_out && decision.judge)
+      assumptions.push_back(decision.judge(outcome));
   if (dim != 2 || the_case.scene.cracks.empty() || outcome.n_tips == 0 || !(outcome.injected > 0.))
     return assumptions;
   const RockProperties &rock = the_case.rock.main();

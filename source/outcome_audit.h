@@ -22,6 +22,10 @@ struct Outcome
   double inlet_pressure = 0.;    ///< total, at the end [Pa]
   double minimum_pressure = 0.;  ///< total, of all segments at the end [Pa]
 
+  // Of what 'Physics = auto' has left out, the greatest of those that were looked at.
+  double kinetic_share = 0.; ///< energy that the rock's motion would have, over what it stores
+  double strength_used = 0.; ///< share of the strength that the rock would have
+
   /// The cracks had this length at this time.
   void grown_to(double new_length, double time, double window)
   {
@@ -37,7 +41,7 @@ struct Outcome
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &maximum_tip_speed &last_length &last_time;
+    archive &maximum_tip_speed &last_length &last_time &kinetic_share &strength_used;
   }
 
 private:
@@ -53,9 +57,9 @@ struct Assumption
   std::string judgement; ///< what the number means
 };
 
-/// The assumptions of a fluid-driven fracture in two dimensions that only the outcome can confirm,
-/// as far as the case makes them: no inertia, walls far away, a process zone and a fluid lag that
-/// are short, a fluid and a rock that take up no fluid. Empty without injection.
+/// The assumptions that only the outcome can confirm, as far as the case makes them: those of
+/// 'Physics = auto', and of a fluid-driven fracture in two dimensions no inertia, walls far away, a
+/// process zone and a fluid lag that are short, a fluid and a rock that take up no fluid.
 template <int dim>
 std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outcome &outcome);
 

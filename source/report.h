@@ -5,6 +5,7 @@
 
 #include "biot/in_situ.h"
 #include "coupling/stepper.h"
+#include "left_out.h"
 #include "outcome_audit.h"
 #include "verification/error_record.h"
 
@@ -48,6 +49,13 @@ public:
 
   /// After an accepted step. Collective.
   void add_step(unsigned int step, const StepReport &step_report);
+
+  /// What the state now says of physics that is left out.
+  void watch(const LeftOut &now)
+  {
+    shown.kinetic_share = std::max(shown.kinetic_share, now.kinetic_share);
+    shown.strength_used = std::max(shown.strength_used, now.strength_used);
+  }
 
   /// For the audit of the assumptions.
   const Outcome &outcome() const

@@ -4,7 +4,7 @@
 #include "stockwork/rock/linear_stiffness.h"
 
 #include "scales.h"
-#include "verification/analytical/kgd_leak_off.h"
+#include "scene_estimates.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -19,9 +19,6 @@ using namespace dealii;
 
 namespace
 {
-/// For a comparison of speeds alone [kg/m^3].
-constexpr double density_of_common_rock = 2500.;
-
 /// As long as cohesive cracks make their process zone where the deck gives no strength.
 constexpr double cells_of_process_zone = 8.;
 
@@ -30,98 +27,8 @@ constexpr double nearest_walls = 5.;
 } // namespace
 
 
-template <int dim>
-double distance_to_walls(const Case<dim> &the_case)
-{
-  const Point<dim> lower = the_case.geometry.lower(), upper = the_case.geometry.upper();
-  const auto &corners = the_case.scene.cracks[0].points;
-  double distance = std::numeric_limits<double>::infinity();
-  for (unsigned int d = 0; d < dim; ++d)
-    for (const double wall : {lower[d], upper[d]})
-    {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const auto &corner : corners)
-        nearest = std::min(nearest, std::abs(corner[d] - wall));
-      if (nearest >
-          1e-9 * (upper[d] - lower[d])) // a crack that starts on a side is cut by symmetry
-        distance = std::min(distance, nearest);
-    }
-  return distance;
-}
-
-
-double storage_coefficient(const RockProperties &rock)
-{
-  const LinearStiffness<2> stiffness(rock);
-  const double uniaxial = stiffness.bulk_modulus() + stiffness.shear_modulus();
-  return rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient / uniaxial;
-}
-
-
-double rayleigh_speed(const RockProperties &rock)
-{
-  const double density = rock.density > 0. ? rock.density : density_of_common_rock;
-  const double shear_speed = std::sqrt(LinearStiffness<2>(rock).shear_modulus() / density);
-  // From 0 to 0.5 it changes the speed by a tenth: a common one will do in anisotropic rock.
-  const double ratio = rock.stiffness ? 0.25 : rock.poisson_ratio;
-  return shear_speed * (0.87 + 1.12 * ratio) / (1. + ratio);
-}
-
-
 namespace
 {
-/// What the first well pumps until it is shut in, or until the run ends.
-struct Pumping
-{
-  double duration = 0.; // s
-  double rate = 0.;     // its mean, of the whole well [m^2/s]
-  bool is_shut_in = false;
-};
-
-template <int dim>
-Pumping first_pumping(const Network<dim> &network, const StepControl &control)
-{
-  Pumping pumping;
-  double volume = 0., start = control.start_time;
-  for (double t = control.start_time; t < control.end_time && !pumping.is_shut_in;)
-  {
-    const double next = std::min(network.next_jump(t), control.end_time);
-    const double rate = network.rate_of_first_well(next); // a piece holds until its end
-    if (volume == 0.)
-      start = t; // a rest before it is no part of it
-    if (rate > 0.)
-    {
-      volume += rate * (next - t);
-      pumping.duration = next - start;
-    }
-    pumping.is_shut_in = volume > 0. && rate <= 0.;
-    t = next;
-  }
-  if (volume > 0.)
-    pumping.rate = volume / pumping.duration;
-  return pumping;
-}
-
-
-/// Of the first crack, as the deck's law of leak-off has it. Where the flow in the rock is
-/// resolved, and in one dimension: C = (p_f - p_0) sqrt(k S/(pi mu)), with S of rock that is held
-/// sideways (Howard & Fast 1957).
-analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case)
-{
-  if (the_case.network.leak_off_law() == LeakOff::carter)
-    return {the_case.network.carter(), 0.};
-  if (the_case.network.leak_off_law() != LeakOff::resolved)
-    return {};
-  const RockProperties &rock = the_case.rock.main();
-  const double per_pressure = std::sqrt(rock.permeability * storage_coefficient(rock) /
-                                        (numbers::PI * the_case.rock.fluid().viscosity));
-  const InitialCrack<2> &crack = the_case.scene.cracks[0];
-  return {per_pressure * (closing_stress(the_case.scene, crack) -
-                          the_case.in_situ.pore_pressure(crack.points.front())),
-          per_pressure};
-}
-
-
 /// Where the first fracture will end: straight on, or along the greatest compression if that is
 /// another direction.
 std::vector<Point<2>> final_tips(const Case<2> &the_case, const double half_length)
@@ -194,14 +101,6 @@ void add_start(const Case<2> &the_case,
   const double share = time / duration;
   numbers.push_back({"time until the start is resolved / pumping", share,
                      share > 1e-3 ? text.str() : "the pressure at the start is resolved"});
-}
-
-
-analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping)
-{
-  const RockProperties &rock = the_case.rock.main();
-  return {rock.plane_modulus(), 0., the_case.rock.fluid().viscosity, rock.toughness(),
-          pumping.rate};
 }
 
 
@@ -379,15 +278,6 @@ void add_permeability(const Case<dim> &the_case, std::vector<SceneNumber> &numbe
                                   : "the numbers of diffusion here are with 'Rock/Permeability' "
                                     "itself, but for fluid in pores"),
                      is_tight || is_wide});
-}
-
-
-/// c_v = k / (mu S) of the rock in a region [m^2/s].
-template <int dim>
-double pressure_diffusivity(const Case<dim> &the_case, const types::material_id region = 0)
-{
-  const RockProperties &rock = the_case.rock(region);
-  return rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
 }
 
 
@@ -608,21 +498,6 @@ void add_random_fields(const Case<dim> &the_case,
 
 
 template <int dim>
-double final_half_length(const Case<dim> &the_case)
-{
-  if constexpr (dim == 2)
-    if (!the_case.scene.cracks.empty() && the_case.rock.main().energy_release_rate > 0.)
-      if (const Pumping pumping = first_pumping(the_case.network, the_case.control);
-          pumping.rate > 0.)
-        return std::max(analytical::leaking_kgd(plane_fracture(the_case, pumping),
-                                                leak_off_coefficient(the_case), pumping.duration)
-                          .half_length,
-                        0.5 * the_case.scene.cracks[0].size());
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-
-template <int dim>
 std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
   std::vector<SceneNumber> numbers;
@@ -645,7 +520,12 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
     numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});
 
-  const Pumping pumping = first_pumping(the_case.network, the_case.control);
+  if (!the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture)
+    if (const double half = half_length_at_end(the_case); !std::isnan(half))
+      numbers.push_back({"cells in the final half length", half / mesh.smallest,
+                         "what 'Resolution = auto' goes by"});
+
+  const Pumping pumping = first_pumping(the_case);
   if (the_case.network.needs_pore_pressure())
     add_leak_off(the_case, pumping, mesh, numbers);
   if (the_case.model->requirements().fluid_in_pores && !the_case.scene.cracks.empty())
@@ -682,6 +562,28 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
 }
 
 
+namespace
+{
+/// 'Physics = auto' item by item, with the entries that it has set.
+void print_decisions(RunContext &run, const std::vector<PhysicsDecision> &decisions)
+{
+  for (const PhysicsDecision &decision : decisions)
+  {
+    std::ostringstream line;
+    line << std::setprecision(2) << "  Physics = auto: " << decision.name
+         << (decision.left_out ? " left out" : " kept");
+    if (decision.left_out)
+      line << ", which changes the answer by about " << 100. * decision.error << " %";
+    line << ": " << decision.why;
+    for (const auto &[entry, value] :
+         decision.left_out ? decision.settings : std::vector<std::pair<std::string, std::string>>())
+      line << "; " << entry << " = " << (value.empty() ? "(empty)" : value);
+    run.out << line.str() << '\n';
+  }
+}
+} // namespace
+
+
 template <int dim>
 void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSizes<dim> &mesh)
 {
@@ -702,6 +604,7 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
   }
   for (const ChosenValue &chosen : the_case.chosen)
     run.out << "  " << chosen.entry << " = " << chosen.value << ": " << chosen.why << '\n';
+  print_decisions(run, the_case.decisions);
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
     run.out << "  left out: inertia (Time/Inertia = off)\n";
   if (!the_case.laws.may_yield())
@@ -714,10 +617,6 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
 }
 
 
-template double final_half_length<2>(const Case<2> &);
-template double final_half_length<3>(const Case<3> &);
-template double distance_to_walls<2>(const Case<2> &);
-template double distance_to_walls<3>(const Case<3> &);
 template std::vector<SceneNumber> scene_numbers<2>(const Case<2> &, const MeshSizes<2> &);
 template std::vector<SceneNumber> scene_numbers<3>(const Case<3> &, const MeshSizes<3> &);
 template void print_scene_audit<2>(RunContext &, const Case<2> &, const MeshSizes<2> &);

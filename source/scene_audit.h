@@ -33,23 +33,6 @@ struct MeshSizes
   std::function<dealii::types::material_id(const dealii::Point<dim> &)> region_at;
 };
 
-/// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
-/// it, the smallest over the directions [m].
-template <int dim>
-double distance_to_walls(const Case<dim> &the_case);
-
-/// Half length of the first fracture when its pumping ends, of the plane-strain fracture with
-/// leak-off, or of its crack if that is longer [m]; NaN where nothing tells it.
-template <int dim>
-double final_half_length(const Case<dim> &the_case);
-
-/// 1/M + alpha^2/(lambda + 2 G): of rock that is held sideways [1/Pa].
-double storage_coefficient(const RockProperties &rock);
-
-/// To 1 %: Viktorov's fit to the shear wave speed [m/s]. Where the deck gives no density, of rock
-/// as heavy as most.
-double rayleigh_speed(const RockProperties &rock);
-
 /// The numbers of a case, computed before the first step. Lengths and speeds of a fracture that is
 /// still to come are those of the plane-strain fracture when its pumping ends, with leak-off if
 /// there is any (analytical/kgd.h, kgd_leak_off.h).

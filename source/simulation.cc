@@ -9,12 +9,15 @@
 #include "case.h"
 #include "cost_estimate.h"
 #include "coupling/mesh_adaptation.h"
+#include "left_out.h"
 #include "output/checkpoint.h"
 #include "output/directory.h"
 #include "output/field_output.h"
 #include "output/signals.h"
+#include "physics_choice.h"
 #include "report.h"
 #include "scene_audit.h"
+#include "scene_estimates.h"
 
 #include <deal.II/numerics/vector_tools.h>
 
@@ -129,6 +132,12 @@ public:
 
   void march();
 
+  /// [m]. Collective.
+  double smallest_cell() const
+  {
+    return smallest_cell_size(triangulation);
+  }
+
 private:
   void save();
 
@@ -137,6 +146,9 @@ private:
 
   /// What laws of the rock remark on the last step, each remark once in a run.
   void pass_on_remarks();
+
+  /// What 'Physics = auto' has left out, now and then.
+  void watch_what_is_left_out();
 
   /// What has become of the rock's strength, for people.
   void say_how_far_rock_went() const;
@@ -168,6 +180,7 @@ private:
   std::unique_ptr<DirectoryLock> lock;
   Clock clock;
   std::set<std::string> remarks; ///< passed on already
+  double looked_at;              ///< what is left out, the last time
 };
 
 
@@ -253,6 +266,7 @@ template <int dim>
 void Simulation<dim>::start(ParameterHandler &prm)
 {
   clock = {the_case.control.start_time, the_case.control.initial_step, 0};
+  looked_at = clock.time;
   {
     const auto scope = run.timers.scope("adaptation");
     the_case.geometry.create(triangulation);
@@ -341,6 +355,21 @@ void Simulation<dim>::pass_on_remarks()
     for (const std::string &remark : of_rank)
       if (remarks.insert(remark).second)
         run.warn(remark);
+}
+
+
+template <int dim>
+void Simulation<dim>::watch_what_is_left_out()
+{
+  constexpr unsigned int n_looks = 20;
+  const double duration = the_case.control.end_time - the_case.control.start_time;
+  if (clock.time < looked_at + duration / n_looks && !finished())
+    return;
+  looked_at = clock.time;
+  if (std::none_of(the_case.decisions.begin(), the_case.decisions.end(),
+                   [](const PhysicsDecision &decision) { return decision.left_out; }))
+    return;
+  report.watch(observe_left_out(the_case, system, stepper));
 }
 
 
@@ -469,6 +498,7 @@ void Simulation<dim>::resume()
   boost::archive::binary_iarchive archive(bytes);
   std::vector<std::uint64_t> keys;
   archive >> clock >> the_case.scheme >> keys;
+  looked_at = clock.time;
   if (finished())
     throw EntryError("Time/End time", to_string(the_case.control.end_time, dimension::time),
                      "a time after that of the checkpoint, " +
@@ -538,6 +568,7 @@ void Simulation<dim>::march()
     ++clock.step;
     report.add_step(clock.step, taken);
     pass_on_remarks();
+    watch_what_is_left_out();
     for (const std::string &message : the_case.model->take_messages())
       run.warn(message);
     if (fields.due(clock.step, clock.time, finished()))
@@ -568,6 +599,29 @@ void Simulation<dim>::march()
 } // namespace
 
 
+template <int dim>
+double cells_in_half_length(RunContext &run,
+                            const Deck &deck,
+                            ParameterHandler &prm,
+                            const PlugIns &plug_ins)
+{
+  if (prm.get("Physics") == "auto")
+    leave_out_physics<dim>(deck, prm, plug_ins);
+  Case<dim> the_case(deck, prm, plug_ins);
+  const SimulationOptions options;
+  Simulation<dim> simulation(run, the_case, prm, options);
+  try
+  {
+    simulation.start(prm);
+  }
+  catch (const SolveError &error)
+  {
+    throw InputError(error.what()); // nothing has been computed
+  }
+  return half_length_at_end(the_case) / simulation.smallest_cell();
+}
+
+
 namespace
 {
 template <int dim>
@@ -577,7 +631,12 @@ void run_case(RunContext &run,
               const PlugIns &plug_ins,
               const SimulationOptions &options)
 {
+  std::vector<PhysicsDecision> decisions;
+  if (prm.get("Physics") == "auto")
+    decisions = leave_out_physics<dim>(deck, prm, plug_ins);
   Case<dim> the_case(deck, prm, plug_ins);
+  the_case.decisions = decisions;
+  the_case.chosen.insert(the_case.chosen.begin(), options.chosen.begin(), options.chosen.end());
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
   for (const std::string &warning : the_case.warnings)
@@ -633,6 +692,10 @@ void simulate(RunContext &run,
 }
 
 
+template double
+cells_in_half_length<2>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
+template double
+cells_in_half_length<3>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
 template void simulate<2>(
   RunContext &, const Deck &, ParameterHandler &, const PlugIns &, const SimulationOptions &);
 template void simulate<3>(

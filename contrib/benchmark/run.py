@@ -14,6 +14,7 @@ Jobs: step/CASE/N    a time step, direct and iterative, with everything made ane
       accuracy       Mandel's problem to a pressure error of 6.4e-4
       kgd/NAME/RESOLUTION      a whole run with a fracture, by phase; its speed-up on two ranks, if asked
                                for as kgd/NAME/RESOLUTION/2
+      scene[/MODEL]            what a fracture costs: kgd/toughness, coarse, against length, domain and model
       plastic/borehole         a step in which 5 % of the cells yield, over an elastic one
       before                   whole runs beside an older build, --before PROGRAM: user time, memory
       counted                  the same decks, coarse and short, by the instructions that valgrind counts: those of the run,
@@ -365,6 +366,32 @@ class Bench:
                                         ((count("--version"), 0), run()))
         return whole, (whole - start) / (steps - few)
 
+    def scene(self, *models):
+        """Processor time and memory of short and long fractures in small and large domains; and of a crack that does not
+        grow, beside the same mesh without one."""
+        for model in models or ("none", "prescribed", "damage", "cohesive_xfem"):
+            if model in ("none", "prescribed"):
+                summary = self.stockwork("sneddon/prescribed.prm", [
+                    "Resolution=fine", f"Fracture/Model={model}", "Verification/Reference=none", "Output/Fields=false",
+                    *(f"Boundary conditions/Displacement {axis}=" for axis in "xy"),
+                    "Boundary conditions/Roller=left, right, top, bottom"])
+                self.row(f"{model}, sneddon, fine, between rollers", self.cost(summary))
+                continue
+            for wall in (200, 800):
+                for end in (1, 10, 100):
+                    summary = self.stockwork(f"kgd/toughness/{model}.prm", [
+                        "Resolution=coarse", f"Time/End time={end} s",
+                        f"Mesh/Box/Lower corner=0, -{wall} m", f"Mesh/Box/Upper corner={wall} m, {wall} m",
+                        "Verification/Reference=none", "Output/Fields=false"])
+                    length = summary["final"].get("fracture_length", 0.)
+                    self.row(f"{model}, walls at {wall} m, {end} s: a fracture of {length:.3g} m",
+                             self.cost(summary))
+
+    @staticmethod
+    def cost(summary):
+        return (f"{summary['unknowns']} unknowns, {summary['steps']} steps, {summary['cpu_seconds']:.2f} s, "
+                f"{summary['peak_memory_bytes'] / 1e6:.0f} MB")
+
     def before(self):
         """Whole runs of two builds in turns."""
         for name, (deck, settings) in BEFORE.items():
@@ -428,7 +455,7 @@ def main():
     print("load of the machine:", " ".join(f"{x:.1f}" for x in os.getloadavg()))
     kinds = {"step": bench.compare_steps, "iterations": bench.iterations, "memory": bench.memory,
              "ranks": bench.ranks, "accuracy": bench.accuracy, "kgd": bench.kgd,
-             "plastic": bench.plastic, "before": bench.before, "counted": bench.counted}
+             "plastic": bench.plastic, "scene": bench.scene, "before": bench.before, "counted": bench.counted}
     for job in options.jobs:
         kind, *arguments = job.split("/")
         kinds[kind](*(int(a) if a.isdigit() else a for a in arguments))

@@ -14,8 +14,6 @@ namespace stockwork
 {
 namespace fs = std::filesystem;
 
-namespace
-{
 fs::path deck_directory()
 {
   std::error_code error;
@@ -25,6 +23,8 @@ fs::path deck_directory()
                                             : fs::path(STOCKWORK_PRM);
 }
 
+namespace
+{
 bool is_deck(const fs::path &file)
 {
   return file.extension() == ".prm" && file.stem().extension() != ".part";

@@ -14,7 +14,7 @@ namespace stockwork
 {
 namespace
 {
-const std::string resolution_entry = "Resolution";
+const std::string resolution_entry = "Resolution", model_entry = "Fracture/Model";
 
 const std::vector<std::string> &resolutions()
 {
@@ -156,9 +156,18 @@ std::string Origin::text() const
 
 Deck Deck::read(const std::string &file, const std::vector<std::string> &overrides)
 {
+  return read(file, overrides, Choice());
+}
+
+Deck Deck::read(const std::string &file,
+                const std::vector<std::string> &overrides,
+                const Choice &choice)
+{
   DeckReader reader;
   reader.read_file(file);
-  return from_reader(reader, file, overrides);
+  if (!choice.part.empty())
+    reader.read_file(choice.part);
+  return from_reader(reader, file, overrides, choice);
 }
 
 Deck Deck::read_text(const std::string &text,
@@ -168,12 +177,13 @@ Deck Deck::read_text(const std::string &text,
   DeckReader reader;
   std::istringstream in(text);
   reader.read_stream(in, name);
-  return from_reader(reader, name, overrides);
+  return from_reader(reader, name, overrides, Choice());
 }
 
 Deck Deck::from_reader(const DeckReader &reader,
                        const std::string &file,
-                       const std::vector<std::string> &overrides)
+                       const std::vector<std::string> &overrides,
+                       const Choice &choice)
 {
   Deck deck;
   std::vector<std::string> errors = reader.errors;
@@ -184,6 +194,10 @@ Deck Deck::from_reader(const DeckReader &reader,
     else
       deck.entries[line.path] = {line.value, line.origin};
   deck.read_overrides(overrides, errors);
+  if (!choice.model.empty())
+    deck.entries[model_entry].value = choice.model;
+  if (!choice.resolution.empty())
+    deck.entries[resolution_entry].value = choice.resolution;
   deck.expand_alternatives(errors);
   if (!errors.empty())
     throw_all(file, errors);
@@ -228,11 +242,14 @@ void Deck::expand_alternatives(std::vector<std::string> &errors)
   const auto given = entries.find(resolution_entry);
   if (given != entries.end())
     resolution = given->second.value;
+  if (resolution == "auto") // to be chosen; until then
+    resolution = "medium";
   const auto found = std::find(resolutions().begin(), resolutions().end(), resolution);
   if (found == resolutions().end())
   {
     errors.push_back(given->second.origin.text() + ": '" + resolution_entry + "' is '" +
-                     resolution + "'; allowed is one of " + quoted_list(resolutions(), "or"));
+                     resolution + "'; allowed is one of " + quoted_list(resolutions(), "or") +
+                     ", or 'auto'");
     return;
   }
   for (auto &[path, entry] : entries)
@@ -248,9 +265,11 @@ void Deck::expand_alternatives(std::vector<std::string> &errors)
 
 void Deck::declare_parameters(dealii::ParameterHandler &prm)
 {
-  prm.declare_entry(resolution_entry, "medium", dealii::Patterns::Selection("coarse|medium|fine"),
+  prm.declare_entry(resolution_entry, "medium",
+                    dealii::Patterns::Selection("auto|coarse|medium|fine"),
                     "Which of the three alternatives of every value written as {a|b|c} is taken: "
-                    "the first for coarse, the second for medium, the third for fine.");
+                    "the first for coarse, the second for medium, the third for fine. auto: the "
+                    "cheapest for which the charts that ship promise Accuracy.");
 }
 
 std::optional<std::string> Deck::peek(const std::string &path) const

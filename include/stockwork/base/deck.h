@@ -36,9 +36,21 @@ struct Origin
 class Deck
 {
 public:
+  /// What the program has chosen where the deck says 'auto'.
+  struct Choice
+  {
+    std::string part;       ///< file with the settings of the model, read after the deck
+    std::string model;      ///< of 'Fracture/Model'; empty: as the deck says
+    std::string resolution; ///< empty: as the deck says
+  };
+
   /// @param overrides "Section/Sub/Entry=value", as given with --set
   /// @throws InputError with all syntax errors, missing files and include cycles
   static Deck read(const std::string &file, const std::vector<std::string> &overrides = {});
+
+  /// The same with a choice in place of 'auto'.
+  static Deck
+  read(const std::string &file, const std::vector<std::string> &overrides, const Choice &choice);
 
   /// The same from text; @p name stands for the file in messages, and includes are resolved
   /// against its directory.
@@ -84,7 +96,8 @@ private:
 
   static Deck from_reader(const DeckReader &reader,
                           const std::string &file,
-                          const std::vector<std::string> &overrides);
+                          const std::vector<std::string> &overrides,
+                          const Choice &choice);
   void read_overrides(const std::vector<std::string> &overrides, std::vector<std::string> &errors);
   void expand_alternatives(std::vector<std::string> &errors);
 

@@ -1,0 +1,159 @@
+#include "scene_estimates.h"
+
+#include "stockwork/rock/linear_stiffness.h"
+
+#include "scales.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// For a comparison of speeds alone [kg/m^3].
+constexpr double density_of_common_rock = 2500.;
+} // namespace
+
+
+template <int dim>
+double distance_to_walls(const Case<dim> &the_case)
+{
+  const Point<dim> lower = the_case.geometry.lower(), upper = the_case.geometry.upper();
+  const auto &corners = the_case.scene.cracks[0].points;
+  double distance = std::numeric_limits<double>::infinity();
+  for (unsigned int d = 0; d < dim; ++d)
+    for (const double wall : {lower[d], upper[d]})
+    {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto &corner : corners)
+        nearest = std::min(nearest, std::abs(corner[d] - wall));
+      if (nearest >
+          1e-9 * (upper[d] - lower[d])) // a crack that starts on a side is cut by symmetry
+        distance = std::min(distance, nearest);
+    }
+  return distance;
+}
+
+
+double storage_coefficient(const RockProperties &rock)
+{
+  const LinearStiffness<2> stiffness(rock);
+  const double uniaxial = stiffness.bulk_modulus() + stiffness.shear_modulus();
+  return rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient / uniaxial;
+}
+
+
+double rayleigh_speed(const RockProperties &rock)
+{
+  const double density = rock.density > 0. ? rock.density : density_of_common_rock;
+  const double shear_speed = std::sqrt(LinearStiffness<2>(rock).shear_modulus() / density);
+  // From 0 to 0.5 it changes the speed by a tenth: a common one will do in anisotropic rock.
+  const double ratio = rock.stiffness ? 0.25 : rock.poisson_ratio;
+  return shear_speed * (0.87 + 1.12 * ratio) / (1. + ratio);
+}
+
+
+template <int dim>
+Pumping first_pumping(const Case<dim> &the_case)
+{
+  const Network<dim> &network = the_case.network;
+  const StepControl &control = the_case.control;
+  Pumping pumping;
+  double volume = 0., start = control.start_time;
+  for (double t = control.start_time; t < control.end_time && !pumping.is_shut_in;)
+  {
+    const double next = std::min(network.next_jump(t), control.end_time);
+    const double rate = network.rate_of_first_well(next); // a piece holds until its end
+    if (volume == 0.)
+      start = t; // a rest before it is no part of it
+    if (rate > 0.)
+    {
+      volume += rate * (next - t);
+      pumping.duration = next - start;
+    }
+    pumping.is_shut_in = volume > 0. && rate <= 0.;
+    t = next;
+  }
+  if (volume > 0.)
+    pumping.rate = volume / pumping.duration;
+  return pumping;
+}
+
+
+analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case)
+{
+  if (the_case.network.leak_off_law() == LeakOff::carter)
+    return {the_case.network.carter(), 0.};
+  if (the_case.network.leak_off_law() != LeakOff::resolved)
+    return {};
+  const RockProperties &rock = the_case.rock.main();
+  const double per_pressure = std::sqrt(rock.permeability * storage_coefficient(rock) /
+                                        (numbers::PI * the_case.rock.fluid().viscosity));
+  const InitialCrack<2> &crack = the_case.scene.cracks[0];
+  return {per_pressure * (closing_stress(the_case.scene, crack) -
+                          the_case.in_situ.pore_pressure(crack.points.front())),
+          per_pressure};
+}
+
+
+analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping)
+{
+  const RockProperties &rock = the_case.rock.main();
+  return {rock.plane_modulus(), 0., the_case.rock.fluid().viscosity, rock.toughness(),
+          pumping.rate};
+}
+
+
+template <int dim>
+double pressure_diffusivity(const Case<dim> &the_case, const types::material_id region)
+{
+  const RockProperties &rock = the_case.rock(region);
+  return rock.permeability / (the_case.rock.fluid().viscosity * storage_coefficient(rock));
+}
+
+
+template <int dim>
+double final_half_length(const Case<dim> &the_case)
+{
+  if constexpr (dim == 2)
+    if (!the_case.scene.cracks.empty() && the_case.rock.main().energy_release_rate > 0.)
+      if (const Pumping pumping = first_pumping(the_case); pumping.rate > 0.)
+        return std::max(analytical::leaking_kgd(plane_fracture(the_case, pumping),
+                                                leak_off_coefficient(the_case), pumping.duration)
+                          .half_length,
+                        0.5 * the_case.scene.cracks[0].size());
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+
+template <int dim>
+double half_length_at_end(const Case<dim> &the_case)
+{
+  if (const double grown = final_half_length(the_case);
+      !std::isnan(grown) || the_case.network.has_wells())
+    return grown;
+  const InitialCrack<dim> &crack = the_case.scene.cracks[0];
+  const bool is_half =
+    std::any_of(crack.points.begin(), crack.points.end(),
+                [&](const Point<dim> &point) { return the_case.geometry.on_side(point); });
+  return (is_half ? 1. : 0.5) * crack.size();
+}
+
+
+template double distance_to_walls<2>(const Case<2> &);
+template double distance_to_walls<3>(const Case<3> &);
+template Pumping first_pumping<2>(const Case<2> &);
+template Pumping first_pumping<3>(const Case<3> &);
+template double pressure_diffusivity<2>(const Case<2> &, types::material_id);
+template double pressure_diffusivity<3>(const Case<3> &, types::material_id);
+template double final_half_length<2>(const Case<2> &);
+template double final_half_length<3>(const Case<3> &);
+template double half_length_at_end<2>(const Case<2> &);
+template double half_length_at_end<3>(const Case<3> &);
+} // namespace stockwork

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "case.h"
+#include "verification/analytical/kgd_leak_off.h"
+
+namespace stockwork
+{
+/// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
+/// it, the smallest over the directions [m].
+template <int dim>
+double distance_to_walls(const Case<dim> &the_case);
+
+/// Half length of the first fracture when its pumping ends, of the plane-strain fracture with
+/// leak-off, or of its crack if that is longer [m]; NaN where nothing tells it.
+template <int dim>
+double final_half_length(const Case<dim> &the_case);
+
+/// Half length or radius of the first fracture when the run ends, as far as anything tells it: as
+/// above, or of its crack, of which symmetry may show one half [m]. NaN: a well drives it, and
+/// there is no estimate.
+template <int dim>
+double half_length_at_end(const Case<dim> &the_case);
+
+/// 1/M + alpha^2/(lambda + 2 G): of rock that is held sideways [1/Pa].
+double storage_coefficient(const RockProperties &rock);
+
+/// To 1 %: Viktorov's fit to the shear wave speed [m/s]. Where the deck gives no density, of rock
+/// as heavy as most.
+double rayleigh_speed(const RockProperties &rock);
+
+/// What the first well pumps until it is shut in, or until the run ends.
+struct Pumping
+{
+  double duration = 0.; // s
+  double rate = 0.;     // its mean, of the whole well [m^2/s]
+  bool is_shut_in = false;
+};
+
+template <int dim>
+Pumping first_pumping(const Case<dim> &the_case);
+
+/// Of the first crack, as the deck's law of leak-off has it. Where the flow in the rock is
+/// resolved, and in one dimension: C = (p_f - p_0) sqrt(k S/(pi mu)), with S of rock that is held
+/// sideways (Howard & Fast 1957).
+analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case);
+
+/// The plane-strain fracture that the first well drives, in impermeable rock.
+analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping);
+
+/// c_v = k / (mu S) of the rock in a region [m^2/s].
+template <int dim>
+double pressure_diffusivity(const Case<dim> &the_case, dealii::types::material_id region = 0);
+} // namespace stockwork
