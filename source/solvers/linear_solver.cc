@@ -21,7 +21,7 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "direct: one sparse factor of everything. bordered: a lasting factor of the "
     "rock and a small dense system for the fracture; the rock's lasts as long as it "
     "stays as it is, and in porous rock the time step. iterative: Krylov method with "
-    "multigrid, and such a system for the fracture; for large three-dimensional "
+    "multigrid, and a sparse one for the fracture; for large three-dimensional "
     "problems. auto: iterative above a size in 3-D, else bordered, and direct in porous "
     "rock without a fracture.");
   prm.declare_entry(

@@ -21,7 +21,8 @@ namespace stockwork
 namespace
 {
 /// Unknowns of a patch, at most: those that are coupled most strongly. Around a cell of linear
-/// elements in three dimensions there are 4^3 nodes.
+/// elements in three dimensions there are 4^3 nodes. A column that touches more by itself, as a
+/// crack tip's function does, is divided by the diagonal of K.
 constexpr std::size_t largest_patch = 400;
 
 /// Unknowns at which each column of a patch's solution has less of its greatest value are left out:
@@ -205,11 +206,33 @@ struct StiffnessPatches::Workspace
 };
 
 
+StiffnessPatches::Solution StiffnessPatches::by_diagonal(const Group &group, const Rows &rows)
+{
+  const std::size_t n = group.rows.size();
+  Solution solution{group.rows, std::vector<float>(group.values.size())};
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    double diagonal = 0.;
+    rows.for_each(group.rows[i],
+                  [&](const int column, const double value)
+                  {
+                    if (column == group.rows[i])
+                      diagonal = value;
+                  });
+    for (std::size_t c = 0; c < group.columns.size(); ++c)
+      solution.values[c * n + i] = static_cast<float>(group.values[c * n + i] / diagonal);
+  }
+  return solution;
+}
+
+
 StiffnessPatches::Solution StiffnessPatches::solve(const Group &group,
                                                    const std::vector<int> &patch,
                                                    const Rows &rows,
                                                    Workspace &workspace)
 {
+  if (group.rows.size() > largest_patch)
+    return by_diagonal(group, rows);
   const auto n = patch.size(), m = group.columns.size();
   const auto place = [&](const int unknown) -> std::size_t
   {
@@ -275,7 +298,8 @@ void StiffnessPatches::solve_new(const std::vector<Group> &groups, const Epetra_
   wanted.clear();
   for (const Group *group : unsolved)
   {
-    patches.push_back(unknowns_of_patch(*group, rows));
+    patches.push_back(group->rows.size() > largest_patch ? std::vector<int>()
+                                                         : unknowns_of_patch(*group, rows));
     for (const int row : patches.back())
       if (!K.MyGRID(row))
         wanted.push_back(row);

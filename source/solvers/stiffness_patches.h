@@ -64,6 +64,9 @@ private:
 
   static Solution solve(const Group &, const std::vector<int> &patch, const Rows &, Workspace &);
 
+  /// diag(K)^-1 B of a group.
+  static Solution by_diagonal(const Group &, const Rows &);
+
   void solve_new(const std::vector<Group> &, const Epetra_CrsMatrix &K);
 
   void forget_unused(const std::vector<Group> &);

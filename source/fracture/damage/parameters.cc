@@ -29,8 +29,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
          "Share of the cells at the front, of those at half of their threshold or beyond, that may "
          "crack in a step without making the next one shorter. 0: none. A front of many cells, in "
          "three dimensions, has some that crack in nearly every step; 0.5 takes fewer steps, at a "
-         "cost in "
-         "accuracy.");
+         "cost in accuracy.");
   prm.declare_entry(
     "Cell size", "0", Quantity(dimension::length, Range::non_negative()),
     "Wanted size of the cells along the crack and ahead of it [m]; zero: that of the given mesh.");
@@ -68,6 +67,9 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   p.linear_jumps = prm.get("Jump") == "linear" || (prm.get("Jump") == "auto" && dim == 2);
+  if (p.front_share > 0. && !p.growth)
+    throw EntryError("Fracture/damage/Front share per step", prm.get("Front share per step"),
+                     "0 with 'Fracture/damage/Growth = false': no front advances");
   p.tensor_fluid = permeability_tensor::is_chosen(prm);
   prm.leave_subsection();
   prm.leave_subsection();
