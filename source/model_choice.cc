@@ -5,6 +5,7 @@
 #include "stockwork/base/quantity.h"
 
 #include "base/catalogue.h"
+#include "base/parameter_tree.h"
 #include "case.h"
 #include "charts.h"
 #include "scene_estimates.h"
@@ -66,6 +67,9 @@ SceneKind nobodys(const std::string &why)
 }
 
 
+/// Distance to the walls, in final half lengths, from which on they cost less than 1 %.
+constexpr double far_walls = 10.;
+
 /// What no chart has.
 template <int dim>
 std::string beyond_charts(const Case<dim> &the_case)
@@ -89,6 +93,17 @@ std::string beyond_charts(const Case<dim> &the_case)
     return "there are several wells";
   if (!(the_case.rock.main().energy_release_rate > 0.))
     return "the rock has no toughness";
+  if (!the_case.walls_follow_reference)
+  {
+    // Charts are of cracks in a wide body that nothing but the stress in situ loads.
+    if (!the_case.boundary_conditions.loads().empty() ||
+        the_case.boundary_conditions.maximum_displacement(the_case.control.end_time) != 0.)
+      return "there are loads on the boundary";
+    const double reach = std::isnan(the_case.scene.crack_pressure) ? final_half_length(the_case)
+                                                                   : half_length_at_end(the_case);
+    if (!(distance_to_walls(the_case) >= far_walls * reach))
+      return "the walls are nearer than ten times the length at the end";
+  }
   return "";
 }
 
@@ -124,6 +139,11 @@ SceneKind kind_of_growing(const Case<2> &the_case, const bool turned)
   const auto stress = the_case.scene.in_situ_stress(crack.points[0]);
   if (std::abs(along * (stress * across)) > 1e-6 * stress.norm())
     return nobodys("the stress in situ shears the crack, which will turn");
+  if (across * (stress * across) < along * (stress * along) - 1e-6 * stress.norm())
+    return nobodys("the stress in situ is greatest across the crack, which will turn");
+  if (!std::isnan(the_case.rock.main().tensile_strength))
+    return nobodys("the deck gives a tensile strength, and charts are of those that models take "
+                   "for their cells");
   const double K_m = plane_fracture(the_case, pumping).dimensionless_toughness();
   std::ostringstream why;
   why << std::setprecision(2) << "K_m = " << K_m;
@@ -340,6 +360,11 @@ private:
       ParameterHandler prm;
       declare_all_parameters(prm, plug_ins);
       its.parse_into(prm);
+      if (const std::string own = own_setting(prm, model); !own.empty())
+      {
+        remark(name + " has '" + own + "', which is in no chart");
+        return std::nullopt;
+      }
       std::ostringstream nobody_reads;
       RunContext quiet(run.communicator, nobody_reads);
       const double cells = cells_in_half_length<dim>(quiet, its, prm, plug_ins);
@@ -360,6 +385,16 @@ private:
       remark(name + " is refused: " + error.what());
     }
     return std::nullopt;
+  }
+
+  /// An entry of a model that the deck changes, but for the cells, which are counted.
+  static std::string own_setting(const ParameterHandler &prm, const std::string &model)
+  {
+    for (const DeclaredEntry &entry : declared_entries(prm))
+      if (entry.section == "Fracture/" + model && entry.name != "Cell size" &&
+          entry.value != entry.default_value)
+        return entry.path() + " = " + entry.value;
+    return "";
   }
 
   void remark(const std::string &text)

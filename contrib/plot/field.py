@@ -189,6 +189,8 @@ def panel(ax, options, time):
     broken = opened(grid.points[corners][:, :, :2], lines[is_open(aperture)])
     if "damage" in grid.point_data and "stress" in options.field:  # of the bonds that have gone
         broken |= grid.point_data["damage"][corners].mean(axis=1) > 0.05
+    if broken.all():  # a window of nothing else
+        broken[:] = False
     colour = factor * at_corners(grid, corners, cells, values, at_points, broken)
 
     polygons = moved[corners]

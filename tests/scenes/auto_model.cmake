@@ -32,6 +32,14 @@ stockwork_choice_test(permeable 1 "no chart covers this scene, for the rock has 
   --set "Rock/Bulk model=poroelastic" --set "Rock/Permeability=1e-15" --set "Fluid/Bulk modulus=2 GPa")
 stockwork_choice_test(stress_at_an_angle 1 "the stress in situ shears the crack"
   --set "In situ/Stress=-10 MPa, -10 MPa, 2 MPa")
+stockwork_choice_test(stress_across 1 "the stress in situ is greatest across the crack"
+  --set "In situ/Stress=-17 MPa, -23 MPa")
+stockwork_choice_test(strength_given 1 "the deck gives a tensile strength" --set "Rock/Tensile strength=20 MPa")
+stockwork_choice_test(loaded 1 "there are loads on the boundary" --set "Boundary conditions/Normal traction=top: -6 MPa"
+  --set "Boundary conditions/Roller=left, bottom")
+stockwork_choice_test(walls 1 "the walls are nearer" --set "Mesh/Box/Lower corner=0, -32 m" --set "Mesh/Box/Upper corner=32 m, 32 m")
+stockwork_choice_said_test(held "Fracture/Model = cohesive_xfem, .*damage, coarse has 'Fracture/damage/Growth = false'"
+  --set "Fracture/damage/Growth=false")
 stockwork_choice_test(moving 1 "inertia is on" --set "Time/Inertia=on" --set "Rock/Density=2500")
 
 # A crack that does not grow. Growing under its pressure, it is in no chart.
