@@ -96,8 +96,12 @@ std::vector<double> loads_at(const Case<dim> &the_case, const double time)
 template <int dim>
 double greatest_change(const Case<dim> &the_case, const double within)
 {
-  constexpr unsigned int n = 1000;
+  // At the run's own steps: what a load does between two of them no run sees. Of a run of more
+  // steps than `most`, a pulse shorter than that share of it may be missed.
+  constexpr double fewest = 1e3, most = 2e5;
   const double start = the_case.control.start_time, duration = duration_of(the_case);
+  const unsigned int n = static_cast<unsigned int>(
+    std::clamp(std::ceil(duration / the_case.control.initial_step), fewest, most));
   std::vector<std::vector<double>> samples;
   for (unsigned int i = 0; i <= n; ++i)
     samples.push_back(loads_at(the_case, start + duration * i / n));

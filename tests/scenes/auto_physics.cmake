@@ -62,6 +62,10 @@ stockwork_physics_test(plasticity_kept/no_strength ARGS ${yielding} --set "Rock/
   --keeps plasticity --says "Rock/Tensile strength" LABELS quick)
 stockwork_physics_test(plasticity_kept/footing DECK prm/footing/bearing/none.prm ARGS --keeps plasticity LABELS quick)
 
+stockwork_physics_test(inertia_kept/pulse DECK prm/bar_wave/none.prm ARGS --set "Resolution=coarse"
+  --set "Boundary conditions/Normal traction=top: -1e4*if(abs(t-13.37)<0.01,1,0)" --set "Verification/Reference=none"
+  --set "Time/End time=30 s" --set "Time/Initial step=0.005 s" --keeps inertia LABELS quick)
+
 # All together: what has been left out makes room for more, or less.
 stockwork_physics_test(pores_kept/yielding ARGS ${saturated} ${yielding} --set "Rock/mohr coulomb/Cohesion=2 MPa"
   --set "Rock/Permeability=1e-20" --keeps plasticity --keeps "pore pressure and its diffusion"
