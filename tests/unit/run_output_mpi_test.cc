@@ -232,7 +232,7 @@ TEST_CASE("the parameter manual names unit, range and meaning")
         "|"));
   CHECK(has("| Corners | `1, 2` | a list separated by commas of 2 to 3, each a length (m) |"));
   CHECK(has("a list separated by ',', each a number >= 0"));
-  CHECK(has("one of 'coarse', 'medium' or 'fine'"));
+  CHECK(has("one of 'auto', 'coarse', 'medium' or 'fine'"));
 
   // What is printed as a deck is a deck with the same values.
   print_parameters(prm, "prm", text);
