@@ -4,14 +4,14 @@ stockwork_case_test(NAME scenes/model/chosen DECK tests/scenes/auto_model.prm
 
 # stockwork_choice_test(NAME text that is said SET ...)
 function(stockwork_choice_test name status says)
-  stockwork_scene_test(model/${name} DECK tests/scenes/auto_model.prm LABELS quick
+  stockwork_scene_test(model/${name} DECK tests/scenes/auto_model.prm
     ARGS --checked --ends ${status} --says "${says}" ${ARGN})
 endfunction()
 
 function(stockwork_choice_said_test name says)
   if(TARGET stockwork_program)
     add_test(NAME scenes/model/${name} COMMAND stockwork_program ${CMAKE_CURRENT_SOURCE_DIR}/auto_model.prm --check ${ARGN})
-    set_tests_properties(scenes/model/${name} PROPERTIES LABELS "scenes;quick" TIMEOUT 120 PASS_REGULAR_EXPRESSION "${says}")
+    set_tests_properties(scenes/model/${name} PROPERTIES LABELS scenes TIMEOUT 120 PASS_REGULAR_EXPRESSION "${says}")
   endif()
 endfunction()
 
@@ -43,7 +43,7 @@ stockwork_choice_said_test(held "Fracture/Model = cohesive_xfem, .*damage, coars
 stockwork_choice_test(moving 1 "inertia is on" --set "Time/Inertia=on" --set "Rock/Density=2500")
 
 # A crack that does not grow. Growing under its pressure, it is in no chart.
-stockwork_case_test(NAME scenes/model/static DECK tests/scenes/auto_model_static.prm LABELS quick
+stockwork_case_test(NAME scenes/model/static DECK tests/scenes/auto_model_static.prm
   EXPECT "errors/fracture_volume/final < 0.005" "errors/displacement/final < 0.005")
-stockwork_scene_test(model/growing_under_pressure DECK tests/scenes/auto_model_static.prm LABELS quick
+stockwork_scene_test(model/growing_under_pressure DECK tests/scenes/auto_model_static.prm
   ARGS --checked --ends 1 --says "the given pressure lets the crack grow" --set "Cracks/Fluid pressure=10 MPa")

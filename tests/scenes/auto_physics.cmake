@@ -28,13 +28,13 @@ set(yielding --set "Rock/Law=mohr coulomb" --set "Rock/mohr coulomb/Cohesion=30 
 stockwork_physics_test(inertia ARGS ${moving} --set "Time/End time=0.8 s"
   --leaves-out inertia --less iterations=1.8)
 stockwork_physics_test(inertia_kept ARGS ${moving} --set "Wells/Well 1/Rate=2e-2 m^2/s" --set "Time/End time=0.4 s"
-  --keeps inertia --says "is more than 'Accuracy'" LABELS quick)
+  --keeps inertia --says "is more than 'Accuracy'")
 stockwork_physics_test(inertia_kept/well ARGS ${moving} --set "Wells/Well 1/Control=pressure"
-  --set "Wells/Well 1/Pressure=1 MPa" --set "Wells/Well 1/Rate=" --keeps inertia --says "acts at once" LABELS quick)
+  --set "Wells/Well 1/Pressure=1 MPa" --set "Wells/Well 1/Rate=" --keeps inertia --says "acts at once")
 # A bar that is pushed within a period, and within a hundred; its quasi-static end is that of the swinging bar within
 # what the force gains in a period.
 stockwork_physics_test(inertia_kept/wave DECK prm/bar_wave/none.prm ARGS --keeps inertia
-  --says "loads change by 100 %" LABELS quick)
+  --says "loads change by 100 %")
 stockwork_physics_test(inertia/slow DECK prm/bar_wave/none.prm ARGS --set "Resolution=coarse"
   --set "Boundary conditions/Normal traction=top: -1e4*t/30" --set "Verification/Reference=none"
   --set "Time/End time=30 s" --set "Time/Initial step=0.05 s" --leaves-out inertia --less iterations=0.99)
@@ -43,39 +43,39 @@ stockwork_physics_test(inertia/slow DECK prm/bar_wave/none.prm ARGS --set "Resol
 stockwork_physics_test(pores ARGS ${leaking} --set "Rock/Permeability=1e-17"
   --leaves-out "pore pressure and its diffusion" --less unknowns=1.1 --says "Leak-off = none")
 stockwork_physics_test(pores_kept ARGS ${leaking} --set "Rock/Permeability=1e-16"
-  --keeps "pore pressure and its diffusion" --says "is more than 'Accuracy'" LABELS quick)
+  --keeps "pore pressure and its diffusion" --says "is more than 'Accuracy'")
 # No leak-off, and a rim in which the rock drains.
 stockwork_physics_test(pores/undrained ARGS ${saturated} --set "Rock/Permeability=1e-16"
   --leaves-out "pore pressure and its diffusion" --less unknowns=1.1)
 stockwork_physics_test(pores_kept/incompressible ARGS ${saturated} --set "Rock/Permeability=1e-17"
-  --set "Fluid/Bulk modulus=inf" --set "Boundary conditions/Drained=top" --keeps "pore pressure and its diffusion" --says "neither grains nor fluid" LABELS quick)
+  --set "Fluid/Bulk modulus=inf" --set "Boundary conditions/Drained=top" --keeps "pore pressure and its diffusion" --says "neither grains nor fluid")
 # Bonds have Poisson's ratio 1/4: the program refuses the undrained rock.
 stockwork_physics_test(pores_kept/bonds DECK prm/kgd/sun/peridynamics.prm ARGS ${saturated} --set "Resolution=coarse"
   --set "Rock/Permeability=1e-20" --set "Verification/Reference=none"
-  --keeps "pore pressure and its diffusion" --says "without it the deck would be refused" LABELS quick)
+  --keeps "pore pressure and its diffusion" --says "without it the deck would be refused")
 
 # Rock far from its strength, and rock nine tenths of whose strength the stress in situ takes.
 stockwork_physics_test(plasticity ARGS ${yielding} --leaves-out plasticity --without rock)
 stockwork_physics_test(plasticity_kept DECK prm/kgd/yielding/cohesive_xfem.prm ARGS --set "Resolution=coarse"
-  --keeps plasticity LABELS quick)
+  --keeps plasticity)
 stockwork_physics_test(plasticity_kept/no_strength ARGS ${yielding} --set "Rock/Tensile strength="
-  --keeps plasticity --says "Rock/Tensile strength" LABELS quick)
-stockwork_physics_test(plasticity_kept/footing DECK prm/footing/bearing/none.prm ARGS --keeps plasticity LABELS quick)
+  --keeps plasticity --says "Rock/Tensile strength")
+stockwork_physics_test(plasticity_kept/footing DECK prm/footing/bearing/none.prm ARGS --keeps plasticity)
 
 stockwork_physics_test(inertia_kept/pulse DECK prm/bar_wave/none.prm ARGS --set "Resolution=coarse"
   --set "Boundary conditions/Normal traction=top: -1e4*if(abs(t-13.37)<0.01,1,0)" --set "Verification/Reference=none"
-  --set "Time/End time=30 s" --set "Time/Initial step=0.005 s" --keeps inertia LABELS quick)
+  --set "Time/End time=30 s" --set "Time/Initial step=0.005 s" --keeps inertia)
 
 # All together: what has been left out makes room for more, or less.
 stockwork_physics_test(pores_kept/yielding ARGS ${saturated} ${yielding} --set "Rock/mohr coulomb/Cohesion=2 MPa"
   --set "Rock/Permeability=1e-20" --keeps plasticity --keeps "pore pressure and its diffusion"
-  --says "hangs on the effective stress" LABELS quick)
+  --says "hangs on the effective stress")
 stockwork_physics_test(all ARGS ${leaking} ${yielding} --set "Rock/Permeability=1e-18"
   --leaves-out plasticity --leaves-out "pore pressure and its diffusion" --less unknowns=1.1 --without rock)
 
 # A form of the flow with one pressure per fracture is not there.
 stockwork_physics_test(gradients_kept DECK prm/kgd/toughness/cohesive_xfem.prm
-  ARGS --keeps "pressure gradients along the fracture" --says "the program has no form of the flow" LABELS quick)
+  ARGS --keeps "pressure gradients along the fracture" --says "the program has no form of the flow")
 
 # The same decisions after an interruption, and what has been seen is not forgotten.
 stockwork_restart_test(NAME scenes/physics/restart DECK tests/scenes/auto_physics.prm AFTER 15 TOLERANCE 1e-8 IGNORE fluid_balance_error

@@ -6,10 +6,10 @@ foreach(rule full:0.06 ramp:0.02 exact:0.008) # 0.069, 0.033, 0.012
   string(REPLACE ":" ";" rule ${rule})
   list(GET rule 0 volumes)
   list(GET rule 1 least)
-  stockwork_case_test(NAME stability/h/${volumes}/fails DECK ${deck} LABELS quick
+  stockwork_case_test(NAME stability/h/${volumes}/fails DECK ${deck}
     SET ${rod} "Fracture/peridynamics/Bond volumes=${volumes}" EXPECT "errors/displacement/final > ${least}")
 endforeach()
-stockwork_case_test(NAME stability/h/isotropic DECK ${deck} LABELS quick
+stockwork_case_test(NAME stability/h/isotropic DECK ${deck}
   SET ${rod} "Fracture/peridynamics/Bond volumes=isotropic" EXPECT "errors/displacement/final < 0.002")
 # At 30 degrees to the mesh, bonds lead a fracture into its lines, whatever the horizon; cells with jumps do not.
 set(turned "Resolution=coarse" "Time/End time=2 s" "Output/Fields=false")

@@ -12,10 +12,10 @@ stockwork_case_test(NAME stability/a/equal_order/quadratic DECK ${deck} LABELS q
 # A tenth of h^2/(6 c_v), and all of it.
 foreach(pair "Q1-Q1 stabilised" "Q2-Q1")
   string(MAKE_C_IDENTIFIER ${pair} name)
-  stockwork_case_test(NAME stability/a/short_step/${name}/fails DECK ${deck} LABELS quick
+  stockwork_case_test(NAME stability/a/short_step/${name}/fails DECK ${deck}
     SET "Discretisation/Elements=${pair}" "Rock/Permeability=0.1/6e13 m^2"
     EXPECT "fields/pore_pressure/maximum > 1.1") # 1.225, both
-  stockwork_case_test(NAME stability/a/short_step/${name}/cured DECK ${deck} LABELS quick
+  stockwork_case_test(NAME stability/a/short_step/${name}/cured DECK ${deck}
     SET "Discretisation/Elements=${pair}" "Rock/Permeability=1.01/6e13 m^2"
     EXPECT "fields/pore_pressure/maximum < 1.0001")
 endforeach()

@@ -5,13 +5,13 @@ set(one_step "Resolution=coarse" "Coupling/Force=true" "Time/Error tolerance=inf
 set(deck prm/column/plane_strain/none.prm)
 foreach(scheme drained "fixed strain")
   string(MAKE_C_IDENTIFIER ${scheme} name)
-  stockwork_stop_test(NAME stability/b/${name}/fails DECK ${deck} LABELS quick
+  stockwork_stop_test(NAME stability/b/${name}/fails DECK ${deck}
     SET ${one_step} "Coupling/Scheme=${scheme}" "Rock/Biot modulus=520 MPa"
     SAYS "the ${scheme} split diverges: after") # 1.08 per pass, as 520/480
-  stockwork_case_test(NAME stability/b/${name}/below DECK ${deck} LABELS quick
+  stockwork_case_test(NAME stability/b/${name}/below DECK ${deck}
     SET ${one_step} "Coupling/Scheme=${scheme}" "Rock/Biot modulus=440 MPa" EXPECT "linear_iterations < 250")
 endforeach()
-stockwork_case_test(NAME stability/b/fixed_stress DECK ${deck} LABELS quick # 19 passes at 13 times the limit
+stockwork_case_test(NAME stability/b/fixed_stress DECK ${deck} # 19 passes at 13 times the limit
   SET ${one_step} "Coupling/Scheme=fixed stress" "Rock/Biot modulus=6060 MPa" EXPECT "linear_iterations < 30")
 
 # With a fracture: half of the compressibility that it has, one pass after another.
