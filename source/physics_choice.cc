@@ -202,7 +202,8 @@ PhysicsDecision decide_inertia(const Case<dim> &the_case)
 
   PhysicsDecision decision;
   decision.name = name;
-  decision.error = greatest_change(the_case, period);
+  const double change = greatest_change(the_case, period);
+  decision.error = change;
   std::ostringstream why;
   why << std::setprecision(2) << "waves settle within " << period << " s (" << length << " m at "
       << speed << " m/s)";
@@ -221,7 +222,7 @@ PhysicsDecision decide_inertia(const Case<dim> &the_case)
       decision.error += tip * tip;
       why << ", the tips run at " << tip << " of their speed at 1 % of the time";
     }
-  if (const double change = greatest_change(the_case, period); change > 0.)
+  if (change > 0.)
     why << ", in which loads change by " << as_percentage(change) << " at most";
   decision.left_out = true;
   decision.why = why.str();

@@ -86,13 +86,14 @@ public:
   /// Fluid that the pores of the owned cells hold over what they held in situ [m^3 (/m)].
   double pore_volume(const Unknowns &unknowns, const Role &role) const;
 
-  /// Fluid that has left the owned cells through the boundary in the step [m^3 (/m)]: the reactions
-  /// to prescribed pore pressures, less the prescribed flux.
+  /// Fluid that has passed the boundary of the owned cells in a step [m^3 (/m)].
   struct BoundaryFlow
   {
     double out = 0.;     ///< less what has come in
     double through = 0.; ///< out and in
   };
+
+  /// The reactions to prescribed pore pressures, and the prescribed flux.
   BoundaryFlow outflow(const StepContext &context, const State &state) const;
 
 private:

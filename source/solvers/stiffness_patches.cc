@@ -231,8 +231,6 @@ StiffnessPatches::Solution StiffnessPatches::solve(const Group &group,
                                                    const Rows &rows,
                                                    Workspace &workspace)
 {
-  if (group.rows.size() > largest_patch)
-    return by_diagonal(group, rows);
   const auto n = patch.size(), m = group.columns.size();
   const auto place = [&](const int unknown) -> std::size_t
   {
@@ -298,8 +296,9 @@ void StiffnessPatches::solve_new(const std::vector<Group> &groups, const Epetra_
   wanted.clear();
   for (const Group *group : unsolved)
   {
-    patches.push_back(group->rows.size() > largest_patch ? std::vector<int>()
-                                                         : unknowns_of_patch(*group, rows));
+    patches.emplace_back(); // none: too many unknowns
+    if (group->rows.size() <= largest_patch)
+      patches.back() = unknowns_of_patch(*group, rows);
     for (const int row : patches.back())
       if (!K.MyGRID(row))
         wanted.push_back(row);
@@ -307,7 +306,9 @@ void StiffnessPatches::solve_new(const std::vector<Group> &groups, const Epetra_
   rows.see(wanted);
   Workspace workspace;
   for (std::size_t i = 0; i < unsolved.size(); ++i)
-    known.emplace(unsolved[i]->key, solve(*unsolved[i], patches[i], rows, workspace));
+    known.emplace(unsolved[i]->key, patches[i].empty()
+                                      ? by_diagonal(*unsolved[i], rows)
+                                      : solve(*unsolved[i], patches[i], rows, workspace));
 }
 
 
