@@ -28,6 +28,7 @@ CoupledSystem<dim>::CoupledSystem(RunContext &run,
                                   ParameterHandler &prm)
   : run(run)
   , scene(scene)
+  , laws(laws)
   , prescribed_loads(boundary_conditions.loads())
   , model(model)
   , network(network)
@@ -46,7 +47,7 @@ void CoupledSystem<dim>::make_solver()
   BulkStructure structure;
   structure.dim = dim;
   structure.has_pore_pressure = unknowns.elements.has_pore_pressure;
-  structure.n_dofs = unknowns.n_bulk();
+  structure.yields = laws.may_yield();
   const auto make = [this, structure]() -> std::unique_ptr<LinearSolver>
   {
     if (coupling_parameters.scheme == CouplingParameters::Scheme::monolithic)

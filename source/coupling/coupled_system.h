@@ -185,6 +185,7 @@ private:
 
   RunContext &run;
   const Scene<dim> &scene;
+  const RockLaws &laws;
   const Loads<dim> &prescribed_loads;
   FractureModel<dim> &model;
   Network<dim> &network;

@@ -148,7 +148,8 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   if (system.rock_change != nullptr)
     // In two dimensions a factor is never too dear.
     patch.build(system.bulk.block(0, 0), system.rock_change->block(0, 0),
-                system.displacement_hierarchy.dim == 3 ? parameters.direct_below : system.bulk.m());
+                system.displacement_hierarchy.dim == 3 ? parameters.direct_below.value_or(30000)
+                                                       : system.bulk.m());
   else
     patch.clear();
   built_for = stamps;

@@ -4,6 +4,9 @@
 #include "solvers/bordered_solver.h"
 #include "solvers/direct_solver.h"
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+#include <algorithm>
 
 namespace stockwork
 {
@@ -25,9 +28,10 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "problems. auto: iterative above a size in 3-D, else bordered, and direct in porous "
     "rock without a fracture.");
   prm.declare_entry(
-    "Direct below", "30000", Integer(0),
-    "Number of bulk unknowns in 3-D up to which auto chooses the direct solver, and "
-    "of rows that yield up to which multigrid is helped by a factor of these.");
+    "Direct below", "auto", Quantity(dimension::number, Range::non_negative(), "auto"),
+    "Number of bulk unknowns in 3-D up to which Type = auto makes a factor of the rock, and "
+    "of rows that yield up to which multigrid is helped by a factor of these. auto: 200000 "
+    "in elastic rock without pores, whose factor lasts as long as the mesh, else 30000.");
   prm.declare_entry("Maximum iterations", "200", Integer(1), "Of the iterative solver.");
   prm.declare_entry("Restart", "50", Integer(2), "Basis vectors FGMRES keeps before a restart.");
   prm.leave_subsection();
@@ -41,11 +45,21 @@ void LinearSolverParameters::parse_parameters(dealii::ParameterHandler &prm)
          : name == "bordered"  ? Type::bordered
          : name == "iterative" ? Type::iterative
                                : Type::automatic;
-  direct_below = prm.get_integer("Direct below");
+  direct_below.reset();
+  if (const auto number = get_optional_quantity(prm, "Direct below", dimension::number))
+    direct_below = static_cast<unsigned int>(std::min(*number, 4e9));
   max_iterations = prm.get_integer("Maximum iterations");
   restart = prm.get_integer("Restart");
   prm.leave_subsection();
 }
+
+unsigned int LinearSolverParameters::largest_factor(const BulkStructure &structure) const
+{
+  // One step of `radial/small` with 48126 unknowns takes 0.2 s with a factor that lasts and 5 s
+  // with multigrid (doc/laboratory/many_segments.md); 4 GB at the upper end.
+  return direct_below.value_or(structure.keeps_its_factor() ? 200000 : 30000);
+}
+
 
 namespace
 {
@@ -54,17 +68,18 @@ class AutomaticSolver : public LinearSolver
 {
 public:
   AutomaticSolver(const LinearSolverParameters &parameters,
-                  const unsigned int dim,
+                  const BulkStructure &structure,
                   const MPI_Comm communicator)
     : parameters(parameters)
-    , dim(dim)
+    , dim(structure.dim)
+    , largest_factor(parameters.largest_factor(structure))
     , communicator(communicator)
   {
   }
 
   bool wants_hierarchy(const dealii::types::global_dof_index n_dofs) const override
   {
-    return dim == 3 && n_dofs > parameters.direct_below;
+    return dim == 3 && n_dofs > largest_factor;
   }
 
   bool sees_rock_change(const LinearSystem &system, const SystemStamps &stamps) const override
@@ -135,7 +150,7 @@ private:
   }
 
   LinearSolverParameters parameters;
-  unsigned int dim;
+  unsigned int dim, largest_factor;
   MPI_Comm communicator;
   std::unique_ptr<LinearSolver> direct, bordered, iterative;
   unsigned int n_failures = 0;  ///< of the rock's factor, one after another
@@ -156,7 +171,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &p
   case LinearSolverParameters::Type::iterative:
     return std::make_unique<BlockAmgSolver>(parameters, communicator);
   default:
-    return std::make_unique<AutomaticSolver>(parameters, structure.dim, communicator);
+    return std::make_unique<AutomaticSolver>(parameters, structure, communicator);
   }
 }
 } // namespace stockwork

@@ -5,6 +5,7 @@
 #include "solvers/linear_system.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace stockwork
@@ -32,7 +33,13 @@ struct BulkStructure
 {
   unsigned int dim = 2;
   bool has_pore_pressure = false;
-  dealii::types::global_dof_index n_dofs = 0; ///< bulk unknowns of all ranks
+  bool yields = false; ///< so that the matrix changes with the load
+
+  /// Whether one factor serves as long as the mesh does.
+  bool keeps_its_factor() const
+  {
+    return !has_pore_pressure && !yields;
+  }
 };
 
 /// Subsection "Linear solver".
@@ -46,12 +53,15 @@ struct LinearSolverParameters
     iterative
   };
   Type type = Type::automatic;
-  unsigned int direct_below = 30000; ///< unknowns in 3-D up to which "auto" is direct
+  std::optional<unsigned int> direct_below; ///< the entry; none: auto
   unsigned int max_iterations = 200;
   unsigned int restart = 50;
 
   static void declare_parameters(dealii::ParameterHandler &);
   void parse_parameters(dealii::ParameterHandler &);
+
+  /// Bulk unknowns in 3-D up to which "auto" makes a factor.
+  unsigned int largest_factor(const BulkStructure &) const;
 };
 
 /// A linear system whose bulk has been eliminated, for Newton's method in the extra unknowns alone:
