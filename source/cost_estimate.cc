@@ -1,5 +1,7 @@
 #include "cost_estimate.h"
 
+#include "solvers/linear_solver.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -18,6 +20,8 @@ CostEstimate estimate_cost(const unsigned int dim,
 {
   const double n = std::max(n_unknowns, 2.);
   const double program = 1.9e8; // deal.II, Trilinos and MPI, before any cell is made
+  if (dim == 3 && !has_pore_pressure && n <= largest_lasting_factor)
+    return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.), 1e-6 * n * (has_fracture ? 3. : 1.)};
   if (dim == 3)
     return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.),
             4e-5 * n * (has_fracture ? 4. : 1.)};

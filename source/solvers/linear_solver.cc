@@ -55,9 +55,7 @@ void LinearSolverParameters::parse_parameters(dealii::ParameterHandler &prm)
 
 unsigned int LinearSolverParameters::largest_factor(const BulkStructure &structure) const
 {
-  // One step of `radial/small` with 48126 unknowns takes 0.2 s with a factor that lasts and 5 s
-  // with multigrid (doc/laboratory/many_segments.md); 4 GB at the upper end.
-  return direct_below.value_or(structure.keeps_its_factor() ? 200000 : 30000);
+  return direct_below.value_or(structure.keeps_its_factor() ? largest_lasting_factor : 30000);
 }
 
 

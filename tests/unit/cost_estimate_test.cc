@@ -60,4 +60,16 @@ TEST_CASE("equal steps are counted; where nothing tells how they grow, that is s
     "roughly 200 MB of memory, 14 ms per step; at most 10 steps would take 640 ms on one core if "
     "none were longer than the first");
 }
+
+TEST_CASE("memory of factors that last")
+{
+  // radial/small/damage, coarse, medium, fine: peak_memory_bytes of summary.json.
+  for (const auto &[unknowns, bytes] :
+       {std::pair(29052., 425013248.), {48126., 635916288.}, {88212., 1207078912.}})
+  {
+    const double expected = estimate_cost(3, unknowns, false, true).memory;
+    CHECK(expected > bytes);
+    CHECK(expected < 1.5 * bytes);
+  }
+}
 } // namespace stockwork::cost_estimate_test
