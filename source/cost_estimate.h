@@ -17,8 +17,8 @@ struct CostEstimate
 
 /// From runs of the shipped cases. A factor of the matrix grows with N log N in two dimensions; it
 /// lasts as long as the rock stays as it is, in porous rock the step, which a fracture changes all
-/// the time. In three dimensions factors of elastic rock grow with N^(4/3), and larger systems, or those
-/// of porous rock, are solved by iteration.
+/// the time. In three dimensions factors of elastic rock grow with N^(4/3), and larger systems, or
+/// those of porous rock, are solved by iteration.
 CostEstimate
 estimate_cost(unsigned int dim, double n_unknowns, bool has_pore_pressure, bool has_fracture);
 

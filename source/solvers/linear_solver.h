@@ -42,8 +42,9 @@ struct BulkStructure
   }
 };
 
-/// Unknowns in three dimensions up to which a factor that lasts is cheaper than iteration by far: one
-/// step of `radial/small` with 48126 takes 0.2 s with it and 5 s without; 4 GB at the upper end.
+/// Unknowns in three dimensions up to which a factor that lasts is cheaper than iteration by far:
+/// one step of `radial/small` with 48126 takes 0.2 s with it and 5 s without; 4 GB at the upper
+/// end.
 constexpr unsigned int largest_lasting_factor = 200000;
 
 /// Subsection "Linear solver".
