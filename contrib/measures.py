@@ -15,6 +15,12 @@ from closure import closure
 from results import read_statistics
 
 
+# What a name may begin with: numbers and groups of summary.json (source/base/run_summary.cc), and those from other files.
+BEGINNINGS = ("cells", "unknowns", "ranks", "steps", "rejected_steps", "nonlinear_iterations", "linear_iterations",
+              "wall_seconds", "cpu_seconds", "peak_memory_bytes", "final", "errors", "fluid_balance", "warnings",
+              "rates", "minimum", "maximum", "closure", "direction", "fields")
+
+
 def with_measures(directory, summary, names):
     """The summary with what the names ask for besides."""
     kinds = {name.split("/")[0] for name in names}

@@ -25,6 +25,7 @@ import dataclasses
 import os
 import tomllib
 
+from measures import BEGINNINGS
 from results import ResultError
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -110,11 +111,21 @@ def map_of(path, given, blocks):
         raise ResultError(f"{path}: x, y, measure and label of [map] are texts")
     if isinstance(given.get("limit", 0.), bool) or not isinstance(given.get("limit", 0.), (int, float)):
         raise ResultError(f"{path}: limit = {given['limit']!r}, but it is a number")
-    entries = {"case", *(entry for b in blocks for entry in b.set)}
+    beginning = given["measure"].split("/")[0]
+    if beginning not in BEGINNINGS:
+        raise ResultError(f"{path}: [map] has measure = '{given['measure']}', but a number's name begins with one of: "
+                          f"{', '.join(BEGINNINGS)}")
+    values = {}
+    for b in blocks:
+        for entry, its in {"case": b.cases, **b.set}.items():
+            values.setdefault(entry, set()).update(map(str, its))
+    varied = sorted(entry for entry, its in values.items() if len(its) > 1)
     for key in ("x", "y"):
-        if given[key] not in entries:
+        if given[key] not in varied:
             raise ResultError(f"{path}: [map] has {key} = '{given[key]}', which is not varied; there is: "
-                              f"{', '.join(sorted(entries))}")
+                              f"{', '.join(varied) or 'nothing'}")
+    if given["x"] == given["y"]:
+        raise ResultError(f"{path}: [map] has the same entry, '{given['x']}', for x and for y")
     return given
 
 
