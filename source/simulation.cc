@@ -455,7 +455,7 @@ void Simulation<dim>::save()
       archive << *values;
     the_case.model->save(archive);
     the_case.network.save(archive);
-    archive << report << fields;
+    archive << report << fields << run.warnings;
   }
   std::vector<const TrilinosWrappers::MPI::BlockVector *> vectors;
   for (const auto *vector : stepper.bulk_vectors())
@@ -510,7 +510,9 @@ void Simulation<dim>::resume()
     archive >> *values;
   the_case.model->load(archive);
   the_case.network.load(archive);
-  archive >> report >> fields;
+  std::vector<std::string> warnings;
+  archive >> report >> fields >> warnings;
+  run.recall(warnings);
 
   // In the order in which they were saved; the model looks at its fields in setup().
   if (NodalFields<dim> *const own_fields = system.nodal_fields())

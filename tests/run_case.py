@@ -7,7 +7,7 @@
              broken against a reference solution that is off by twice that bound, up or down.
     order    one run per --series value; the observed order of a quantity in the last pair of runs
     same     two runs on different numbers of ranks (or with different settings) agree
-    restart  a run that is interrupted and restarted agrees with the run that is not
+    restart  a run that is interrupted and restarted agrees with the run that is not, and has its warnings
     no_restart  a restart must be refused with every --says, because of --second-set or --damage
     steps    the run takes --steps steps, whose numbers are finite, and is then interrupted
     stop     the run must end on its way, with exit status 2 and every --says
@@ -299,6 +299,10 @@ def run_restart(runner, options):
         raise Failure("the run reached its end before it was interrupted")
     runner.run("restarted", options.deck, options.set, options.ranks_pair[1], extra=["--restart"])
     _require_same(runner, "straight", "restarted", options)
+    straight, restarted = (read_summary(runner.output(name))["warnings"] for name in ("straight", "restarted"))
+    lost = [warning for warning in straight if warning not in restarted]
+    if lost:
+        raise Failure("the restarted run does not know the warning: " + lost[0])
 
 
 def _interrupt(runner, options):

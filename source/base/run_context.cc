@@ -27,4 +27,11 @@ void RunContext::warn(const std::string &message)
   warnings.push_back(message);
   out << "Warning: " << message << std::endl;
 }
+
+void RunContext::recall(const std::vector<std::string> &earlier)
+{
+  for (const std::string &message : earlier)
+    if (std::find(warnings.begin(), warnings.end(), message) == warnings.end())
+      warnings.push_back(message);
+}
 } // namespace stockwork

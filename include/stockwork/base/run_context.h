@@ -23,6 +23,9 @@ struct RunContext
   /// repeated. To be called on all ranks, or on rank 0 only.
   void warn(const std::string &message);
 
+  /// Keep the warnings of the part of a run that was before its restart; they have been printed.
+  void recall(const std::vector<std::string> &earlier);
+
   MPI_Comm communicator;
   unsigned int rank;
   unsigned int n_ranks;
