@@ -105,29 +105,6 @@ void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &
     }
 }
 
-template <int dim>
-void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                       const std::vector<Point<dim>> &corners,
-                       const double wanted,
-                       const unsigned int rings,
-                       std::vector<float> &sizes)
-{
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const double reach = 0.5 * cell->diameter() + rings * wanted;
-      float &size = sizes[cell->active_cell_index()];
-      for (unsigned int i = 0; i + 1 < corners.size(); ++i)
-        if (distance_from_line(cell->center(), corners[i], corners[i + 1]) < reach)
-          size = std::min(size, static_cast<float>(wanted));
-    }
-}
-
-template void request_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
-                                const std::vector<Point<2>> &,
-                                const double,
-                                const unsigned int,
-                                std::vector<float> &);
 template void request_cell_size(const dealii::parallel::distributed::Triangulation<2> &,
                                 const Discontinuity<2> &,
                                 const unsigned int,

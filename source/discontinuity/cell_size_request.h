@@ -16,13 +16,4 @@ void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &
                        const Discontinuity<dim> &discontinuity,
                        const unsigned int rings_ahead,
                        std::vector<float> &sizes);
-
-/// Ask for cells of a size [m] around a crack that has not been cut into the mesh yet: so many
-/// rings all around.
-template <int dim>
-void request_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                       const std::vector<dealii::Point<dim>> &corners,
-                       const double size,
-                       const unsigned int rings,
-                       std::vector<float> &sizes);
 } // namespace stockwork

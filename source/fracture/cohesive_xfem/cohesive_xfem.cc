@@ -13,6 +13,8 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 #include "stockwork/exchange/released_traction.h"
+#include "stockwork/exchange/surroundings.h"
+#include "stockwork/fracture/needs.h"
 #include "stockwork/fracture/registry.h"
 
 #include <cmath>
@@ -52,12 +54,9 @@ CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &
   , contact(parameters.friction, contact_stiffness, scene.rock, scene.domain_size)
 {
   const RockProperties &rock = scene.rock.main();
-  if (!(rock.energy_release_rate > 0.))
-    throw InputError("The cohesive crack model needs the rock's energy release rate G_c "
-                     "(Rock / Energy release rate).");
+  needs::energy_release_rate(scene.rock, "cohesive_xfem");
   contact.keep_apart(propped_gaps(scene.cracks, discontinuity));
-  if (scene.cracks.empty())
-    throw InputError("The cohesive crack model needs an initial crack or notch to grow from.");
+  needs::initial_crack(scene, "cohesive_xfem");
   // Until the cell size is known, any positive strength will do.
   law = make_law(parameters, rock, std::isnan(rock.tensile_strength) ? 1. : rock.tensile_strength);
 }
@@ -400,9 +399,8 @@ void CohesiveXFEM<dim>::wanted_cell_size(
   if (!mesh_view)
   {
     if (parameters.cell_size > 0.)
-      for (const auto &crack : scene.cracks)
-        request_cell_size(triangulation, crack.points, parameters.cell_size, parameters.rings_ahead,
-                          sizes);
+      request_cell_size(triangulation, scene.cracks, parameters.rings_ahead * parameters.cell_size,
+                        parameters.cell_size, sizes);
     return;
   }
   request_cell_size(triangulation, discontinuity, parameters.rings_ahead, sizes);

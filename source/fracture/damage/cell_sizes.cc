@@ -1,42 +1,13 @@
 #include "fracture/damage/damage.h"
 #include "mesh/geometry.h"
+#include "stockwork/exchange/surroundings.h"
 
-#include <deal.II/numerics/rtree.h>
-
+#include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace stockwork::damage
 {
 using dealii::Point;
-
-namespace
-{
-/// Places around which cells of one size are wanted.
-template <int dim>
-class Surroundings
-{
-public:
-  Surroundings(const std::vector<Point<dim>> &places, const double reach)
-    : tree(dealii::pack_rtree(places))
-    , reach(reach)
-  {
-  }
-
-  /// Whether a cell comes closer than the reach to any of them.
-  bool include(const Point<dim> &centre, const double radius) const
-  {
-    std::vector<Point<dim>> nearest;
-    tree.query(boost::geometry::index::nearest(centre, 1), std::back_inserter(nearest));
-    return !nearest.empty() && nearest[0].distance(centre) < reach + radius;
-  }
-
-private:
-  dealii::RTree<Point<dim>> tree;
-  double reach;
-};
-} // namespace
-
 
 /// A crack passes cells of one level only: those along it, and ahead of its front more of them than
 /// it needs, in blocks, so that they are not asked for anew whenever it has grown by a cell; a
@@ -46,17 +17,11 @@ void Damage<dim>::wanted_cell_size(
   const dealii::parallel::distributed::Triangulation<dim> &triangulation,
   std::vector<float> &sizes) const
 {
-  const auto ask = [&](const unsigned int cell, const double wanted)
-  { sizes[cell] = std::min(sizes[cell], static_cast<float>(wanted)); };
   if (!mesh_view)
   {
     if (parameters.cell_size > 0.)
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto &crack : scene.cracks)
-            if (crack.distance(cell->center()) <
-                0.5 * cell->diameter() + parameters.rings_ahead * parameters.cell_size)
-              ask(cell->active_cell_index(), parameters.cell_size);
+      request_cell_size(triangulation, scene.cracks, parameters.rings_ahead * parameters.cell_size,
+                        parameters.cell_size, sizes);
     return;
   }
 
@@ -69,29 +34,17 @@ void Damage<dim>::wanted_cell_size(
   }
   // In three dimensions cells are dearer than another mesh now and then.
   const double block = (dim == 2 ? 2. : 1.) * parameters.rings_ahead * h;
-  std::vector<Point<dim>> along;
-  std::set<std::array<long, dim>> blocks;
+  std::vector<Point<dim>> along, front;
   for (unsigned int i = 0; i < band.cells.size(); ++i)
   {
     const Point<dim> centre = band.cells[i].centre();
     along.push_back(centre);
-    if (!parameters.growth || !band.is_front(i))
-      continue;
-    std::array<long, dim> index;
-    for (unsigned int d = 0; d < dim; ++d)
-      index[d] = std::lround(centre[d] / block);
-    blocks.insert(index);
-  }
-  std::vector<Point<dim>> ahead;
-  for (const auto &index : blocks)
-  {
-    Point<dim> place;
-    for (unsigned int d = 0; d < dim; ++d)
-      place[d] = block * index[d];
-    ahead.push_back(place);
+    if (parameters.growth && band.is_front(i))
+      front.push_back(centre);
   }
   const Surroundings<dim> of_cells(along, 1.5 * h),
-    of_front(ahead, 0.5 * parameters.rings_ahead * h + 0.5 * std::sqrt(double(dim)) * block);
+    of_front(in_blocks(front, block),
+             0.5 * parameters.rings_ahead * h + 0.5 * std::sqrt(double(dim)) * block);
   // It is the level that is asked for: on a mesh whose cells grow, the size would differ from cell
   // to cell and leave hanging nodes on the way.
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -100,8 +53,11 @@ void Damage<dim>::wanted_cell_size(
       const Point<dim> centre = cell->center();
       const double radius = 0.5 * cell->diameter();
       if (of_cells.include(centre, radius) || of_front.include(centre, radius))
-        ask(cell->active_cell_index(),
-            std::ldexp(cell_size(cell), cell->level() - static_cast<int>(level)));
+      {
+        float &size = sizes[cell->active_cell_index()];
+        size = std::min(size, static_cast<float>(std::ldexp(
+                                cell_size(cell), cell->level() - static_cast<int>(level))));
+      }
     }
 }
 

@@ -7,6 +7,7 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 #include "stockwork/exchange/released_traction.h"
+#include "stockwork/fracture/needs.h"
 #include "stockwork/fracture/registry.h"
 #include "stockwork/rock/linear_stiffness.h"
 
@@ -43,23 +44,11 @@ Damage<dim>::Damage(const Parameters &parameters, const Scene<dim> &scene)
   , scene(scene)
   , band(parameters.linear_jumps)
 {
-  if (!(scene.rock.main().energy_release_rate > 0.))
-    throw InputError("The damage model needs the rock's energy release rate G_c (Rock / Energy "
-                     "release rate, or Fracture toughness).");
-  if (const RockProperties &rock = scene.rock.main();
-      std::abs(rock.shear_energy_release_rate - rock.energy_release_rate) >
-      1e-6 * rock.energy_release_rate)
-  {
-    std::ostringstream given;
-    given << rock.shear_energy_release_rate << " J/m^2";
-    throw EntryError(
-      "Rock/Shear energy release rate", given.str(),
-      "nothing (an empty entry), or the critical one, with 'Fracture/Model = damage', "
-      "whose cracks have one energy, whatever the mode");
-  }
+  needs::energy_release_rate(scene.rock, "damage");
+  needs::energy_of_all_modes(scene.rock.main(), "damage",
+                             "whose cracks have one energy, whatever the mode");
   check_strengths();
-  if (scene.cracks.empty())
-    throw InputError("The damage model needs an initial crack or notch to grow from.");
+  needs::initial_crack(scene, "damage");
   for (const auto &crack : scene.cracks)
     if (crack.kind == InitialCrack<dim>::Kind::propped)
       throw EntryError(crack.entry, crack.text, "no propped crack with 'Fracture/Model = damage'");

@@ -2,6 +2,7 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include "stockwork/base/error.h"
+#include "stockwork/fracture/needs.h"
 #include "verification/analytical/kgd.h"
 
 #include <algorithm>
@@ -65,27 +66,14 @@ std::vector<std::pair<Point<dim>, Tensor<1, dim>>> flat_parts(const InitialCrack
 template <int dim>
 void Peridynamics<dim>::refuse_what_bonds_do_not_know() const
 {
-  for (const InitialCrack<dim> &crack : scene.cracks)
-    if (crack.kind != InitialCrack<dim>::Kind::open)
-      throw EntryError(crack.entry, crack.text,
-                       "nothing (an empty entry) with the fracture model 'peridynamics', whose "
-                       "cracks are open from the start ('Cracks/Open'); 'cohesive_xfem' knows "
-                       "cohesive and propped ones");
+  needs::open_cracks(scene, "peridynamics");
   if (!parameters.growth)
     return;
-  const RockProperties &rock = scene.rock.main();
-  if (!std::isnan(rock.tensile_strength))
-    throw EntryError("Rock/Tensile strength", megapascals(rock.tensile_strength),
-                     "nothing (an empty entry) with the fracture model 'peridynamics', where the "
-                     "strength follows from the energy release rate and the cells' size; "
-                     "'cohesive_xfem' takes one");
-  if (std::abs(rock.shear_energy_release_rate - rock.energy_release_rate) >
-      1e-6 * rock.energy_release_rate)
-    throw EntryError("Rock/Shear energy release rate",
-                     text(rock.shear_energy_release_rate) + " J/m^2",
-                     "nothing (an empty entry), or the critical one, with the fracture model "
-                     "'peridynamics', whose bonds break by their stretch, whatever the mode; "
-                     "'cohesive_xfem' takes one");
+  needs::no_given_strength(
+    scene.rock.main(), "peridynamics",
+    "where the strength follows from the energy release rate and the cells' size");
+  needs::energy_of_all_modes(scene.rock.main(), "peridynamics",
+                             "whose bonds break by their stretch, whatever the mode");
 }
 
 

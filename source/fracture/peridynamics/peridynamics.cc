@@ -4,6 +4,7 @@
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/state_based.h"
 #include "stockwork/base/error.h"
+#include "stockwork/fracture/needs.h"
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
@@ -53,16 +54,15 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
                        " with bond-based peridynamics" +
                        (rock.plane_stress ? " in plane stress" : "") +
                        "; others with 'Bond law = state-based'");
-  if (!(rock.energy_release_rate > 0.) && parameters.growth)
-    throw InputError("Peridynamics needs the rock's energy release rate G_c (Rock / Critical "
-                     "energy release rate, or Fracture toughness), or 'Growth = false'.");
+  if (parameters.growth)
+    needs::energy_release_rate(scene.rock, "peridynamics", "or 'Growth = false'");
   if (parameters.as_published && !parameters.tensor_fluid &&
       scene.rock.bulk_model() == "poroelastic")
     throw EntryError("Fracture/peridynamics/Closure", "as published",
                      "'conserving' in porous rock (Rock/Bulk model), or 'Fluid = permeability "
                      "tensor'");
-  if (scene.cracks.empty() && parameters.boxes.empty())
-    throw InputError("Peridynamics needs an initial crack, or the box of its 'Zone'.");
+  if (parameters.boxes.empty())
+    needs::initial_crack(scene, "peridynamics", "or the box of its 'Zone'");
   refuse_what_bonds_do_not_know();
   shape.cracks = scene.cracks;
   shape.boxes = parameters.boxes;

@@ -8,6 +8,8 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 #include "stockwork/exchange/released_traction.h"
+#include "stockwork/exchange/surroundings.h"
+#include "stockwork/fracture/needs.h"
 #include "stockwork/fracture/registry.h"
 
 namespace stockwork::prescribed
@@ -35,8 +37,7 @@ public:
               scene.domain_size)
   {
     contact.keep_apart(propped_gaps(scene.cracks, discontinuity));
-    if (scene.cracks.empty())
-      throw InputError("The model 'prescribed' needs at least one crack (subsection Cracks).");
+    needs::initial_crack(scene, "prescribed");
   }
 
   static void declare_parameters(dealii::ParameterHandler &prm)
@@ -157,8 +158,7 @@ public:
     if (mesh_view)
       request_cell_size(triangulation, discontinuity, 4, sizes);
     else if (cell_size > 0.)
-      for (const auto &crack : scene.cracks)
-        request_cell_size(triangulation, crack.points, cell_size, 4, sizes);
+      request_cell_size(triangulation, scene.cracks, 4. * cell_size, cell_size, sizes);
   }
 
   FractureSummary summary(const State &state, const Collectives &collectives) const override
