@@ -12,7 +12,7 @@
 #include "coupling/time_scheme.h"
 #include "flow/network.h"
 #include "mesh/geometry.h"
-#include "physics_decision.h"
+#include "physics_choice/physics_decision.h"
 #include "rock/laws.h"
 #include "scales.h"
 #include "verification/reference_solution.h"

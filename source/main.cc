@@ -8,7 +8,7 @@
 
 #include "base/catalogue.h"
 #include "case.h"
-#include "model_choice.h"
+#include "model_choice/model_choice.h"
 #include "plug_ins.h"
 #include "simulation.h"
 

@@ -520,7 +520,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
     numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});
 
-  if (!the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture)
+  if (is_cracked(the_case))
     if (const double half = half_length_at_end(the_case); !std::isnan(half))
       numbers.push_back({"cells in the final half length", half / mesh.smallest,
                          "what 'Resolution = auto' goes by"});

@@ -22,6 +22,31 @@ constexpr double density_of_common_rock = 2500.;
 
 
 template <int dim>
+double duration_of(const Case<dim> &the_case)
+{
+  return the_case.control.end_time - the_case.control.start_time;
+}
+
+
+template <int dim>
+bool is_cracked(const Case<dim> &the_case)
+{
+  return !the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture;
+}
+
+
+template <int dim>
+double smallest_extent(const Case<dim> &the_case)
+{
+  const Tensor<1, dim> extent = the_case.geometry.upper() - the_case.geometry.lower();
+  double smallest = std::numeric_limits<double>::infinity();
+  for (unsigned int d = 0; d < dim; ++d)
+    smallest = std::min(smallest, extent[d]);
+  return smallest;
+}
+
+
+template <int dim>
 double distance_to_walls(const Case<dim> &the_case)
 {
   const Point<dim> lower = the_case.geometry.lower(), upper = the_case.geometry.upper();
@@ -146,6 +171,12 @@ double half_length_at_end(const Case<dim> &the_case)
 }
 
 
+template double duration_of<2>(const Case<2> &);
+template double duration_of<3>(const Case<3> &);
+template bool is_cracked<2>(const Case<2> &);
+template bool is_cracked<3>(const Case<3> &);
+template double smallest_extent<2>(const Case<2> &);
+template double smallest_extent<3>(const Case<3> &);
 template double distance_to_walls<2>(const Case<2> &);
 template double distance_to_walls<3>(const Case<3> &);
 template Pumping first_pumping<2>(const Case<2> &);

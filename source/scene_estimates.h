@@ -5,6 +5,18 @@
 
 namespace stockwork
 {
+/// Of the run [s].
+template <int dim>
+double duration_of(const Case<dim> &the_case);
+
+/// Whether there are cracks, and a fracture model that takes them.
+template <int dim>
+bool is_cracked(const Case<dim> &the_case);
+
+/// Of the domain's bounding box [m].
+template <int dim>
+double smallest_extent(const Case<dim> &the_case);
+
 /// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
 /// it, the smallest over the directions [m].
 template <int dim>

@@ -9,12 +9,12 @@
 #include "case.h"
 #include "cost_estimate.h"
 #include "coupling/mesh_adaptation.h"
-#include "left_out.h"
 #include "output/checkpoint.h"
 #include "output/directory.h"
 #include "output/field_output.h"
 #include "output/signals.h"
-#include "physics_choice.h"
+#include "physics_choice/left_out.h"
+#include "physics_choice/physics_choice.h"
 #include "report.h"
 #include "scene_audit.h"
 #include "scene_estimates.h"
@@ -428,8 +428,7 @@ void Simulation<dim>::announce()
     run.warn(message);
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
-  const bool cracked =
-    !the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture;
+  const bool cracked = is_cracked(the_case);
   const CostEstimate cost =
     estimate_cost(dim, system.n_unknowns(), the_case.elements.has_pore_pressure, cracked);
   const double cells =

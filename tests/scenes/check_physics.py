@@ -13,15 +13,10 @@
 Where something is left out both runs are made, and the finals of statistics.csv, or without a fracture the greatest
 displacement, agree within what the audit states. With --keeps alone, --check has to do.
 """
-import argparse
-import os
 import re
-import subprocess
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "..", "contrib", "plot")]
-from run_case import MPIRUN, Failure, Runner  # noqa: E402
+from judged import judge, parser_of
 
 COMPARED = ("inlet_aperture", "net_inlet_pressure", "fracture_volume", "equivalent_length")
 
@@ -108,25 +103,10 @@ def run(runner, options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", required=True)
-    parser.add_argument("--scratch", required=True)
-    parser.add_argument("--timeout", type=float, default=300.)
-    parser.add_argument("--deck", required=True)
-    for name in ("set", "leaves-out", "less", "without", "keeps", "says"):
-        parser.add_argument(f"--{name}", action="append", default=[])
+    parser = parser_of(__doc__, 300., "leaves-out", "less", "without", "keeps", "says")
     # Where nothing changes, both runs are the same but for the tolerance of the solver.
     parser.add_argument("--solver", type=float, default=1e-8)
-    options = parser.parse_args()
-    options.mpirun = MPIRUN
-    try:
-        failed = run(Runner(options), options)
-    except (Failure, OSError, ValueError, KeyError, TypeError, subprocess.SubprocessError) as error:
-        failed = [repr(error)]
-    for text in failed:
-        print(f"FAILED: {text}")
-    print("failed" if failed else "passed")
-    return 1 if failed else 0
+    return judge(run, parser.parse_args())
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-#include "charts.h"
+#include "model_choice/charts.h"
 
 #include "stockwork/base/error.h"
 

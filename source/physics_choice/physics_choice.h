@@ -1,7 +1,7 @@
 #pragma once
 
 #include "case.h"
-#include "physics_decision.h"
+#include "physics_choice/physics_decision.h"
 #include "plug_ins.h"
 
 #include "stockwork/base/deck.h"

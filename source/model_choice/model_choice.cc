@@ -1,4 +1,4 @@
-#include "model_choice.h"
+#include "model_choice/model_choice.h"
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/nearest.h"
@@ -7,7 +7,7 @@
 #include "base/catalogue.h"
 #include "base/parameter_tree.h"
 #include "case.h"
-#include "charts.h"
+#include "model_choice/charts.h"
 #include "scene_estimates.h"
 #include "simulation.h"
 
