@@ -1,6 +1,7 @@
 #pragma once
 
 #include "case.h"
+#include "cost_estimate.h"
 #include "verification/analytical/kgd_leak_off.h"
 
 namespace stockwork
@@ -13,6 +14,9 @@ double duration_of(const Case<dim> &the_case);
 template <int dim>
 bool is_cracked(const Case<dim> &the_case);
 
+template <int dim>
+CostlyPhysics costly_physics(const Case<dim> &the_case);
+
 /// Of the domain's bounding box [m].
 template <int dim>
 double smallest_extent(const Case<dim> &the_case);
@@ -23,7 +27,8 @@ template <int dim>
 double distance_to_walls(const Case<dim> &the_case);
 
 /// Half length of the first fracture when its pumping ends, of the plane-strain fracture with
-/// leak-off, or of its crack if that is longer [m]; NaN where nothing tells it.
+/// leak-off, or of its crack if that is longer; radius of the radial one in impermeable rock [m].
+/// NaN where nothing tells it.
 template <int dim>
 double final_half_length(const Case<dim> &the_case);
 
@@ -58,6 +63,9 @@ analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case);
 
 /// The plane-strain fracture that the first well drives, in impermeable rock.
 analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping);
+
+/// The radial one.
+analytical::KgdParameters radial_fracture(const Case<3> &the_case, const Pumping &pumping);
 
 /// c_v = k / (mu S) of the rock in a region [m^2/s].
 template <int dim>

@@ -5,6 +5,7 @@
 
 #include "stockwork/base/deck.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -33,8 +34,11 @@ PhysicsDecision decide_plasticity(const std::shared_ptr<const Case<dim>> &asked_
 
 /// Where the pore fluid hardly moves, rock is elastic with its undrained constants. In a rim
 /// sqrt(c t) deep it does move, and there the rock is softer.
+/// @param strength that the fracture model takes in the porous rock; asked for where the deck gives
+/// none, for the undrained rock is stiffer, and the model would take another
 template <int dim>
-PhysicsDecision decide_pores(const Case<dim> &the_case, const Deck &deck);
+PhysicsDecision
+decide_pores(const Case<dim> &the_case, const Deck &deck, const std::function<double()> &strength);
 
 /// Pressure gradients along a fracture, which stay.
 PhysicsDecision decide_lubrication(const Case<2> &the_case);

@@ -96,6 +96,7 @@ PhysicsDecision decide_inertia(const Case<dim> &the_case)
   if (change > 0.)
     why << ", in which loads change by " << as_percentage(change) << " at most";
   decision.left_out = true;
+  decision.cost = &CostlyPhysics::inertia;
   decision.why = why.str();
   decision.settings = {{"Time/Inertia", "off"}, {"Time/Scheme", "auto"}};
   decision.judge = [](const Outcome &outcome)

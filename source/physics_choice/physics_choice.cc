@@ -36,24 +36,25 @@ std::string as_percentage(const double share)
 }
 
 
-namespace
+void set_entries(ParameterHandler &prm, const Settings &settings)
 {
-void set_entry(ParameterHandler &prm, const std::string &path, const std::string &value)
-{
-  std::istringstream in(path);
-  std::vector<std::string> parts;
-  for (std::string part; std::getline(in, part, '/');)
-    parts.push_back(part);
-  for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-    prm.enter_subsection(parts[i]);
-  prm.set(parts.back(), value);
-  for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-    prm.leave_subsection();
+  for (const auto &[path, value] : settings)
+  {
+    std::istringstream in(path);
+    std::vector<std::string> parts;
+    for (std::string part; std::getline(in, part, '/');)
+      parts.push_back(part);
+    for (unsigned int i = 0; i + 1 < parts.size(); ++i)
+      prm.enter_subsection(parts[i]);
+    prm.set(parts.back(), value);
+    for (unsigned int i = 0; i + 1 < parts.size(); ++i)
+      prm.leave_subsection();
+  }
 }
 
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
+namespace
+{
 /// The case of a deck with some entries set.
 template <int dim>
 std::shared_ptr<const Case<dim>>
@@ -62,8 +63,7 @@ case_with(const Deck &deck, const PlugIns &plug_ins, const Settings &settings)
   ParameterHandler prm;
   declare_all_parameters(prm, plug_ins);
   deck.parse_into(prm);
-  for (const auto &[entry, value] : settings)
-    set_entry(prm, entry, value);
+  set_entries(prm, settings);
   return std::make_shared<const Case<dim>>(deck, prm, plug_ins);
 }
 
@@ -78,7 +78,10 @@ bool has_inertia(const Case<dim> &the_case)
 
 template <int dim>
 std::vector<PhysicsDecision>
-leave_out_physics(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins)
+leave_out_physics(const Deck &deck,
+                  ParameterHandler &prm,
+                  const PlugIns &plug_ins,
+                  const std::function<double(const Settings &)> &strength_with)
 {
   const double accuracy = get_quantity(prm, "Accuracy", dimension::number);
   std::shared_ptr<const Case<dim>> the_case = case_with<dim>(deck, plug_ins, {});
@@ -116,19 +119,24 @@ leave_out_physics(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_i
   if (the_case->laws.may_yield())
     take(decide_plasticity(the_case, prm));
   if (the_case->elements.has_pore_pressure)
-    take(decide_pores(*the_case, deck));
+    take(decide_pores(*the_case, deck, [&]() { return strength_with(settings); }));
   if constexpr (dim == 2)
     if (is_cracked(*the_case) && first_pumping(*the_case).rate > 0. &&
         the_case->rock.main().energy_release_rate > 0.)
       take(decide_lubrication(*the_case));
-  for (const auto &[entry, value] : settings)
-    set_entry(prm, entry, value);
+  set_entries(prm, settings);
   return decisions;
 }
 
 
 template std::vector<PhysicsDecision>
-leave_out_physics<2>(const Deck &, ParameterHandler &, const PlugIns &);
+leave_out_physics<2>(const Deck &,
+                     ParameterHandler &,
+                     const PlugIns &,
+                     const std::function<double(const Settings &)> &);
 template std::vector<PhysicsDecision>
-leave_out_physics<3>(const Deck &, ParameterHandler &, const PlugIns &);
+leave_out_physics<3>(const Deck &,
+                     ParameterHandler &,
+                     const PlugIns &,
+                     const std::function<double(const Settings &)> &);
 } // namespace stockwork

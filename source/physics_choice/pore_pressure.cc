@@ -45,7 +45,8 @@ std::string why_pores_matter(const Case<dim> &the_case, const Deck &deck)
     return "there is no estimate for this law of leak-off";
   if (law == LeakOff::resolved && (dim == 3 || !(first_pumping(the_case).rate > 0.)))
     return "there is no estimate of what leaks off without a plane fracture and a rate";
-  if (is_cracked(the_case) && std::isnan(half_length_at_end(the_case)))
+  if (is_cracked(the_case) &&
+      (std::isnan(half_length_at_end(the_case)) || (dim == 3 && the_case.network.has_wells())))
     return "there is no estimate of how long the fracture will be";
   if (law == LeakOff::resolved && first_pumping(the_case).is_shut_in)
     return "after shut-in the leak-off decides";
@@ -128,7 +129,8 @@ judge_of_pores(const Case<dim> &the_case, const double reach, const double stiff
 
 
 template <int dim>
-PhysicsDecision decide_pores(const Case<dim> &the_case, const Deck &deck)
+PhysicsDecision
+decide_pores(const Case<dim> &the_case, const Deck &deck, const std::function<double()> &strength)
 {
   const std::string name = "pore pressure and its diffusion";
   if (const std::string why = why_pores_matter(the_case, deck); !why.empty())
@@ -159,6 +161,7 @@ PhysicsDecision decide_pores(const Case<dim> &the_case, const Deck &deck)
     if (the_case.network.leak_off_law() == LeakOff::resolved)
       decision.error += error_of_leak_off(the_case, reach, why);
   decision.left_out = true;
+  decision.cost = &CostlyPhysics::pore_pressure;
   decision.why = why.str();
   decision.settings = {
     {"Rock/Bulk model", "elastic"},
@@ -168,6 +171,9 @@ PhysicsDecision decide_pores(const Case<dim> &the_case, const Deck &deck)
   };
   if (the_case.network.leak_off_law() == LeakOff::resolved)
     decision.settings.emplace_back("Fracture flow/Leak-off", "none");
+  if (cracked && std::isnan(rock.tensile_strength))
+    if (const double taken = strength(); !std::isnan(taken))
+      decision.settings.emplace_back("Rock/Tensile strength", with_digits(taken, 12) + " Pa");
   if (!std::isnan(rock.energy_release_rate))
   {
     decision.settings.emplace_back("Rock/Fracture toughness", "");
@@ -180,6 +186,8 @@ PhysicsDecision decide_pores(const Case<dim> &the_case, const Deck &deck)
 }
 
 
-template PhysicsDecision decide_pores<2>(const Case<2> &, const Deck &);
-template PhysicsDecision decide_pores<3>(const Case<3> &, const Deck &);
+template PhysicsDecision
+decide_pores<2>(const Case<2> &, const Deck &, const std::function<double()> &);
+template PhysicsDecision
+decide_pores<3>(const Case<3> &, const Deck &, const std::function<double()> &);
 } // namespace stockwork
