@@ -2,15 +2,19 @@
 """Run the decks that the charts of 'Fracture/Model = auto' and 'Resolution = auto' are made of.
 
     contrib/make_charts.py [--program build/source/stockwork] [--into prm/charts.csv] [--kind KIND ...]
+    contrib/make_charts.py --count      count cells and look up K_m and what leaks again; errors and seconds stay
 
-A row is one run: the kind of scene, deck, model and resolution, how many cells make up half of the fracture's length
-at the end, the error there (the worst of what is compared), seconds of the processor, and whether the run reached its
-end. With --kind the other kinds' rows stay as they are.
+A row is one run: the kind of scene, deck, model and resolution, by the scene audit the dimensionless toughness of a
+fracture that grows, the share of the fluid that leaks off and how many cells make up half of the fracture's length at
+the end; the error there (the worst of what is compared), seconds of the processor, and whether the run reached its end.
+Errors are those against the reference; where a deck has none, the greatest difference from the finest runs of all
+models. With --kind the other kinds' rows stay as they are.
 """
 import argparse
 import csv
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -19,10 +23,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 from results import read_summary  # noqa: E402
 
-FIELDS = ["kind", "deck", "model", "resolution", "cells", "error", "seconds", "status"]
+FIELDS = ["kind", "deck", "model", "resolution", "K_m", "leaked", "cells", "error", "seconds", "status"]
 
 STATIC, VOLUME = ("fracture_volume", "displacement"), ("fracture_volume",)
 GROWING = ("equivalent_length", "inlet_aperture", "net_inlet_pressure")
+AREA = ("equivalent_length", "inlet_aperture")  # the pressure at the inlet of a disc is none
 
 # Displacements near a disc are compared in cracked cells too, where those of both faces are one ('damage').
 # Kind of scene: decks, what is compared, resolutions.
@@ -30,43 +35,73 @@ KINDS = {
     "static": (["sneddon", "inclined/0"], STATIC, ["coarse", "medium", "fine"]),
     "static, turned": (["inclined/15", "inclined/30", "inclined/45"], STATIC, ["coarse", "medium", "fine"]),
     "static, disc": (["sneddon/penny"], VOLUME, ["coarse", "medium"]),
-    "toughness": (["kgd/toughness"], GROWING, ["coarse", "medium", "fine"]),
-    "transitional": (["kgd/sun/large", "kgd/wang"], GROWING, ["coarse", "medium"]),
-    "viscosity": (["kgd/viscosity"], GROWING, ["coarse", "medium", "fine"]),
-    "carter": (["kgd/carter"], GROWING, ["coarse", "medium"]),
-    "toughness, turned": (["kgd/rotated/15", "kgd/rotated/30", "kgd/rotated/45"], GROWING, ["coarse", "medium"]),
+    "growing": (["kgd/toughness", "kgd/viscosity", "kgd/sun/large", "kgd/wang"], GROWING, ["coarse", "medium", "fine"]),
+    "growing, carter": (["kgd/carter"], GROWING, ["coarse", "medium"]),
+    "growing, porous": (["kgd/sun/permeable"], GROWING, ["coarse", "medium", "fine"]),
+    "growing, turned": (["kgd/rotated/15", "kgd/rotated/30", "kgd/rotated/45"], GROWING, ["coarse", "medium"]),
+    "growing, disc": (["radial/toughness", "radial/viscosity", "radial/small"], AREA, ["coarse", "medium"]),
 }
 MODELS = ["prescribed", "damage", "cohesive_xfem", "peridynamics"]
 
-# Of the clock. A run that takes longer counts as one that does not end, and finer ones are not tried.
+# Of the processor [s]. A run that takes longer is none, nor are finer ones; the coarsest counts as one that does not end.
 LONGEST = 150
 
 
-def cells_of(program, deck, resolution):
+def path_of(deck, model):
+    return os.path.join(HERE, "..", "prm", deck, model + ".prm")
+
+
+def audited(program, deck, resolution):
+    """What the audit says of a scene; nothing where it does not count cells."""
     done = subprocess.run([program, deck, "--check", "--set", f"Resolution={resolution}"],
                           capture_output=True, text=True)
-    found = re.search(r"cells in the final half length +(\S+)", done.stdout)
-    return float(found[1]) if found else None
+
+    def number(name):
+        found = re.search(rf"^  {name}.*? {{2,}}(\S+) ", done.stdout, re.MULTILINE)
+        return float(found[1]) if found else None
+
+    cells, K_m, efficiency = (number(name) for name in ("cells in the final half length", "dimensionless toughness",
+                                                        "efficiency at the end"))
+    if cells is None:
+        return None
+    return {"cells": f"{cells:.3g}", "K_m": "" if K_m is None else f"{K_m:.3g}",
+            "leaked": "" if efficiency is None else f"{1 - efficiency:.2g}"}
+
+
+def limited():
+    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 5))
 
 
 def row(program, kind, deck, model, resolution, compared):
-    path = os.path.join(HERE, "..", "prm", deck, model + ".prm")
-    cells = cells_of(program, path, resolution)
-    if cells is None:
+    """One run; under `finals` what a run without a reference is compared by."""
+    scene = audited(program, path_of(deck, model), resolution)
+    if scene is None:
         return None
+    one = {"kind": kind, "deck": deck, "model": model, "resolution": resolution, **scene}
     with tempfile.TemporaryDirectory() as directory:
-        command = [program, path, "--output", directory, "--set", f"Resolution={resolution}",
+        command = [program, path_of(deck, model), "--output", directory, "--set", f"Resolution={resolution}",
                    "--set", "Output/Fields=false"]
-        try:
-            subprocess.run(command, capture_output=True, timeout=LONGEST, check=False)
-        except subprocess.TimeoutExpired:
-            return {"kind": kind, "deck": deck, "model": model, "resolution": resolution, "cells": f"{cells:.3g}",
-                    "error": "", "seconds": LONGEST, "status": "stopped"}
+        done = subprocess.run(command, capture_output=True, check=False, preexec_fn=limited,
+                              env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
+        if done.returncode < 0:
+            return {**one, "error": "", "seconds": LONGEST, "status": "stopped"}
         summary = read_summary(directory)
     errors = [summary["errors"][name]["final"] for name in compared if name in summary["errors"]]
-    return {"kind": kind, "deck": deck, "model": model, "resolution": resolution, "cells": f"{cells:.3g}",
-            "error": f"{max(errors):.2g}" if errors else "", "seconds": f"{summary['cpu_seconds']:.2g}",
-            "status": summary["status"]}
+    return {**one, "error": f"{max(errors):.2g}" if errors else "", "seconds": f"{summary['cpu_seconds']:.2g}",
+            "status": summary["status"], "finals": [summary["final"].get(name) for name in compared]}
+
+
+def compare(rows):
+    """Errors of a deck without a reference: the greatest difference from the finest run of each model that has ended,
+    of the only one from the run before it."""
+    ended = [one for one in rows if one["status"] == "finished"]
+    finest = {one["model"]: one for one in ended}
+    for one in ended:
+        others = [other for other in finest.values() if other is not one]
+        if not others:
+            others = [other for other in ended if other is not one][-1:]
+        off = [abs(a / b - 1) for other in others for a, b in zip(one["finals"], other["finals"])]
+        one["error"] = f"{max(off):.2g}" if off else ""
 
 
 def main():
@@ -74,19 +109,27 @@ def main():
     parser.add_argument("--program", default=os.path.join(HERE, "..", "build", "source", "stockwork"))
     parser.add_argument("--into", default=os.path.join(HERE, "..", "prm", "charts.csv"))
     parser.add_argument("--kind", action="append", choices=KINDS)
+    parser.add_argument("--count", action="store_true")
     options = parser.parse_args()
     rows = []
-    if options.kind and os.path.exists(options.into):
+    if (options.kind or options.count) and os.path.exists(options.into):
         with open(options.into, encoding="utf-8", newline="") as file:
-            rows = [old for old in csv.DictReader(file) if old["kind"] not in options.kind]
+            rows = list(csv.DictReader(file))
+    if options.count:
+        for old in rows:
+            old.update(audited(options.program, path_of(old["deck"], old["model"]), old["resolution"]))
+        return write(rows, options.into)
+    rows = [old for old in rows if old["kind"] not in (options.kind or [])]
     for kind, (decks, compared, resolutions) in KINDS.items():
         if options.kind and kind not in options.kind:
             continue
         for deck in decks:
-            for model in MODELS:
-                if os.path.exists(os.path.join(HERE, "..", "prm", deck, model + ".prm")):
-                    rows += runs(options.program, kind, deck, model, resolutions, compared)
-                write(rows, options.into)
+            of_deck = [new for model in MODELS if os.path.exists(path_of(deck, model))
+                       for new in runs(options.program, kind, deck, model, resolutions, compared)]
+            if not any(new["error"] for new in of_deck):
+                compare(of_deck)
+            rows += of_deck
+            write(rows, options.into)
 
 
 def runs(program, kind, deck, model, resolutions, compared):
@@ -94,15 +137,15 @@ def runs(program, kind, deck, model, resolutions, compared):
     for resolution in resolutions:
         new = row(program, kind, deck, model, resolution, compared)
         print(new or f"nothing from {deck}, {model}, {resolution}", flush=True)
-        rows += [new] if new else []
         if new and new["status"] == "stopped":
-            break
+            return rows or [new]
+        rows += [new] if new else []
     return rows
 
 
 def write(rows, path):
     with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, FIELDS, lineterminator="\n")
+        writer = csv.DictWriter(file, FIELDS, lineterminator="\n", extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
 

@@ -385,6 +385,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   scheme.parse_parameters(prm, !has_fracture && elements.has_pore_pressure && laws.are_linear() &&
                                  !network.may_cavitate());
 
+  linear_solver.parse_parameters(prm);
   check_history(prm, *this);
   check_permeability(prm, *this);
   check_scheme(deck, prm, *this);

@@ -12,9 +12,10 @@
 #include "coupling/time_scheme.h"
 #include "flow/network.h"
 #include "mesh/geometry.h"
-#include "physics_decision.h"
+#include "physics_choice/physics_decision.h"
 #include "rock/laws.h"
 #include "scales.h"
+#include "solvers/linear_solver.h"
 #include "verification/reference_solution.h"
 
 #include <memory>
@@ -45,6 +46,7 @@ struct Case
   ElementSettings elements;
   StepControl control;
   TimeScheme scheme;
+  LinearSolverParameters linear_solver;
   std::unique_ptr<ReferenceSolution<dim>> reference; ///< may be null
 
   /// What is accepted and yet unusual, for the user.

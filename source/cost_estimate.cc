@@ -13,22 +13,24 @@
 
 namespace stockwork
 {
-CostEstimate estimate_cost(const unsigned int dim,
-                           const double n_unknowns,
-                           const bool has_pore_pressure,
-                           const bool has_fracture)
+CostEstimate
+estimate_cost(const unsigned int dim, const double n_unknowns, const CostlyPhysics &physics)
 {
   const double n = std::max(n_unknowns, 2.);
   const double program = 1.9e8; // deal.II, Trilinos and MPI, before any cell is made
-  if (dim == 3 && !has_pore_pressure && n <= largest_lasting_factor)
-    return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.), 1e-6 * n * (has_fracture ? 3. : 1.)};
+  const double looking = physics.yields ? 1.7 : 1.;
+  const bool lasting = !physics.pore_pressure && !physics.inertia && !physics.yields;
+  if (dim == 3 && lasting && n <= largest_lasting_factor)
+    return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.),
+            1e-6 * n * (physics.fracture ? 3. : 1.)};
   if (dim == 3)
     return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.),
-            4e-5 * n * (has_fracture ? 4. : 1.)};
+            4e-5 * n * (physics.fracture ? 4. : 1.) * looking};
   const double factor = 60. * n * std::log2(n);
   const double new_factor = 3e-5 * n + 2e-8 * std::pow(n, 1.5), iteration = 1e-6 * n;
-  return {program + 2e3 * n + factor, (has_pore_pressure && has_fracture ? new_factor : 0.) +
-                                        iteration * (has_fracture ? 6. : 1.)};
+  const bool changes_with_step = physics.fracture && (physics.pore_pressure || physics.inertia);
+  return {program + 2e3 * n + factor, (changes_with_step ? new_factor : 0.) +
+                                        iteration * (physics.fracture ? 6. : 1.) * looking};
 }
 
 

@@ -15,12 +15,22 @@ struct CostEstimate
   double step;   ///< time of one step, on one core [s]
 };
 
+/// The physics of a run that its steps are dear by.
+struct CostlyPhysics
+{
+  bool fracture = false;
+  bool pore_pressure = false;
+  bool inertia = false;
+  bool yields = false; ///< rock that may leave its linear range
+};
+
 /// From runs of the shipped cases. A factor of the matrix grows with N log N in two dimensions; it
-/// lasts as long as the rock stays as it is, in porous rock the step, which a fracture changes all
-/// the time. In three dimensions factors of elastic rock grow with N^(4/3), and larger systems, or
-/// those of porous rock, are solved by iteration.
-CostEstimate
-estimate_cost(unsigned int dim, double n_unknowns, bool has_pore_pressure, bool has_fracture);
+/// lasts as long as the rock and the coefficients of time stay as they are, in porous rock and with
+/// inertia the step, which a fracture changes all the time. Where rock may yield, states are looked
+/// at in each iteration, which is then one of all unknowns. In three dimensions the
+/// factor of elastic rock grows with N^(4/3), and larger systems, or others, are solved by
+/// iteration.
+CostEstimate estimate_cost(unsigned int dim, double n_unknowns, const CostlyPhysics &physics);
 
 /// How many steps a run will take.
 struct ExpectedSteps

@@ -8,7 +8,7 @@
 
 #include "base/catalogue.h"
 #include "case.h"
-#include "model_choice.h"
+#include "model_choice/model_choice.h"
 #include "plug_ins.h"
 #include "simulation.h"
 
@@ -23,6 +23,15 @@ namespace stockwork
 
 namespace
 {
+std::string output_directory_of(const Deck &deck, const PlugIns &plug_ins)
+{
+  dealii::ParameterHandler prm;
+  declare_all_parameters(prm, plug_ins);
+  deck.parse_into(prm);
+  return prm.get("Output directory");
+}
+
+
 int run_program(const CommandLine &command_line, RunContext &run)
 {
   PlugIns plug_ins = PlugIns::own();
@@ -68,7 +77,9 @@ int run_program(const CommandLine &command_line, RunContext &run)
   {
     plug_ins.load(deck);
     if (leaves_model_to_program(deck))
-      deck = choose_model(run, deck, overrides, plug_ins, options.chosen);
+      deck = choose_model(run, deck, overrides, plug_ins,
+                          command_line.restart ? output_directory_of(deck, plug_ins) : "",
+                          options.chosen);
     declare_all_parameters(prm, plug_ins);
     deck.parse_into(prm);
     if (command_line.action == CommandLine::Action::print_parameters)

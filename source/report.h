@@ -5,8 +5,8 @@
 
 #include "biot/in_situ.h"
 #include "coupling/stepper.h"
-#include "left_out.h"
 #include "outcome_audit.h"
+#include "physics_choice/left_out.h"
 #include "verification/error_record.h"
 
 #include <boost/serialization/set.hpp>

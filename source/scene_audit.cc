@@ -5,6 +5,7 @@
 
 #include "scales.h"
 #include "scene_estimates.h"
+#include "verification/analytical/radial.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -29,54 +30,21 @@ constexpr double nearest_walls = 5.;
 
 namespace
 {
-/// Where the first fracture will end: straight on, or along the greatest compression if that is
-/// another direction.
-std::vector<Point<2>> final_tips(const Case<2> &the_case, const double half_length)
-{
-  const auto &corners = the_case.scene.cracks[0].points;
-  const Geometry<2> &geometry = the_case.geometry;
-  const SymmetricTensor<2, 2> stress = the_case.scene.in_situ_stress(corners.front());
-  std::vector<Point<2>> tips;
-  for (const bool forward : {false, true})
-  {
-    const Point<2> &tip = forward ? corners.back() : corners.front();
-    const Point<2> &other = forward ? corners.front() : corners.back();
-    if (geometry.on_side(tip))
-      continue;
-    Tensor<1, 2> along = (tip - other) / tip.distance(other);
-    const Tensor<1, 2> across = Point<2>(-along[1], along[0]);
-    if (std::abs(along * (stress * across)) > 0.05 * stress.norm())
-    {
-      const Tensor<1, 2> axis = eigenvectors(stress)[1].second;
-      along = axis * along < 0. ? -axis : axis;
-    }
-    tips.push_back((geometry.on_side(other) ? other : other + 0.5 * (tip - other)) +
-                   half_length * along);
-  }
-  return tips;
-}
-
-
 /// A run ends where its fracture comes to cells that do not resolve the process zone.
-void add_cells_ahead(const Case<2> &the_case,
-                     const double half_length,
+void add_cells_ahead(const SizesOfPath &cells,
                      const double process_zone,
-                     const MeshSizes<2> &mesh,
                      std::vector<SceneNumber> &numbers)
 {
-  const double here = mesh.unsplit_at(the_case.scene.cracks[0].points.front());
-  double there = 0.;
-  for (const Point<2> &tip : final_tips(the_case, half_length))
-    there = std::max(there, mesh.unsplit_at(tip));
-  const double allowed = std::max(1., 0.25 * process_zone / mesh.smallest);
-  if (there <= allowed * here * (1. + 1e-6))
+  const double allowed = std::max(cells.at_start, 0.25 * process_zone);
+  if (cells.to_the_end <= allowed * (1. + 1e-6))
     return;
   std::ostringstream text;
   text << std::setprecision(3) << "the fracture will stop the run where larger cells than "
-       << allowed * mesh.smallest
+       << allowed
        << " m begin, which do not resolve its process zone; cells alike as far as it shall run: "
           "Mesh/Box/X spacing and Y spacing, 'size from place to place'";
-  numbers.push_back({"cell size at the final tips / at the start", there / here, text.str(), true});
+  numbers.push_back({"largest cells on the fracture's way / at its start",
+                     cells.to_the_end / cells.at_start, text.str(), true});
 }
 
 
@@ -151,11 +119,12 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   numbers.push_back({"distance to walls / final length", walls, text.str(),
                      walls <= nearest_walls && !the_case.walls_follow_reference});
 
+  const SizesOfPath cells = sizes_of_path(the_case, mesh, reach);
   // A zone a fifth as long as the wing makes the fracture longer by 1 % (kgd/toughness), and in
   // proportion; less where viscosity dominates.
   const double zone =
     std::isnan(rock.tensile_strength)
-      ? cells_of_process_zone * mesh.smallest
+      ? cells_of_process_zone * cells.at_start
       : rock.plane_modulus() * rock.energy_release_rate / std::pow(rock.tensile_strength, 2);
   std::ostringstream effect;
   effect << std::setprecision(2);
@@ -173,7 +142,7 @@ void add_hydraulic_numbers(const Case<2> &the_case,
       effect << "that is the rock's strength, not the mesh's";
   }
   numbers.push_back({"process zone / final length", zone / length, effect.str()});
-  add_cells_ahead(the_case, reach, zone, mesh, numbers);
+  add_cells_ahead(cells, zone, numbers);
 }
 
 
@@ -520,10 +489,11 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
     numbers.push_back({"pore pressure unknowns", 0.,
                        "left out: nothing in the case moves fluid through the pores"});
 
-  if (!the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture)
-    if (const double half = half_length_at_end(the_case); !std::isnan(half))
-      numbers.push_back({"cells in the final half length", half / mesh.smallest,
-                         "what 'Resolution = auto' goes by"});
+  if (is_cracked(the_case))
+    if (const double cells = cells_in_half_length(the_case, mesh); !std::isnan(cells))
+      numbers.push_back(
+        {"cells in the final half length", cells,
+         "of the largest that the fracture comes to; what 'Resolution = auto' goes by"});
 
   const Pumping pumping = first_pumping(the_case);
   if (the_case.network.needs_pore_pressure())
@@ -552,6 +522,17 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
     if constexpr (dim == 2)
       if (pumping.rate > 0.)
         add_hydraulic_numbers(the_case, pumping, mesh, numbers);
+    if constexpr (dim == 3)
+      if (pumping.rate > 0. && the_case.network.leak_off_law() == LeakOff::none)
+      {
+        const double toughness =
+          analytical::radial_toughness(radial_fracture(the_case, pumping), pumping.duration);
+        numbers.push_back(
+          {"dimensionless toughness, radial, at the end", toughness,
+           toughness > 3.5  ? "toughness dominates: the pressure in the fracture is nearly uniform"
+           : toughness < 1. ? "viscosity dominates: the flow along the fracture must be resolved"
+                            : "neither viscosity nor toughness dominates"});
+      }
     if (pumping.rate > 0. && the_case.scheme.kind() == TimeScheme::Kind::newmark &&
         !the_case.scheme.damps())
       numbers.push_back({"Newmark gamma", 0.5,
@@ -564,16 +545,50 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
 
 namespace
 {
-/// 'Physics = auto' item by item, with the entries that it has set.
-void print_decisions(RunContext &run, const std::vector<PhysicsDecision> &decisions)
+/// How many times a run with what is left out would cost what it costs without, by decision;
+/// later decisions were taken without what earlier ones left out.
+template <int dim>
+std::vector<double> savings(const Case<dim> &the_case, const double n_unknowns)
 {
-  for (const PhysicsDecision &decision : decisions)
+  std::vector<double> factors(the_case.decisions.size(), 1.);
+  CostlyPhysics physics = costly_physics(the_case);
+  double n = n_unknowns, cheaper = estimate_cost(dim, n, physics).step;
+  for (unsigned int i = the_case.decisions.size(); i-- > 0;)
   {
+    const PhysicsDecision &decision = the_case.decisions[i];
+    if (!decision.left_out || decision.cost == nullptr)
+      continue;
+    physics.*decision.cost = true;
+    if (decision.cost == &CostlyPhysics::pore_pressure)
+      n *= 1. + 1. / (dim * std::pow(the_case.elements.displacement_degree, dim));
+    const double dearer = estimate_cost(dim, n, physics).step;
+    factors[i] = dearer / cheaper;
+    cheaper = dearer;
+  }
+  return factors;
+}
+
+
+/// 'Physics = auto' item by item, with the entries that it has set.
+template <int dim>
+void print_decisions(RunContext &run, const Case<dim> &the_case, const double n_unknowns)
+{
+  const std::vector<double> factors = savings(the_case, n_unknowns);
+  for (unsigned int i = 0; i < factors.size(); ++i)
+  {
+    const PhysicsDecision &decision = the_case.decisions[i];
     std::ostringstream line;
     line << std::setprecision(2) << "  Physics = auto: " << decision.name
          << (decision.left_out ? " left out" : " kept");
     if (decision.left_out)
-      line << ", which changes the answer by about " << 100. * decision.error << " %";
+    {
+      line << ", which changes the answer by about " << 100. * decision.error
+           << " % and makes a step ";
+      if (factors[i] > 1.05)
+        line << "about " << factors[i] << " times cheaper";
+      else
+        line << "hardly cheaper";
+    }
     line << ": " << decision.why;
     for (const auto &[entry, value] :
          decision.left_out ? decision.settings : std::vector<std::pair<std::string, std::string>>())
@@ -584,8 +599,32 @@ void print_decisions(RunContext &run, const std::vector<PhysicsDecision> &decisi
 } // namespace
 
 
+namespace
+{
+/// A solver that is none for a scene of this size.
 template <int dim>
-void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSizes<dim> &mesh)
+void print_slow_solver(RunContext &run, const Case<dim> &the_case, const double n_unknowns)
+{
+  using Type = LinearSolverParameters::Type;
+  const Type type = the_case.linear_solver.type;
+  const CostlyPhysics physics = costly_physics(the_case);
+  if (!physics.fracture || physics.pore_pressure || physics.inertia ||
+      (type != Type::direct && type != Type::iterative) ||
+      (dim == 3 && n_unknowns > the_case.linear_solver.direct_below))
+    return;
+  run.out
+    << "  Linear solver/Type = " << (type == Type::direct ? "direct" : "iterative")
+    << ": set 'auto'. 'bordered', which it takes for a fracture in a scene of this size, keeps "
+       "the factor of the rock and is about ten times faster\n";
+}
+} // namespace
+
+
+template <int dim>
+void print_scene_audit(RunContext &run,
+                       const Case<dim> &the_case,
+                       const MeshSizes<dim> &mesh,
+                       const double n_unknowns)
 {
   run.out << "Scene audit\n";
   for (const SceneNumber &number : scene_numbers(the_case, mesh))
@@ -604,7 +643,8 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
   }
   for (const ChosenValue &chosen : the_case.chosen)
     run.out << "  " << chosen.entry << " = " << chosen.value << ": " << chosen.why << '\n';
-  print_decisions(run, the_case.decisions);
+  print_decisions(run, the_case, n_unknowns);
+  print_slow_solver(run, the_case, n_unknowns);
   if (the_case.scheme.kind() != TimeScheme::Kind::newmark)
     run.out << "  left out: inertia (Time/Inertia = off)\n";
   if (!the_case.laws.may_yield())
@@ -619,6 +659,6 @@ void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSiz
 
 template std::vector<SceneNumber> scene_numbers<2>(const Case<2> &, const MeshSizes<2> &);
 template std::vector<SceneNumber> scene_numbers<3>(const Case<3> &, const MeshSizes<3> &);
-template void print_scene_audit<2>(RunContext &, const Case<2> &, const MeshSizes<2> &);
-template void print_scene_audit<3>(RunContext &, const Case<3> &, const MeshSizes<3> &);
+template void print_scene_audit<2>(RunContext &, const Case<2> &, const MeshSizes<2> &, double);
+template void print_scene_audit<3>(RunContext &, const Case<3> &, const MeshSizes<3> &, double);
 } // namespace stockwork

@@ -3,8 +3,8 @@
 #include "stockwork/base/run_context.h"
 
 #include "case.h"
+#include "mesh_sizes.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,20 +19,6 @@ struct SceneNumber
   bool spoils = false; ///< the answer cannot be trusted: a warning of the run
 };
 
-/// What the audit asks of the mesh that a run starts on.
-template <int dim>
-struct MeshSizes
-{
-  double smallest; ///< of its cells [m]
-
-  /// Size that the cell at a place has before it is split [m], so that cells split alike compare; 0
-  /// outside of the mesh. The same on all ranks, which must ask together.
-  std::function<double(const dealii::Point<dim> &)> unsplit_at;
-
-  /// Region of the rock at a place; 0 outside of the mesh. As above.
-  std::function<dealii::types::material_id(const dealii::Point<dim> &)> region_at;
-};
-
 /// The numbers of a case, computed before the first step. Lengths and speeds of a fracture that is
 /// still to come are those of the plane-strain fracture when its pumping ends, with leak-off if
 /// there is any (analytical/kgd.h, kgd_leak_off.h).
@@ -41,6 +27,10 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
 
 /// Print the numbers with what is left out and why that is safe. Where a number says that the
 /// answer cannot be trusted, that is a warning of the run.
+/// @param n_unknowns of the whole system
 template <int dim>
-void print_scene_audit(RunContext &run, const Case<dim> &the_case, const MeshSizes<dim> &mesh);
+void print_scene_audit(RunContext &run,
+                       const Case<dim> &the_case,
+                       const MeshSizes<dim> &mesh,
+                       double n_unknowns);
 } // namespace stockwork

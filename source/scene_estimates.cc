@@ -3,6 +3,7 @@
 #include "stockwork/rock/linear_stiffness.h"
 
 #include "scales.h"
+#include "verification/analytical/radial.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -18,14 +19,57 @@ namespace
 {
 /// For a comparison of speeds alone [kg/m^3].
 constexpr double density_of_common_rock = 2500.;
+
+template <int dim>
+analytical::KgdParameters driven_fracture(const Case<dim> &the_case, const Pumping &pumping)
+{
+  const RockProperties &rock = the_case.rock.main();
+  return {rock.plane_modulus(), 0., the_case.rock.fluid().viscosity, rock.toughness(),
+          pumping.rate};
+}
 } // namespace
+
+
+template <int dim>
+double duration_of(const Case<dim> &the_case)
+{
+  return the_case.control.end_time - the_case.control.start_time;
+}
+
+
+template <int dim>
+bool is_cracked(const Case<dim> &the_case)
+{
+  return !the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture;
+}
+
+
+template <int dim>
+CostlyPhysics costly_physics(const Case<dim> &the_case)
+{
+  return {is_cracked(the_case), the_case.elements.has_pore_pressure,
+          the_case.scheme.kind() == TimeScheme::Kind::newmark, the_case.laws.may_yield()};
+}
+
+
+template <int dim>
+double smallest_extent(const Case<dim> &the_case)
+{
+  const Tensor<1, dim> extent = the_case.geometry.upper() - the_case.geometry.lower();
+  double smallest = std::numeric_limits<double>::infinity();
+  for (unsigned int d = 0; d < dim; ++d)
+    smallest = std::min(smallest, extent[d]);
+  return smallest;
+}
 
 
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case)
 {
   const Point<dim> lower = the_case.geometry.lower(), upper = the_case.geometry.upper();
-  const auto &corners = the_case.scene.cracks[0].points;
+  const InitialCrack<dim> &crack = the_case.scene.cracks[0];
+  const std::vector<Point<dim>> corners =
+    crack.disc ? std::vector<Point<dim>>{crack.disc->centre} : crack.points;
   double distance = std::numeric_limits<double>::infinity();
   for (unsigned int d = 0; d < dim; ++d)
     for (const double wall : {lower[d], upper[d]})
@@ -104,9 +148,13 @@ analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case)
 
 analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping)
 {
-  const RockProperties &rock = the_case.rock.main();
-  return {rock.plane_modulus(), 0., the_case.rock.fluid().viscosity, rock.toughness(),
-          pumping.rate};
+  return driven_fracture(the_case, pumping);
+}
+
+
+analytical::KgdParameters radial_fracture(const Case<3> &the_case, const Pumping &pumping)
+{
+  return driven_fracture(the_case, pumping);
 }
 
 
@@ -121,14 +169,22 @@ double pressure_diffusivity(const Case<dim> &the_case, const types::material_id 
 template <int dim>
 double final_half_length(const Case<dim> &the_case)
 {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (the_case.scene.cracks.empty() || !(the_case.rock.main().energy_release_rate > 0.))
+    return unknown;
+  const Pumping pumping = first_pumping(the_case);
+  if (!(pumping.rate > 0.))
+    return unknown;
+  double half_length;
   if constexpr (dim == 2)
-    if (!the_case.scene.cracks.empty() && the_case.rock.main().energy_release_rate > 0.)
-      if (const Pumping pumping = first_pumping(the_case); pumping.rate > 0.)
-        return std::max(analytical::leaking_kgd(plane_fracture(the_case, pumping),
-                                                leak_off_coefficient(the_case), pumping.duration)
-                          .half_length,
-                        0.5 * the_case.scene.cracks[0].size());
-  return std::numeric_limits<double>::quiet_NaN();
+    half_length = analytical::leaking_kgd(plane_fracture(the_case, pumping),
+                                          leak_off_coefficient(the_case), pumping.duration)
+                    .half_length;
+  else if (the_case.network.leak_off_law() == LeakOff::none)
+    half_length = analytical::radial_radius(radial_fracture(the_case, pumping), pumping.duration);
+  else
+    return unknown;
+  return std::max(half_length, 0.5 * the_case.scene.cracks[0].size());
 }
 
 
@@ -146,6 +202,14 @@ double half_length_at_end(const Case<dim> &the_case)
 }
 
 
+template double duration_of<2>(const Case<2> &);
+template double duration_of<3>(const Case<3> &);
+template bool is_cracked<2>(const Case<2> &);
+template bool is_cracked<3>(const Case<3> &);
+template CostlyPhysics costly_physics<2>(const Case<2> &);
+template CostlyPhysics costly_physics<3>(const Case<3> &);
+template double smallest_extent<2>(const Case<2> &);
+template double smallest_extent<3>(const Case<3> &);
 template double distance_to_walls<2>(const Case<2> &);
 template double distance_to_walls<3>(const Case<3> &);
 template Pumping first_pumping<2>(const Case<2> &);

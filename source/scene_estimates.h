@@ -1,17 +1,34 @@
 #pragma once
 
 #include "case.h"
+#include "cost_estimate.h"
 #include "verification/analytical/kgd_leak_off.h"
 
 namespace stockwork
 {
+/// Of the run [s].
+template <int dim>
+double duration_of(const Case<dim> &the_case);
+
+/// Whether there are cracks, and a fracture model that takes them.
+template <int dim>
+bool is_cracked(const Case<dim> &the_case);
+
+template <int dim>
+CostlyPhysics costly_physics(const Case<dim> &the_case);
+
+/// Of the domain's bounding box [m].
+template <int dim>
+double smallest_extent(const Case<dim> &the_case);
+
 /// Distance of the first crack's mouth or middle to the walls that are not symmetry planes through
 /// it, the smallest over the directions [m].
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case);
 
 /// Half length of the first fracture when its pumping ends, of the plane-strain fracture with
-/// leak-off, or of its crack if that is longer [m]; NaN where nothing tells it.
+/// leak-off, or of its crack if that is longer; radius of the radial one in impermeable rock [m].
+/// NaN where nothing tells it.
 template <int dim>
 double final_half_length(const Case<dim> &the_case);
 
@@ -46,6 +63,9 @@ analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case);
 
 /// The plane-strain fracture that the first well drives, in impermeable rock.
 analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping);
+
+/// The radial one.
+analytical::KgdParameters radial_fracture(const Case<3> &the_case, const Pumping &pumping);
 
 /// c_v = k / (mu S) of the rock in a region [m^2/s].
 template <int dim>

@@ -9,12 +9,12 @@
 #include "case.h"
 #include "cost_estimate.h"
 #include "coupling/mesh_adaptation.h"
-#include "left_out.h"
 #include "output/checkpoint.h"
 #include "output/directory.h"
 #include "output/field_output.h"
 #include "output/signals.h"
-#include "physics_choice.h"
+#include "physics_choice/left_out.h"
+#include "physics_choice/physics_choice.h"
 #include "report.h"
 #include "scene_audit.h"
 #include "scene_estimates.h"
@@ -48,44 +48,6 @@ double step_towards(const double left, const double dt)
   if (left <= dt * (1. + 1e-9))
     return left;
   return left < 1.5 * dt ? 0.5 * left : dt;
-}
-
-
-/// Longest edge of the smallest cell [m].
-template <int dim>
-double smallest_cell_size(const parallel::distributed::Triangulation<dim> &triangulation)
-{
-  double size = std::numeric_limits<double>::infinity();
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-      size = std::min(size, cell_size(cell));
-  return Utilities::MPI::min(size, triangulation.get_communicator());
-}
-
-
-/// Longest edge that the cell at a place has before it is split [m]; 0 if there is none.
-template <int dim>
-double unsplit_cell_size(const parallel::distributed::Triangulation<dim> &triangulation,
-                         const Point<dim> &point)
-{
-  double size = 0.;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->point_inside(point))
-      size = std::max(size, std::ldexp(cell_size(cell), cell->level()));
-  return Utilities::MPI::max(size, triangulation.get_communicator());
-}
-
-
-/// Region of the cell at a place; 0 if there is none.
-template <int dim>
-types::material_id region_at(const parallel::distributed::Triangulation<dim> &triangulation,
-                             const Point<dim> &point)
-{
-  types::material_id region = 0;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->point_inside(point))
-      region = std::max(region, cell->material_id());
-  return Utilities::MPI::max(region, triangulation.get_communicator());
 }
 
 
@@ -132,10 +94,9 @@ public:
 
   void march();
 
-  /// [m]. Collective.
-  double smallest_cell() const
+  MeshSizes<dim> mesh_sizes() const
   {
-    return smallest_cell_size(triangulation);
+    return MeshSizes<dim>(triangulation);
   }
 
 private:
@@ -403,9 +364,7 @@ void Simulation<dim>::refuse_too_large() const
 {
   const double n_cells = triangulation.n_global_active_cells();
   const double needed =
-    estimate_cost(dim, n_cells * unknowns_per_cell(), the_case.elements.has_pore_pressure,
-                  !the_case.scene.cracks.empty())
-      .memory;
+    estimate_cost(dim, n_cells * unknowns_per_cell(), costly_physics(the_case)).memory;
   const double available = physical_memory(run.communicator);
   if (needed > available)
     throw EntryError(
@@ -419,22 +378,19 @@ void Simulation<dim>::refuse_too_large() const
 template <int dim>
 void Simulation<dim>::announce()
 {
-  const MeshSizes<dim> mesh{
-    smallest_cell_size(triangulation),
-    [this](const Point<dim> &point) { return unsplit_cell_size(triangulation, point); },
-    [this](const Point<dim> &point) { return region_at(triangulation, point); }};
-  print_scene_audit(run, the_case, mesh);
+  const MeshSizes<dim> mesh = mesh_sizes();
+  print_scene_audit(run, the_case, mesh, system.n_unknowns());
   for (const std::string &message : the_case.model->take_messages())
     run.warn(message);
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
-  const bool cracked =
-    !the_case.scene.cracks.empty() && the_case.model->requirements().has_fracture;
-  const CostEstimate cost =
-    estimate_cost(dim, system.n_unknowns(), the_case.elements.has_pore_pressure, cracked);
+  const bool cracked = is_cracked(the_case);
+  const CostEstimate cost = estimate_cost(dim, system.n_unknowns(), costly_physics(the_case));
   const double cells =
-    cracked ? (final_half_length(the_case) - 0.5 * the_case.scene.cracks[0].size()) / mesh.smallest
-            : 0.;
+    !cracked ? 0.
+    : dim == 3
+      ? std::numeric_limits<double>::quiet_NaN() // not all of a front comes on at once
+      : (final_half_length(the_case) - 0.5 * the_case.scene.cracks[0].size()) / mesh.smallest;
   run.out << "  "
           << in_words(cost, expected_steps(the_case.control, the_case.control.end_time - clock.time,
                                            clock.dt, cracked, cells))
@@ -601,17 +557,11 @@ void Simulation<dim>::march()
 } // namespace
 
 
-template <int dim>
-double cells_in_half_length(RunContext &run,
-                            const Deck &deck,
-                            ParameterHandler &prm,
-                            const PlugIns &plug_ins)
+namespace
 {
-  if (prm.get("Physics") == "auto")
-    leave_out_physics<dim>(deck, prm, plug_ins);
-  Case<dim> the_case(deck, prm, plug_ins);
-  const SimulationOptions options;
-  Simulation<dim> simulation(run, the_case, prm, options);
+template <int dim>
+void start_only(Simulation<dim> &simulation, ParameterHandler &prm)
+{
   try
   {
     simulation.start(prm);
@@ -620,7 +570,62 @@ double cells_in_half_length(RunContext &run,
   {
     throw InputError(error.what()); // nothing has been computed
   }
-  return half_length_at_end(the_case) / simulation.smallest_cell();
+}
+
+
+/// The tensile strength that the fracture model takes with some entries set, for the cells that the
+/// run would start on.
+template <int dim>
+double strength_with(const RunContext &run,
+                     const Deck &deck,
+                     const PlugIns &plug_ins,
+                     const Settings &settings)
+{
+  std::ostringstream nobody_reads;
+  RunContext quiet(run.communicator, nobody_reads);
+  ParameterHandler prm;
+  declare_all_parameters(prm, plug_ins);
+  deck.parse_into(prm);
+  set_entries(prm, settings);
+  Case<dim> the_case(deck, prm, plug_ins);
+  const SimulationOptions options;
+  Simulation<dim> simulation(quiet, the_case, prm, options);
+  start_only(simulation, prm);
+  return the_case.model->tensile_strength();
+}
+
+
+/// What 'Physics = auto' leaves out.
+template <int dim>
+std::vector<PhysicsDecision> decide_physics(const RunContext &run,
+                                            const Deck &deck,
+                                            ParameterHandler &prm,
+                                            const PlugIns &plug_ins)
+{
+  if (prm.get("Physics") != "auto")
+    return {};
+  return leave_out_physics<dim>(deck, prm, plug_ins,
+                                [&](const Settings &settings)
+                                { return strength_with<dim>(run, deck, plug_ins, settings); });
+}
+} // namespace
+
+
+template <int dim>
+TriedDeck
+try_deck(RunContext &run, const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins)
+{
+  decide_physics<dim>(run, deck, prm, plug_ins);
+  Case<dim> the_case(deck, prm, plug_ins);
+  const SimulationOptions options;
+  Simulation<dim> simulation(run, the_case, prm, options);
+  start_only(simulation, prm);
+  const MeshSizes<dim> mesh = simulation.mesh_sizes();
+  TriedDeck tried{cells_in_half_length(the_case, mesh), {}};
+  for (const SceneNumber &number : scene_numbers(the_case, mesh))
+    if (number.spoils)
+      tried.warnings.push_back(number.consequence);
+  return tried;
 }
 
 
@@ -633,9 +638,7 @@ void run_case(RunContext &run,
               const PlugIns &plug_ins,
               const SimulationOptions &options)
 {
-  std::vector<PhysicsDecision> decisions;
-  if (prm.get("Physics") == "auto")
-    decisions = leave_out_physics<dim>(deck, prm, plug_ins);
+  const std::vector<PhysicsDecision> decisions = decide_physics<dim>(run, deck, prm, plug_ins);
   Case<dim> the_case(deck, prm, plug_ins);
   the_case.decisions = decisions;
   the_case.chosen.insert(the_case.chosen.begin(), options.chosen.begin(), options.chosen.end());
@@ -694,10 +697,8 @@ void simulate(RunContext &run,
 }
 
 
-template double
-cells_in_half_length<2>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
-template double
-cells_in_half_length<3>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
+template TriedDeck try_deck<2>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
+template TriedDeck try_deck<3>(RunContext &, const Deck &, ParameterHandler &, const PlugIns &);
 template void simulate<2>(
   RunContext &, const Deck &, ParameterHandler &, const PlugIns &, const SimulationOptions &);
 template void simulate<3>(

@@ -30,12 +30,16 @@ void simulate(RunContext &run,
               const PlugIns &plug_ins,
               const SimulationOptions &options);
 
-/// How many of the smallest cells that the case starts with make up the half length of its first
-/// fracture at the end. Sets up what --check sets up.
+/// What --check finds out about a deck, for who chooses between decks.
+struct TriedDeck
+{
+  double cells; ///< in half of its first fracture's length at the end (mesh_sizes.h)
+  std::vector<std::string> warnings; ///< why its answer could not be trusted; empty: it could
+};
+
+/// Sets up what --check sets up.
 /// @throws InputError as simulate()
 template <int dim>
-double cells_in_half_length(RunContext &run,
-                            const Deck &deck,
-                            dealii::ParameterHandler &prm,
-                            const PlugIns &plug_ins);
+TriedDeck
+try_deck(RunContext &run, const Deck &deck, dealii::ParameterHandler &prm, const PlugIns &plug_ins);
 } // namespace stockwork

@@ -297,7 +297,8 @@ def run_restart(runner, options):
     in_time = any(_interrupt(runner, options) for _ in range(5 if options.interrupt_after else 1))
     if not in_time:
         raise Failure("the run reached its end before it was interrupted")
-    runner.run("restarted", options.deck, options.set, options.ranks_pair[1], extra=["--restart"])
+    runner.run("restarted", options.deck, [*options.set, *options.restart_set], options.ranks_pair[1],
+               extra=["--restart"])
     _require_same(runner, "straight", "restarted", options)
     straight, restarted = (read_summary(runner.output(name))["warnings"] for name in ("straight", "restarted"))
     lost = [warning for warning in straight if warning not in restarted]
@@ -479,6 +480,7 @@ def parse(arguments):
     parser.add_argument("--steps", type=int, default=2, help="steps: so many")
     parser.add_argument("--interrupt-set", action="append", default=[],
                         help="setting that ends the first part early")
+    parser.add_argument("--restart-set", action="append", default=[], help="setting of the second part")
     parser.add_argument("--interrupt-after", type=int, default=0, metavar="STEPS",
                         help="send SIGTERM after so many steps instead")
     options = parser.parse_args(arguments)

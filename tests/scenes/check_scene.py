@@ -20,16 +20,13 @@
     --ends STATUS [--says TEXT]           the run ends with one of these statuses, and says why
     --checked                             --check finds it: status 1, or a warning with status 0 if --ends 0
 """
-import argparse
 import math
 import os
-import subprocess
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "..", "contrib", "plot")]
-from run_case import MPIRUN, OPERATORS, Failure, Runner  # noqa: E402
-from results import read_statistics  # noqa: E402
+from judged import HERE, judge, parser_of
+from run_case import OPERATORS
+from results import read_statistics
 
 
 def late_mean(times, values, end):
@@ -230,36 +227,13 @@ def judge_end(runner, name, status, said, options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", required=True)
-    parser.add_argument("--scratch", required=True)
-    parser.add_argument("--timeout", type=float, default=600.)
-    parser.add_argument("--deck", required=True)
-    parser.add_argument("--set", action="append", default=[])
-    parser.add_argument("--beside")
-    parser.add_argument("--beside-set", action="append", default=[])
-    parser.add_argument("--within", action="append", default=[])
-    parser.add_argument("--every", action="append", default=[])
-    parser.add_argument("--least", action="append", default=[])
-    parser.add_argument("--peak", action="append", default=[])
-    parser.add_argument("--kink")
-    parser.add_argument("--symmetric")
-    parser.add_argument("--mirror")
-    parser.add_argument("--tips")
+    parser = parser_of(__doc__, 600., "beside-set", "within", "every", "least", "peak", "says")
+    for name in ("beside", "kink", "symmetric", "mirror", "tips"):
+        parser.add_argument(f"--{name}")
     parser.add_argument("--cell", type=float, default=1.)
     parser.add_argument("--ends", default="0")
-    parser.add_argument("--says", action="append", default=[])
     parser.add_argument("--checked", action="store_true")
-    options = parser.parse_args()
-    options.mpirun = MPIRUN
-    try:
-        failed = run(Runner(options), options)
-    except (Failure, OSError, ValueError, KeyError, ZeroDivisionError, subprocess.SubprocessError) as error:
-        failed = [repr(error)]
-    for text in failed:
-        print(f"FAILED: {text}")
-    print("failed" if failed else "passed")
-    return 1 if failed else 0
+    return judge(run, parser.parse_args())
 
 
 if __name__ == "__main__":

@@ -2,9 +2,11 @@
 #include "verification/analytical/constants.h"
 #include "verification/analytical/hydraulic_fracture.h"
 #include "verification/analytical/kgd_leak_off.h"
+#include "verification/analytical/radial.h"
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <memory>
 
 namespace stockwork::analytical_hydraulic_fracture_test
@@ -135,6 +137,24 @@ TEST_CASE("radial fracture: histories near both vertices")
       last_difference = difference;
     }
   }
+}
+
+TEST_CASE("radial fracture: the radius between the vertices, from those of the vertices")
+{
+  for (const double toughness : {0., 1e6, 2e6, 3e6, 1e7})
+  {
+    const KgdParameters fluid{3e10, 0.25, 1e-3, toughness, 0.0265};
+    HydraulicFractureParameters parameters{fluid};
+    parameters.shape = CrackShape::penny;
+    const HydraulicFracture fracture(parameters, 400.);
+    CAPTURE(radial_toughness(fluid, 400.));
+    for (const double t : {40., 400.})
+      CHECK(radial_radius(fluid, t) == doctest::Approx(fracture.half_length(t)).epsilon(0.005));
+  }
+  CHECK(radial_toughness({1., 0., 1. / 12., 1. / (4. * std::sqrt(2. / pi)), 1.}, 1.) ==
+        doctest::Approx(1.));
+  CHECK(radial_toughness({1., 0., 1. / 12., 1., 1.}, 512.) ==
+        doctest::Approx(2. * radial_toughness({1., 0., 1. / 12., 1., 1.}, 1.)));
 }
 
 TEST_CASE("radial fracture with Carter leak-off")

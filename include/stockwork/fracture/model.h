@@ -19,6 +19,7 @@
 #include "stockwork/mesh/nodal_fields.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -179,6 +180,13 @@ public:
   virtual std::vector<std::string> take_messages()
   {
     return {};
+  }
+
+  /// That of the rock outside of regions, as the deck gives it or chosen for the cells; after
+  /// setup() [Pa]. NaN: the model has none.
+  virtual double tensile_strength() const
+  {
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
   /// Lower the wanted size of cells (by active cell index, [m]) where the fracture is or may soon

@@ -56,6 +56,11 @@ public:
   void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                         std::vector<float> &sizes) const override;
 
+  double tensile_strength() const override
+  {
+    return law.strength;
+  }
+
   std::vector<std::string> take_messages() override;
 
   void save(boost::archive::binary_oarchive &archive) const override;

@@ -65,6 +65,12 @@ public:
   void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                         std::vector<float> &sizes) const override;
 
+  double tensile_strength() const override
+  {
+    const auto law = laws.find(0);
+    return law == laws.end() ? std::numeric_limits<double>::quiet_NaN() : law->second.strength;
+  }
+
   std::vector<std::string> take_messages() override;
 
   void save(boost::archive::binary_oarchive &archive) const override;

@@ -1,4 +1,4 @@
-#include "left_out.h"
+#include "physics_choice/left_out.h"
 
 #include "stockwork/rock/linear_stiffness.h"
 

@@ -18,6 +18,8 @@ bool leaves_model_to_program(const Deck &deck);
 /// promise 'Accuracy' in scenes of this kind. Each candidate is set up as by --check; what is
 /// refused there is none.
 /// @param overrides of the command line, with which the deck was read
+/// @param continued output directory of the run that a restart goes on with, which keeps its
+/// choice; empty: none
 /// @param chosen gets what is chosen and why, with the second choice
 /// @returns the deck with the choice
 /// @throws EntryError where no chart covers the scene, or none promises the accuracy
@@ -25,5 +27,6 @@ Deck choose_model(RunContext &run,
                   const Deck &deck,
                   const std::vector<std::string> &overrides,
                   const PlugIns &plug_ins,
+                  const std::string &continued,
                   std::vector<ChosenValue> &chosen);
 } // namespace stockwork

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cost_estimate.h"
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/types.h>
@@ -15,6 +17,9 @@ namespace stockwork
 struct Assumption;
 struct Outcome;
 
+/// Entries of the deck, with their sections, and values.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
 /// Part of the physics that a deck asks for, and whether the scene needs it ('Physics = auto').
 struct PhysicsDecision
 {
@@ -24,8 +29,10 @@ struct PhysicsDecision
   double error = std::numeric_limits<double>::quiet_NaN();
   std::string why; ///< for people
 
-  /// Entries of the deck, with their sections, and the values that leave it out.
-  std::vector<std::pair<std::string, std::string>> settings = {};
+  /// What a step is dearer by with it (cost_estimate.h). Null: a run with it costs the same.
+  bool CostlyPhysics::*cost = nullptr;
+
+  Settings settings = {}; ///< that leave it out
 
   /// What the run has shown of the estimate; empty: nothing.
   std::function<Assumption(const Outcome &)> judge = {};
