@@ -305,9 +305,8 @@ namespace
 /// Length of the line in which a crack passes a face, in this direction [m]. By Gauss's theorem in
 /// the face, with the mean slopes of phi; along a crack, whatever stairs its cells lie in, these
 /// lengths add up to its own, as areas do.
-double length_in_face(const CrackCell<3> &crack,
-                      const unsigned int face,
-                      const Tensor<1, 3> &direction)
+double
+length_in_face(const CrackCell<3> &crack, const unsigned int face, const Tensor<1, 3> &direction)
 {
   constexpr unsigned int n = dealii::GeometryInfo<3>::vertices_per_face;
   std::array<Tensor<1, 3>, 2> edges;
@@ -366,8 +365,7 @@ void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) cons
       const Tensor<1, dim> line = direction_in_face(crack, other);
       const unsigned int g = std::find(links[j].begin(), links[j].end(), i) - links[j].begin();
       // Either may have put a vertex on another side.
-      const double width =
-        0.5 * (length_in_face(crack, f, line) + length_in_face(other, g, line));
+      const double width = 0.5 * (length_in_face(crack, f, line) + length_in_face(other, g, line));
       segment.neighbours.push_back({other.key(), std::max(along, 0.05 * crack.size()), width});
     }
 }
