@@ -4,7 +4,8 @@
     check_scene.py --program build/source/stockwork --scratch DIR --deck DECK ...
 
     --beside DECK --within COLUMN=SHARE   COLUMN of statistics.csv, averaged over the last half of the time
-                                          that both runs have reached, is that of the other deck
+                                          that both runs have reached, is that of the other deck;
+                                          COLUMN=SHARE,FACTOR: this many times that
     --every 'COLUMN OP VALUE'             in every row, the last ones of a run that failed as well
     --tips ANGLE,DEGREES                  the last eight cells (of --cell) at both ends of the fracture
                                           point to ANGLE
@@ -46,8 +47,9 @@ def check_beside(runner, options):
     end = min(one["time"][-1], two["time"][-1])
     failed = []
     for text in options.within:
-        column, bound = text.split("=")
+        column, bound, *factor = text.replace("=", ",").split(",")
         found, wanted = (late_mean(t["time"], t[column], end) for t in (one, two))
+        wanted *= float(factor[0]) if factor else 1.
         off = found / wanted - 1
         print(f"  {column}: {found:.5g} beside {wanted:.5g}, {100 * off:+.2f} %")
         if not abs(off) <= float(bound):

@@ -11,6 +11,7 @@
 
 #include "fracture/damage/band.h"
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -401,5 +402,77 @@ TEST_CASE("fluid goes as far along a straight crack as this is long")
     CHECK(distance == doctest::Approx(last - first).epsilon(epsilon));
     CHECK(std::abs(total - 1.2) < 1.01 * h);
   }
+}
+
+
+TEST_CASE("a plane conducts alike in all its directions, whatever stairs its cells lie in")
+{
+  // A linear pressure of gradient g drives T g between two centres d apart, d d T in all: with the
+  // edges that cubes really have on a plane, a partition with edges across the lines between its
+  // centres, the sum of width |d| (d d)/|d|^2 is the area times the plane's unit tensor.
+  const unsigned int n = 24;
+  const Box<3> box(n);
+  const double h = 2. / n;
+  for (const auto &across : {Tensor<1, 3>({0., 1., 0.}), Tensor<1, 3>({-0.45, 0.89, 0.}),
+                             Tensor<1, 3>({-1., 1., 0.}), Tensor<1, 3>({-0.42, 0.84, 0.34}),
+                             Tensor<1, 3>({-1., 1., 1.}), Tensor<1, 3>({0.1, 1., 0.2})})
+  {
+    CAPTURE(across);
+    const auto band = box.band(plane(across, Point<3>(0.011, 0.017, 0.023)));
+    const Tensor<1, 3> normal = band.cells[0].normal;
+    const auto segments = band.segments([](const Point<3> &) { return 0.; });
+    std::map<std::uint64_t, const Segment<3> *> by_key;
+    for (const auto &segment : segments)
+      by_key[segment.key] = &segment;
+    Tensor<2, 3> conducts;
+    double covered = 0.;
+    for (const auto &segment : segments)
+    {
+      if (segment.centre.norm() > 0.7)
+        continue;
+      covered += segment.area;
+      for (const auto &neighbour : segment.neighbours)
+      {
+        const auto &other = *by_key.at(neighbour.key);
+        const auto back = std::find_if(other.neighbours.begin(), other.neighbours.end(),
+                                       [&](const auto &entry) { return entry.key == segment.key; });
+        REQUIRE(back != other.neighbours.end());
+        CHECK(back->width == doctest::Approx(neighbour.width).epsilon(1e-12));
+        const Tensor<1, 3> way = other.centre - segment.centre;
+        conducts += neighbour.width * neighbour.distance / way.norm_square() *
+                    dealii::outer_product(way, way);
+      }
+    }
+    REQUIRE(covered > 1.2);
+    const Tensor<2, 3> wanted =
+      dealii::unit_symmetric_tensor<3>() - dealii::outer_product(normal, normal);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        CHECK(std::abs((conducts / covered - wanted)[i][j]) < 0.6 * h);
+  }
+}
+
+
+TEST_CASE("the stairs of a plane lean to all sides alike")
+{
+  const Box<3> box(24);
+  for (const auto &across : {Tensor<1, 3>({0., 1., 0.}), Tensor<1, 3>({-1., 1., 0.})})
+    for (const auto &cell : box.band(plane(across, Point<3>(0.011, 0.017, 0.023))).cells)
+      CHECK(cell.lean().norm() < 1e-12);
+  const auto band =
+    box.band(plane(Tensor<1, 3>({-0.42, 0.84, 0.34}), Point<3>(0.011, 0.017, 0.023)));
+  Tensor<1, 3> sum;
+  double area = 0., most = 0.;
+  for (const auto &cell : band.cells)
+  {
+    if (cell.centre().norm() > 0.7)
+      continue;
+    area += cell.area();
+    sum += cell.area() * cell.lean();
+    most = std::max(most, cell.lean().norm());
+    CHECK(std::abs(cell.lean() * cell.normal) < 1e-12);
+  }
+  CHECK(most > 0.3);
+  CHECK(sum.norm() / area < 0.02);
 }
 } // namespace stockwork::damage_band_test

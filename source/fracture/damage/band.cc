@@ -6,6 +6,7 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -301,31 +302,50 @@ bool Band<dim>::is_front(const unsigned int i) const
 
 namespace
 {
-/// Extent of a face in the direction in which two cracks on its sides meet it, which is the same
-/// seen from either [m].
-double edge_length(const CrackCell<3> &crack, const CrackCell<3> &other, const unsigned int face)
+/// Length of the line in which a crack passes a face, in this direction [m]. By Gauss's theorem in
+/// the face, with the mean slopes of phi; along a crack, whatever stairs its cells lie in, these
+/// lengths add up to its own, as areas do.
+double
+length_in_face(const CrackCell<3> &crack, const unsigned int face, const Tensor<1, 3> &direction)
 {
-  const Point<3> centre = crack.face_centre(face);
-  const Tensor<1, 3> normal =
-    crack.normal + (crack.normal * other.normal < 0. ? -1. : 1.) * other.normal;
-  Tensor<1, 3> edge =
-    dealii::cross_product_3d(normal, Tensor<1, 3>(other.centre() - crack.centre()));
-  edge /= std::max(edge.norm(), 1e-300); // zero: the crack meets no line of the face
-  double low = 0., high = 0.;
-  for (unsigned int v = 0; v < dealii::GeometryInfo<3>::vertices_per_face; ++v)
+  constexpr unsigned int n = dealii::GeometryInfo<3>::vertices_per_face;
+  std::array<Tensor<1, 3>, 2> edges;
+  std::array<double, 2> slopes{};
+  for (unsigned int v = 0; v < n; ++v)
   {
-    const double place =
-      edge * (crack.vertices[dealii::GeometryInfo<3>::face_to_cell_vertices(face, v)] - centre);
-    low = std::min(low, place);
-    high = std::max(high, place);
+    const unsigned int vertex = dealii::GeometryInfo<3>::face_to_cell_vertices(face, v);
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      const double sign = (v >> d) & 1 ? 0.5 : -0.5;
+      edges[d] += sign * crack.vertices[vertex];
+      slopes[d] += crack.is_on_plus_side(vertex) ? sign : 0.;
+    }
   }
-  return high - low;
+  return std::abs(direction * (slopes[0] * edges[1] - slopes[1] * edges[0]));
 }
 
 
-double edge_length(const CrackCell<2> &, const CrackCell<2> &, const unsigned int)
+double length_in_face(const CrackCell<2> &, const unsigned int, const Tensor<1, 2> &)
 {
   return 1.;
+}
+
+
+/// Direction of the line in which two cracks on the sides of a face meet it, the same seen from
+/// either; zero: they meet it in none.
+Tensor<1, 3> direction_in_face(const CrackCell<3> &crack, const CrackCell<3> &other)
+{
+  const Tensor<1, 3> normal =
+    crack.normal + (crack.normal * other.normal < 0. ? -1. : 1.) * other.normal;
+  const Tensor<1, 3> line =
+    dealii::cross_product_3d(normal, Tensor<1, 3>(other.centre() - crack.centre()));
+  return line / std::max(line.norm(), 1e-300);
+}
+
+
+Tensor<1, 2> direction_in_face(const CrackCell<2> &, const CrackCell<2> &)
+{
+  return {};
 }
 } // namespace
 
@@ -340,9 +360,13 @@ void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) cons
       // Lengths along the crack and not along the stairs of cells.
       const Tensor<1, dim> to_face = crack.face_centre(f) - crack.centre();
       const double along = (to_face - (to_face * crack.normal) * crack.normal).norm();
-      const CrackCell<dim> &other = cells[links[i][f]];
-      segment.neighbours.push_back(
-        {other.key(), std::max(along, 0.05 * crack.size()), edge_length(crack, other, f)});
+      const unsigned int j = links[i][f];
+      const CrackCell<dim> &other = cells[j];
+      const Tensor<1, dim> line = direction_in_face(crack, other);
+      const unsigned int g = std::find(links[j].begin(), links[j].end(), i) - links[j].begin();
+      // Either may have put a vertex on another side.
+      const double width = 0.5 * (length_in_face(crack, f, line) + length_in_face(other, g, line));
+      segment.neighbours.push_back({other.key(), std::max(along, 0.05 * crack.size()), width});
     }
 }
 

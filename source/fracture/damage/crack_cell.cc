@@ -80,6 +80,15 @@ double CrackCell<dim>::volume() const
 
 
 template <int dim>
+Tensor<1, dim> CrackCell<dim>::lean() const
+{
+  double volume = 0.;
+  const Tensor<1, dim> gradient = gradient_integral(volume);
+  return gradient / (gradient * normal) - normal;
+}
+
+
+template <int dim>
 std::array<Tensor<1, dim>, dim - 1> CrackCell<dim>::axes() const
 {
   std::array<Tensor<1, dim>, dim - 1> t;

@@ -81,6 +81,10 @@ struct CrackCell
 
   double volume() const;
 
+  /// By how much int grad phi / A, whose component across the crack is one, points along it: zero
+  /// where the stairs of cells lie along the crack.
+  dealii::Tensor<1, dim> lean() const;
+
   /// Size of the cell across the crack [m].
   double size_across() const
   {

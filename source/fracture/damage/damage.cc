@@ -414,6 +414,7 @@ void Damage<dim>::assemble(const StepContext &context, const State &state, Sink 
     }
     sink.add(local);
   }
+  hold_stairs(state, sink);
 }
 
 
@@ -551,6 +552,7 @@ FractureSummary Damage<dim>::summary(const State &state, const Collectives &) co
       result.stored_energy +=
         0.5 * share * (seam(crack, q, jumps[q]).traction * seam_jump(crack, jumps[q]));
     }
+    result.stored_energy += energy_in_stairs(i, state.current.extra);
     result.n_tips += dim == 2 && band.is_front(i);
   }
   result.dissipated_energy = dissipated;

@@ -126,6 +126,22 @@ private:
   SeamResponse<dim>
   seam(const CrackCell<dim> &crack, unsigned int point, const dealii::Tensor<1, dim> &jump) const;
 
+  /// What holds a cell's slip to that of a neighbour, see slip_springs().
+  struct SlipSpring
+  {
+    unsigned int other;                        ///< number of the neighbour
+    double side;                               ///< -1 where its plus side is this one's minus side
+    dealii::SymmetricTensor<2, dim> stiffness; ///< [N/m]
+  };
+
+  /// Those to neighbours with a higher number.
+  std::vector<SlipSpring> slip_springs(unsigned int number) const;
+
+  void hold_stairs(const State &state, Sink &sink) const;
+
+  /// Stored in them [J].
+  double energy_in_stairs(unsigned int number, const std::vector<double> &extra) const;
+
   /// Whether faces overlap too much, which then carry more: the step is to be solved again.
   bool press_faces(const State &);
 
