@@ -39,12 +39,12 @@ void add_cells_ahead(const SizesOfPath &cells,
   if (cells.to_the_end <= allowed * (1. + 1e-6))
     return;
   std::ostringstream text;
-  text << std::setprecision(3) << "the fracture will stop the run where larger cells than "
+  text << std::setprecision(3) << "the fracture will stop the run where larger cells than about "
        << allowed
        << " m begin, which do not resolve its process zone; cells alike as far as it shall run: "
           "Mesh/Box/X spacing and Y spacing, 'size from place to place'";
-  numbers.push_back({"largest cells on the fracture's way / at its start",
-                     cells.to_the_end / cells.at_start, text.str(), true});
+  numbers.push_back(
+    {"largest cells ahead / at the start", cells.to_the_end / cells.at_start, text.str(), true});
 }
 
 

@@ -158,7 +158,7 @@ public:
     std::sort(candidates.begin(), candidates.end(),
               [](const Candidate &a, const Candidate &b)
               { return a.promise.seconds < b.promise.seconds; });
-    if (candidates.size() == 1)
+    if (candidates.size() == 1 && resolution_is_open(deck))
       if (const auto finer =
             first_of(scene, candidates[0].model, finer_than(candidates[0].resolution)))
         if (finer->cells > candidates[0].cells)
@@ -236,9 +236,8 @@ private:
                                     const std::vector<std::string> &resolutions)
   {
     for (const std::string &resolution : resolutions)
-      if (resolution_is_open(deck) || resolution == open_resolutions()[0])
-        if (const auto candidate = try_out(scene, model, resolution))
-          return candidate;
+      if (const auto candidate = try_out(scene, model, resolution))
+        return candidate;
     return std::nullopt;
   }
 

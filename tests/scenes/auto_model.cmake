@@ -57,7 +57,7 @@ stockwork_scene_test(model/cells_alike_ahead DECK tests/scenes/auto_model_turned
        --set "Mesh/Box/Y spacing={0.2|0.1|0.05} m from -5.7 m to 5.7 m, growth 1.25")
 stockwork_scene_test(model/cells_ahead_said DECK tests/scenes/auto_model_turned.prm
   ARGS --checked --ends 0 --set Resolution=coarse --set Fracture/Model=cohesive_xfem
-       --says "the fracture will stop the run where larger cells than")
+       --says "the fracture will stop the run where larger cells than about")
 
 # To 60 s the choice is medium, to 100 s coarse: a restart to 100 s goes on with what there is. (Fields, for a step that
 # ends at 60 s.)
