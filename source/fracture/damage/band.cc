@@ -364,8 +364,12 @@ void Band<dim>::add_neighbours(const unsigned int i, Segment<dim> &segment) cons
       const CrackCell<dim> &other = cells[j];
       const Tensor<1, dim> line = direction_in_face(crack, other);
       const unsigned int g = std::find(links[j].begin(), links[j].end(), i) - links[j].begin();
-      // Either may have put a vertex on another side.
-      const double width = 0.5 * (length_in_face(crack, f, line) + length_in_face(other, g, line));
+      // Either may have put a vertex on another side; where both cracks turn away from how their
+      // vertices are parted, fluid passes all the same.
+      const double least =
+        line.norm_square() > 0. ? 0.05 * std::min(crack.size(), other.size()) : 0.;
+      const double width =
+        std::max(0.5 * (length_in_face(crack, f, line) + length_in_face(other, g, line)), least);
       segment.neighbours.push_back({other.key(), std::max(along, 0.05 * crack.size()), width});
     }
 }

@@ -259,6 +259,16 @@ void Damage<dim>::start(const Collectives &collectives)
   initial_size = 0.;
   for (const CrackCell<dim> &cell : all)
     initial_size = std::max(initial_size, cell.size());
+  if (dim == 3 && parameters.growth &&
+      std::any_of(all.begin(), all.end(), [](const auto &cell) { return !cell.is_cut_evenly(); }))
+    messages.push_back(
+      "A crack is turned against the mesh, and grows more easily along the lines of the mesh in "
+      "its "
+      "plane than along its stairs of cells: discs turned by 27 and 45 degrees have become 1.04 to "
+      "1.09 "
+      "times as long as wide in viscous fluid, 1.15 to 1.22 times where toughness dominates, with "
+      "up to 7 % less pressure than along the mesh. Turn the mesh, if you can, so that the crack "
+      "lies along it.");
   if (parameters.cell_size > 1.5 * initial_size)
   {
     std::ostringstream text;
