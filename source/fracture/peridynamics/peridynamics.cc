@@ -61,6 +61,9 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
     throw EntryError("Fracture/peridynamics/Closure", "as published",
                      "'conserving' in porous rock (Rock/Bulk model), or 'Fluid = permeability "
                      "tensor'");
+  if (parameters.in_bonds && scene.rock.bulk_model() == "poroelastic")
+    throw EntryError("Fracture/peridynamics/Closure", "in bonds",
+                     "'conserving' in porous rock (Rock/Bulk model)");
   if (scene.cracks.empty() && parameters.boxes.empty())
     throw InputError("Peridynamics needs an initial crack, or the box of its 'Zone'.");
   refuse_what_bonds_do_not_know();
@@ -92,6 +95,7 @@ void Peridynamics<dim>::set_law(const double spacing)
   law = parameters.state_based ? state_based_law<dim>(rock, stencil, spacing)
                                : bond_based_law<dim>(rock, stencil, spacing);
   coefficients = bond_coefficients<dim>(stencil, law, spacing);
+  strain_of_pressure = 1. / (dim * lattice_moduli<dim>(stencil, law, spacing).bulk());
   critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
   const double held = crossing_energy<dim>(stencil, law, spacing, critical_stretch);
@@ -107,7 +111,7 @@ void Peridynamics<dim>::set_law(const double spacing)
   softening.last = critical_stretch * std::sqrt(parameters.softening);
   // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
   if (const double at_one = crossing_energy<dim>(stencil, law, spacing, 1.);
-      parameters.effective_stretch && at_one > 0.)
+      parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
     relief_by_fluid = spacing * softening.when_wet() / softening.first / (2. * at_one);
 }
 
@@ -216,6 +220,8 @@ void Peridynamics<dim>::refresh_segments()
       }
     }
   }
+  if (parameters.in_bonds)
+    open_by_bonds();
   find_changed_rows(damage_before, corrected_before, cells_before);
 }
 
