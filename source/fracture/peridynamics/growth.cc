@@ -126,9 +126,8 @@ double Peridynamics<dim>::added_stretch(const unsigned int site,
                                         const unsigned int bond,
                                         const std::vector<double> &of_cells) const
 {
-  return parameters.in_bonds
-           ? fractured_stretch(site, bond, crossed.of(site, bond, false), of_cells)
-           : in_situ_stretch(site, bond) + relief_at(site, bond, of_cells);
+  return parameters.in_bonds ? fractured_stretch(site, bond, shares_of(site, bond, false), of_cells)
+                             : in_situ_stretch(site, bond) + relief_at(site, bond, of_cells);
 }
 
 
@@ -161,7 +160,7 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       if (ratio_with(most) < least || softening_bond(i, b) != nullptr)
         continue;
       const double ratio = ratio_with(added_stretch(i, b, of_cells));
-      if (ratio < least)
+      if (ratio < least || (parameters.tracked && !crossing_of(i, b)))
         continue;
       if (breakable)
         candidates.push_back({ratio, i, b});
@@ -212,6 +211,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     return verdict_on(context, state, collectives);
   Rim rim = Rim::away;
   const std::vector<double> of_cells = pressure_stretch(state, collectives);
+  if (parameters.tracked)
+    track(state, of_cells);
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
   if (rim == Rim::stays && !told_of_rim)
   {

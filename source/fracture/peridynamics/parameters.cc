@@ -36,7 +36,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry(
     "Margin", "", Patterns::Anything(),
     "Cells around the initial cracks that are peridynamic, at least the horizon and "
-    "one; empty: the horizon and two.");
+    "one; empty: the horizon and two, with a tracked path three horizons and one.");
   prm.declare_entry("Zone", "", Patterns::Anything(),
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
@@ -87,6 +87,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "of their height, store 1/K_f, and their change of volume does not count.");
   permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
+  prm.declare_entry(
+    "Tracking", "none", Patterns::Selection("none|path"),
+    "none: any bond softens that is stretched too far; where nothing guides it, the "
+    "way of a fracture is the mesh's. path: only those that cross a path, which "
+    "runs ahead of each tip, at right angles to the greatest principal stress, "
+    "averaged there over some horizons. In two dimensions, with 'Closure = in bonds'; "
+    "not where fractures fork.");
   prm.declare_entry("Bonds per pass", default_bonds_per_pass, Patterns::Integer(1),
                     "Brittle bonds that break, the most stretched first, before the step is solved "
                     "again. Bonds that soften all follow their stretch at once.");
@@ -133,7 +140,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
               : volumes == "full"    ? VolumeRule::full
               : volumes == "ramp"    ? VolumeRule::ramp
                                      : VolumeRule::exact;
-  p.margin = number("Margin", p.horizon + 2.);
+  p.tracked = prm.get("Tracking") == "path";
+  p.margin = number("Margin", p.tracked ? 3. * p.horizon + 1. : p.horizon + 2.);
   if (!(p.margin >= p.horizon + 1.))
     throw bad("Margin", "at least " + std::to_string(p.horizon + 1) +
                           " cells: every bond that a crack cuts joins two peridynamic nodes");
@@ -153,6 +161,10 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   p.as_published = prm.get("Closure") == "as published";
   p.in_bonds = prm.get("Closure") == "in bonds";
   p.tensor_fluid = permeability_tensor::is_chosen(prm);
+  if (p.tracked && (dim != 2 || !p.in_bonds || p.softening == 1.))
+    throw bad("Tracking", dim != 2      ? "none in three dimensions"
+                          : !p.in_bonds ? "none, or 'Closure = in bonds'"
+                                        : "none with brittle bonds ('Softening = 1')");
   if (p.in_bonds && (p.state_based || p.tensor_fluid))
     throw bad("Closure", p.state_based ? "conserving with 'Bond law = state-based'"
                                        : "conserving with 'Fluid = permeability tensor'");

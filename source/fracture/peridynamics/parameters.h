@@ -30,6 +30,7 @@ struct Parameters
   bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
   double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
   bool growth;
+  bool tracked; ///< bonds soften across the ways of cracks only
   enum class Bonds
   {
     none,

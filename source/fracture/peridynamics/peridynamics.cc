@@ -146,7 +146,17 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     cut_initial_cracks();
     committed_bonds = committed_cracked = bonds.places();
     cracked.set_broken(committed_bonds);
-    set_initial_normals();
+    if constexpr (dim == 2)
+      if (parameters.tracked)
+      {
+        paths.reinit(scene.cracks, zone.spacing(),
+                     [&](const Point<dim> &end)
+                     { return zone.is_inside(end, same_place * zone.spacing()); });
+        committed_paths = paths;
+        committed_way_energy.assign(scene.cracks.size(), {{0., 0.}});
+      }
+    if (!parameters.tracked)
+      set_initial_normals();
     if (parameters.surface_correction)
       for (const unsigned int i : zone.peridynamic_sites())
         if (const double gone = bonds.damage(i); gone > 0.)
@@ -173,13 +183,18 @@ void Peridynamics<dim>::refresh_segments()
         corrected_damage[i] = corrected;
   }
   const std::vector<FractureCell<dim>> cells_before = cells;
-  cells = find_fracture_cells(zone, cracked);
-  align_normals(cells, parameters.horizon + 1);
-  for (FractureCell<dim> &cell : cells)
-    if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
-      for (unsigned int d = 0; d < dim; ++d)
-        cell.normal[d] = old->second[d];
-  all_segments = make_segments(zone, cells);
+  if (parameters.tracked)
+    follow_paths();
+  else
+  {
+    cells = find_fracture_cells(zone, cracked);
+    align_normals(cells, parameters.horizon + 1);
+    for (FractureCell<dim> &cell : cells)
+      if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
+        for (unsigned int d = 0; d < dim; ++d)
+          cell.normal[d] = old->second[d];
+    all_segments = make_segments(zone, cells);
+  }
   at_front.clear();
   published.clear();
   if (parameters.as_published && !parameters.tensor_fluid)
@@ -197,7 +212,7 @@ void Peridynamics<dim>::refresh_segments()
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     Segment<dim> &segment = all_segments[i];
-    at_front.push_back(is_at_front(zone, cells[i], segment));
+    at_front.push_back(parameters.tracked ? segment.at_tip : is_at_front(zone, cells[i], segment));
     if (scene.has_pore_pressure)
       segment.share_of_pores = scene.rock.main().biot_coefficient;
     // Unknowns are measured from the in-situ pressure.
@@ -263,6 +278,11 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &)
     committed_bonds = bonds.places();
     committed_cracked = cracked.places();
   }
+  if (parameters.tracked)
+  {
+    committed_paths = paths;
+    committed_way_energy = energy_across_ways();
+  }
   committed_softening.clear();
   for (SofteningBond &bond : softening_bonds)
   {
@@ -279,7 +299,7 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &)
   for (unsigned int i = 0; i < cells.size(); ++i)
     if (at_front[i])
       front.push_back(all_segments[i].centre);
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < cells.size() && !parameters.tracked; ++i)
     if (std::none_of(front.begin(), front.end(),
                      [&](const Point<dim> &end)
                      { return end.distance(all_segments[i].centre) < settled; }))
@@ -323,6 +343,7 @@ void Peridynamics<dim>::rollback()
   told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
   dissipated = committed_energy;
+  paths = committed_paths;
   if (passes == 0)
     return;
   passes = 0;
@@ -376,7 +397,8 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_correction << committed_energy
-          << committed_damage_relaxation << told_of_rim << told_of_pressure;
+          << committed_damage_relaxation << told_of_rim << told_of_pressure << committed_paths
+          << committed_way_energy;
 }
 
 
@@ -387,7 +409,8 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_rim >> told_of_pressure;
+    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy;
+  paths = committed_paths;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)
     corner[d] = origin[d];

@@ -7,6 +7,7 @@
 #include "fracture/peridynamics/published_load.h"
 #include "fracture/peridynamics/row_versions.h"
 #include "fracture/peridynamics/softening.h"
+#include "fracture/peridynamics/tracked_paths.h"
 #include "stockwork/fracture/model.h"
 
 #include <functional>
@@ -194,6 +195,34 @@ private:
                            const CellShares &shares,
                            const std::vector<double> &of_pressure) const;
 
+  /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
+  CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
+
+  // With tracked paths (tracking.cc).
+
+  /// Where a bond, or its image in the domain, crosses a path.
+  std::optional<TrackedPaths::Crossing> crossing_of(unsigned int site, unsigned int bond) const;
+
+  /// Fracture cells and segments are the pieces of paths that fluid has reached.
+  void follow_paths();
+
+  /// Paths go on ahead of tips that have come near to their ends.
+  void track(const State &state, const std::vector<double> &of_cells);
+
+  /// How far tips have come by the energy that softening bonds have dissipated.
+  /// @return whether fluid has reached another piece
+  bool advance_tips();
+
+  /// Of the bonds across the way of each end of a path [J/m].
+  std::vector<std::array<double, 2>> energy_across_ways() const;
+
+  /// The stress ahead of a tip, of sites on the side that @p ahead points to, weighted by their
+  /// distance [Pa].
+  dealii::SymmetricTensor<2, dim> stress_ahead(const dealii::Point<dim> &tip,
+                                               const dealii::Tensor<1, dim> &ahead,
+                                               const State &state,
+                                               const std::vector<double> &of_cells) const;
+
   /// Segments open by what bonds have lost of their elongation.
   void open_by_bonds();
 
@@ -351,10 +380,13 @@ private:
   std::vector<bool> at_front;                ///< which of them the fracture ends at
   std::vector<PublishedLoad<dim>> published; ///< of owned segments
   CrossedCells<dim> crossed;
-  std::vector<dealii::SymmetricTensor<2, dim>> released;  ///< strain of each cell, if not all zero
-  std::vector<LinearFunctional> released_forces;          ///< of owned segments [N/m]
-  std::vector<CellShares> softening_shares;               ///< of the softening bonds
-  std::vector<Segment<dim>> owned_segments;               ///< their openings are known here
+  std::vector<dealii::SymmetricTensor<2, dim>> released; ///< strain of each cell, if not all zero
+  std::vector<LinearFunctional> released_forces;         ///< of owned segments [N/m]
+  std::vector<CellShares> softening_shares;              ///< of the softening bonds
+  TrackedPaths paths, committed_paths;
+  std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
+  std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
+  std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here
   std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;

@@ -67,6 +67,19 @@ double Peridynamics<dim>::fractured_stretch(const unsigned int site,
 
 
 template <int dim>
+CellShares Peridynamics<dim>::shares_of(const unsigned int site,
+                                        const unsigned int bond,
+                                        const bool always) const
+{
+  if (!parameters.tracked)
+    return crossed.of(site, bond, always);
+  const auto crossing = crossing_of(site, bond);
+  return crossing ? paths.shares(*crossing, (parameters.horizon + 1.) * zone.spacing())
+                  : CellShares();
+}
+
+
+template <int dim>
 void Peridynamics<dim>::open_by_bonds()
 {
   const double unit = strain_of_pressure;
@@ -74,7 +87,8 @@ void Peridynamics<dim>::open_by_bonds()
   if (!in_situ_is_zero)
     for (unsigned int i = 0; i < cells.size(); ++i)
       released.push_back(released_strain(i));
-  crossed.reinit(zone, stencil, cells, parameters.horizon);
+  if (!parameters.tracked)
+    crossed.reinit(zone, stencil, cells, parameters.horizon);
 
   std::vector<unsigned int> owned(cells.size(), dealii::numbers::invalid_unsigned_int);
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
@@ -95,7 +109,7 @@ void Peridynamics<dim>::open_by_bonds()
       const double force =
         0.5 * zone.sites()[i].share * coefficients[b].stiffness * coefficients[b].length;
       const FarEnd end = zone.far_end(i, b);
-      for (const auto &[cell, share] : crossed.of(i, b, true))
+      for (const auto &[cell, share] : shares_of(i, b, true))
       {
         if (owned[cell] == dealii::numbers::invalid_unsigned_int)
           continue;
@@ -122,7 +136,7 @@ void Peridynamics<dim>::open_by_bonds()
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
     const auto &[site, bond] = softening_bonds[n].view;
-    softening_shares.push_back(crossed.of(site, bond, false));
+    softening_shares.push_back(shares_of(site, bond, false));
     for (const auto &[cell, share] : softening_shares.back())
       if (const unsigned int k = owned[cell]; k != dealii::numbers::invalid_unsigned_int)
       {
@@ -215,15 +229,16 @@ void Peridynamics<dim>::assemble_released_stress(Sink &sink) const
 }
 
 
-#define INSTANTIATE(dim)                                                                   \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const; \
-  template std::vector<double> Peridynamics<dim>::fluid_stretch(const State &) const;      \
-  template double Peridynamics<dim>::fractured_stretch(                                    \
-    unsigned int, unsigned int, const CellShares &, const std::vector<double> &) const;    \
-  template void Peridynamics<dim>::open_by_bonds();                                        \
-  template double Peridynamics<dim>::pushed_volume(const BondView &) const;                \
-  template double Peridynamics<dim>::aperture(unsigned int, const State &) const;          \
-  template std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const;   \
+#define INSTANTIATE(dim)                                                                    \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const;  \
+  template std::vector<double> Peridynamics<dim>::fluid_stretch(const State &) const;       \
+  template double Peridynamics<dim>::fractured_stretch(                                     \
+    unsigned int, unsigned int, const CellShares &, const std::vector<double> &) const;     \
+  template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const; \
+  template void Peridynamics<dim>::open_by_bonds();                                         \
+  template double Peridynamics<dim>::pushed_volume(const BondView &) const;                 \
+  template double Peridynamics<dim>::aperture(unsigned int, const State &) const;           \
+  template std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const;    \
   template void Peridynamics<dim>::assemble_released_stress(Sink &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -246,10 +246,12 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   for (SofteningBond &bond : softening_bonds)
   {
     bond.trial = maximum_stretch(bond, stretch_of(bond));
-    if (lets_fluid_in(bond))
+    if (!parameters.tracked && lets_fluid_in(bond))
       crack(bond.view);
   }
-  if (changed)
+  if (parameters.tracked)
+    changed = advance_tips();
+  else if (changed)
     changed = find_fracture_cells(zone, cracked).size() != cells.size();
   for (const Candidate &candidate : candidates)
     changed = changed || candidate.stretch >= 1.;
@@ -275,7 +277,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     if (!parameters.in_bonds)
       bond.offset = added_stretch(view.first, view.second, of_cells);
     bond.trial = maximum_stretch(bond, stretch_of(bond));
-    if (lets_fluid_in(bond))
+    if (!parameters.tracked && lets_fluid_in(bond))
       cracked.set_broken(view.first, view.second);
     softening_now.push_back(bond);
   }
