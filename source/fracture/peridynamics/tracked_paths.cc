@@ -138,7 +138,6 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
 CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) const
 {
   CellShares result;
-  const auto middle = [&](const unsigned int i) { return 0.5 * (wet[i].begin + wet[i].end); };
   unsigned int first = 0;
   while (first < wet.size() && wet[first].path != crossing.path)
     ++first;
@@ -148,20 +147,22 @@ CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) co
   if (first == last || crossing.arc < wet[first].begin - reach ||
       crossing.arc > wet[last - 1].end + reach)
     return result;
+  const auto add = [&](const unsigned int piece, const double share)
+  {
+    if (share <= 0.)
+      return;
+    if (!result.empty() && (result.back().first == piece || result.size() == result.capacity()))
+      result.back().second += share;
+    else
+      result.emplace_back(piece, share);
+  };
+  const double from = crossing.arc - h, to = crossing.arc + h;
+  const auto part = [&](const double begin, const double end)
+  { return (std::min(end, to) - std::max(begin, from)) / (2. * h); };
+  add(first, part(from, wet[first].begin));
   for (unsigned int i = first; i < last; ++i)
-    if (crossing.arc <= middle(i))
-    {
-      if (i == first)
-        result.emplace_back(i, 1.);
-      else
-      {
-        const double share = (crossing.arc - middle(i - 1)) / (middle(i) - middle(i - 1));
-        result.emplace_back(i - 1, 1. - share);
-        result.emplace_back(i, share);
-      }
-      return result;
-    }
-  result.emplace_back(last - 1, 1.);
+    add(i, part(wet[i].begin, wet[i].end));
+  add(last - 1, part(wet[last - 1].end, to));
   return result;
 }
 

@@ -54,8 +54,9 @@ public:
   /// Of the line from a to b, nearest to its middle; nothing if it crosses no path.
   std::optional<Crossing> crossing(const dealii::Point<2> &a, const dealii::Point<2> &b) const;
 
-  /// The wet pieces that a bond belongs to which crosses a path there: it feels the pressure
-  /// between two of their middles. None if the fluid is farther than @p reach [m].
+  /// The wet pieces that a bond belongs to which crosses a path there. So many bonds do, per length
+  /// of the path, in the mean over some cells only; so a bond is shared out to all of a length of
+  /// two pieces around. None if the fluid is farther than @p reach [m].
   CellShares shares(const Crossing &crossing, double reach) const;
 
   /// The end whose way is crossed there; nothing on an initial crack.
