@@ -36,7 +36,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry(
     "Margin", "", Patterns::Anything(),
     "Cells around the initial cracks that are peridynamic, at least the horizon and "
-    "one; empty: the horizon and two, with a tracked path three horizons and one.");
+    "one; empty: the horizon and two.");
   prm.declare_entry("Zone", "", Patterns::Anything(),
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
@@ -141,7 +141,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
               : volumes == "ramp"    ? VolumeRule::ramp
                                      : VolumeRule::exact;
   p.tracked = prm.get("Tracking") == "path";
-  p.margin = number("Margin", p.tracked ? 3. * p.horizon + 1. : p.horizon + 2.);
+  p.margin = number("Margin", p.horizon + 2.);
   if (!(p.margin >= p.horizon + 1.))
     throw bad("Margin", "at least " + std::to_string(p.horizon + 1) +
                           " cells: every bond that a crack cuts joins two peridynamic nodes");

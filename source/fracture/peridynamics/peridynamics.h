@@ -216,6 +216,15 @@ private:
   /// Of the bonds across the way of each end of a path [J/m].
   std::vector<std::array<double, 2>> energy_across_ways() const;
 
+  /// Of a peridynamic site, but for what it is in situ [Pa].
+  /// @param softened what has become of the elongation of bonds without any force [m]
+  dealii::SymmetricTensor<2, dim> stress_of_bonds(unsigned int site,
+                                                  const std::map<BondView, double> &softened,
+                                                  const std::vector<double> &of_cells) const;
+
+  /// Of a site among elements of the size of the lattice's cells; nothing at the rim of these.
+  std::optional<dealii::SymmetricTensor<2, dim>> stress_of_elements(unsigned int site) const;
+
   /// The stress ahead of a tip, of sites on the side that @p ahead points to, weighted by their
   /// distance [Pa].
   dealii::SymmetricTensor<2, dim> stress_ahead(const dealii::Point<dim> &tip,

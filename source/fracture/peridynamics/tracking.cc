@@ -176,56 +176,97 @@ bool Peridynamics<dim>::advance_tips()
 
 
 template <int dim>
+SymmetricTensor<2, dim>
+Peridynamics<dim>::stress_of_bonds(const unsigned int site,
+                                   const std::map<BondView, double> &softened,
+                                   const std::vector<double> &of_cells) const
+{
+  SymmetricTensor<2, dim> stress;
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+  {
+    const Tensor<1, dim> &e = coefficients[b].direction;
+    double force = 0.;
+    if (bonds.is_broken(site, b))
+      for (const auto &[cell, share] : shares_of(site, b, false))
+        force -= coefficients[b].stiffness * coefficients[b].length * share *
+                 (of_cells[cell] + (in_situ_is_zero ? 0. : e * (released[cell] * e)));
+    else
+    {
+      const auto found = softened.find({site, b});
+      force = stiffness(site, b) * (elongation(site, b, displacement) -
+                                    (found != softened.end() ? found->second : 0.));
+    }
+    stress += 0.5 * force * coefficients[b].length * symmetrize(outer_product(e, e));
+  }
+  return stress / std::pow(zone.spacing(), dim);
+}
+
+
+template <int dim>
+std::optional<SymmetricTensor<2, dim>>
+Peridynamics<dim>::stress_of_elements(const unsigned int site) const
+{
+  SymmetricTensor<2, dim> strain;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    std::array<unsigned int, 2> beside;
+    for (const unsigned int side : {0u, 1u})
+    {
+      Place<dim> place = zone.sites()[site].place;
+      place[d] += side == 0 ? -1 : 1;
+      beside[side] = zone.find(place);
+      if (beside[side] == dealii::numbers::invalid_unsigned_int)
+        return {};
+    }
+    for (unsigned int c = 0; c < dim; ++c)
+      strain[c][d] += (c == d ? 1. : 0.5) *
+                      (displacement[beside[1] * dim + c] - displacement[beside[0] * dim + c]) /
+                      (2. * zone.spacing());
+  }
+  const RockProperties &rock = scene.rock.main();
+  return rock.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
+         2. * rock.shear_modulus() * strain;
+}
+
+
+template <int dim>
 SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
                                                         const Tensor<1, dim> &ahead,
                                                         const State &state,
                                                         const std::vector<double> &of_cells) const
 {
-  const double h = zone.spacing(), length = parameters.horizon * h, reach = 3. * length;
-  std::map<BondView, unsigned int> softening_index;
-  for (unsigned int n = 0; n < softening_bonds.size(); ++n)
-    for (const BondView &view :
-         views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
-      softening_index[view] = n;
   SymmetricTensor<2, dim> sum;
-  double weights = 0.;
-  for (const unsigned int i : zone.peridynamic_sites())
+  if constexpr (dim == 2)
   {
-    const Point<dim> place = zone.position(zone.sites()[i].place);
-    const Tensor<1, dim> away = place - tip;
-    if (away.norm_square() > reach * reach || away.norm_square() == 0.)
-      continue;
-    SymmetricTensor<2, dim> stress;
-    for (unsigned int b = 0; b < stencil.size(); ++b)
+    const double length = parameters.horizon * zone.spacing(), reach = 3. * length;
+    std::map<BondView, double> softened;
+    for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+      for (const BondView &view :
+           views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
+        softened[view] = state.current.extra[n];
+    double weights = 0.;
+    for (unsigned int i = 0; i < zone.sites().size(); ++i)
     {
-      const Tensor<1, dim> &e = coefficients[b].direction;
-      const double whole = coefficients[b].stiffness * coefficients[b].length;
-      double force = 0.;
-      if (bonds.is_broken(i, b))
-      {
-        for (const auto &[cell, share] : shares_of(i, b, false))
-          force -=
-            whole * share * (of_cells[cell] + (in_situ_is_zero ? 0. : e * (released[cell] * e)));
-      }
-      else
-      {
-        force = elongation(i, b, displacement);
-        if (const auto found = softening_index.find({i, b}); found != softening_index.end())
-          force -= state.current.extra[found->second];
-        force *= stiffness(i, b);
-      }
-      stress += 0.5 * force * coefficients[b].length * symmetrize(outer_product(e, e));
+      const Point<dim> place = zone.position(zone.sites()[i].place);
+      const Tensor<1, dim> away = place - tip;
+      if (away.norm_square() > reach * reach || away.norm_square() == 0.)
+        continue;
+      auto stress = zone.sites()[i].peridynamic
+                      ? std::optional<SymmetricTensor<2, dim>>(
+                          stress_of_bonds(i, softened, of_cells))
+                      : stress_of_elements(i);
+      if (!stress)
+        continue;
+      if (!in_situ_is_zero)
+        *stress += scene.in_situ_stress(place);
+      const double weight = ring_weight(away / length, ahead);
+      sum += weight * *stress;
+      weights += weight;
     }
-    stress /= std::pow(h, dim);
-    if (!in_situ_is_zero)
-      stress += scene.in_situ_stress(place);
-    double weight = 0.;
-    if constexpr (dim == 2)
-      weight = ring_weight(away / length, ahead);
-    sum += weight * stress;
-    weights += weight;
+    if (weights > 0.)
+      sum /= weights;
   }
-  return weights > 0. ? sum / weights : sum;
+  return sum;
 }
 
 
@@ -267,6 +308,10 @@ void Peridynamics<dim>::track(const State &state, const std::vector<double> &of_
   template void Peridynamics<dim>::follow_paths();                                                 \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const;       \
   template bool Peridynamics<dim>::advance_tips();                                                 \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                            \
+    unsigned int, const std::map<BondView, double> &, const std::vector<double> &) const;          \
+  template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(           \
+    unsigned int) const;                                                                           \
   template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                                \
     const Point<dim> &, const Tensor<1, dim> &, const State &, const std::vector<double> &) const; \
   template void Peridynamics<dim>::track(const State &, const std::vector<double> &);
