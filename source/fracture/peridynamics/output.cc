@@ -30,9 +30,12 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
     result.broken_length += broken * all_segments[i].area;
     result.n_tips += all_segments[i].at_tip;
   }
-  // As long as a crack without a process zone that has dissipated as much.
   if (parameters.tracked)
-    result.length = result.broken_length = paths.length();
+  {
+    const double half = half_process_zones();
+    result.length = paths.length() + half;
+    result.broken_length = paths.length() - half;
+  }
   result.dissipated_energy = dissipated;
   result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));
   result.cost = cost();

@@ -213,6 +213,10 @@ private:
   /// @return whether fluid has reached another piece
   bool advance_tips();
 
+  /// From tips, as far as they have come by the energy dissipated, to the farthest bonds that have
+  /// softened; all tips together. By as much process zones reach back [m].
+  double half_process_zones() const;
+
   /// Of the bonds across the way of each end of a path [J/m].
   std::vector<std::array<double, 2>> energy_across_ways() const;
 

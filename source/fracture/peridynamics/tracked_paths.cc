@@ -218,6 +218,14 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
 }
 
 
+double TrackedPaths::beyond_tip(const Crossing &crossing, const End &end) const
+{
+  const Path &path = paths[end.path];
+  const double start = path.begin(path.n_pieces() - path.ends[1].n_points);
+  return (end.side == 0 ? -crossing.arc : crossing.arc - start) - at(end).advance;
+}
+
+
 double TrackedPaths::lead(const End &end) const
 {
   return way(end) - at(end).advance;

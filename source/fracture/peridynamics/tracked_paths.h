@@ -80,6 +80,9 @@ public:
   /// @return whether fluid has reached other pieces than before
   bool set_advances(const std::function<double(const End &)> &advance);
 
+  /// How far ahead of the tip of an end its way is crossed there [m].
+  double beyond_tip(const Crossing &crossing, const End &end) const;
+
   /// What is left of the way ahead of the tip [m].
   double lead(const End &end) const;
 

@@ -165,6 +165,25 @@ std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const
 
 
 template <int dim>
+double Peridynamics<dim>::half_process_zones() const
+{
+  std::map<std::pair<unsigned int, unsigned int>, double> ahead;
+  for (unsigned int n = 0; n < softening_ends.size(); ++n)
+    if (const auto &end = softening_ends[n]; end && softening.damage(softening_bonds[n].trial) > 0.)
+    {
+      const auto crossing =
+        crossing_of(softening_bonds[n].view.first, softening_bonds[n].view.second);
+      double &farthest = ahead[{end->path, end->side}];
+      farthest = std::max(farthest, paths.beyond_tip(*crossing, *end));
+    }
+  double sum = 0.;
+  for (const auto &end : ahead)
+    sum += end.second;
+  return sum;
+}
+
+
+template <int dim>
 bool Peridynamics<dim>::advance_tips()
 {
   const auto energy = energy_across_ways();
@@ -193,8 +212,8 @@ Peridynamics<dim>::stress_of_bonds(const unsigned int site,
     else
     {
       const auto found = softened.find({site, b});
-      force = stiffness(site, b) * (elongation(site, b, displacement) -
-                                    (found != softened.end() ? found->second : 0.));
+      force = stiffness(site, b) *
+              (elongation(site, b, displacement) - (found != softened.end() ? found->second : 0.));
     }
     stress += 0.5 * force * coefficients[b].length * symmetrize(outer_product(e, e));
   }
@@ -251,10 +270,10 @@ SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
       const Tensor<1, dim> away = place - tip;
       if (away.norm_square() > reach * reach || away.norm_square() == 0.)
         continue;
-      auto stress = zone.sites()[i].peridynamic
-                      ? std::optional<SymmetricTensor<2, dim>>(
-                          stress_of_bonds(i, softened, of_cells))
-                      : stress_of_elements(i);
+      auto stress =
+        zone.sites()[i].peridynamic
+          ? std::optional<SymmetricTensor<2, dim>>(stress_of_bonds(i, softened, of_cells))
+          : stress_of_elements(i);
       if (!stress)
         continue;
       if (!in_situ_is_zero)
@@ -307,8 +326,9 @@ void Peridynamics<dim>::track(const State &state, const std::vector<double> &of_
     unsigned int, unsigned int) const;                                                             \
   template void Peridynamics<dim>::follow_paths();                                                 \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const;       \
+  template double Peridynamics<dim>::half_process_zones() const;                                   \
   template bool Peridynamics<dim>::advance_tips();                                                 \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                            \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                             \
     unsigned int, const std::map<BondView, double> &, const std::vector<double> &) const;          \
   template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(           \
     unsigned int) const;                                                                           \
