@@ -60,6 +60,8 @@ end
 """
 
 PERIDYNAMICS = """  subsection peridynamics
+    set Closure = in bonds
+    set Tracking = path
     set Zone = ({0[0]:.9g} m, {0[1]:.9g} m) to ({1[0]:.9g} m, {1[1]:.9g} m)
   end
 """

@@ -90,6 +90,27 @@ stockwork_case_test(NAME convergence/kgd/sun/permeable/tensor
          "final/inlet_aperture = 2.38e-4 within 0.06" "fluid_balance/relative_error < 1e-8"
          "final/fluid_volume_defect < 1e-12" "final/fluid_volume_defect > -1e-12")
 
+# With the pressure in the law of bonds, what stress there is along a fracture, and across it at equal net pressure,
+# makes no difference. Without a path, and with one.
+set(in_bonds "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Output/Fields=false" "Time/End time=10 s")
+foreach(tracking none path)
+  stockwork_same_test(NAME convergence/kgd/toughness/in_bonds/stress/${tracking}
+    DECK prm/kgd/toughness/peridynamics.prm SET ${in_bonds} "Fracture/peridynamics/Tracking=${tracking}"
+    SECOND_SET "In situ/Stress=-23 MPa, -17 MPa" TOLERANCE 1e-6
+    IGNORE "error|^inlet_pressure|^minimum_pressure|^maximum_pressure|borehole_pressure|energy|load")
+  stockwork_case_test(NAME convergence/kgd/toughness/in_bonds/${tracking} NEGATIVE
+    DECK prm/kgd/toughness/peridynamics.prm
+    SET "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=${tracking}"
+    EXPECT "errors/equivalent_length/final < 0.025" "errors/inlet_aperture/final < 0.012"
+           "errors/net_inlet_pressure/final < 0.005" "errors/net_inlet_pressure/mean < 0.005"
+           "fluid_balance/relative_error < 1e-8")
+  stockwork_case_test(NAME convergence/kgd/sun/in_bonds/${tracking} NEGATIVE
+    DECK prm/kgd/sun/peridynamics.prm
+    SET "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=${tracking}"
+    EXPECT "errors/equivalent_length/mean < 0.03" "errors/inlet_aperture/mean < 0.025"
+           "errors/net_inlet_pressure/mean < 0.01" "fluid_balance/relative_error < 1e-8")
+endforeach()
+
 # A slot of constant aperture conducts as the cubic law says, however it is turned.
 foreach(slot "0|11 m, 0|10 m, 0|-11 m, 0|-10 m, 0"
     "15|10.625184 m, 2.847009 m|9.659258 m, 2.58819 m|-10.625184 m, -2.847009 m|-9.659258 m, -2.58819 m"

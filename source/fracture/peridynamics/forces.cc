@@ -57,6 +57,9 @@ void Peridynamics<dim>::add_couplings(const Coupling &couple) const
         }
         couple(dofs);
       }
+  if (parameters.in_bonds)
+    for (const unsigned int i : sites_of_crossing_bonds())
+      couple({zone.sites()[i].dofs.begin(), zone.sites()[i].dofs.end()});
   for_each_dilatation(
     [&](const std::vector<unsigned int> &family, const std::vector<Tensor<1, dim>> &, const double)
     {
@@ -242,6 +245,11 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
     assemble_published_closure(context, state, sink);
   if (in_situ_is_zero)
     return;
+  if (parameters.in_bonds)
+  {
+    assemble_released_stress(sink);
+    return;
+  }
   LocalSystem local;
   for (const unsigned int i : owned_cells)
   {

@@ -66,6 +66,8 @@ std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
                                                         const Collectives &collectives) const
 {
   std::vector<double> result(cells.size(), 0.);
+  if (parameters.in_bonds)
+    return fluid_stretch(state);
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
   const double by_fluid = state.segment_pressure ? relief_by_fluid : 0.;
@@ -120,13 +122,24 @@ double Peridynamics<dim>::relief_at(const unsigned int site,
 
 
 template <int dim>
+double Peridynamics<dim>::added_stretch(const unsigned int site,
+                                        const unsigned int bond,
+                                        const std::vector<double> &of_cells) const
+{
+  return parameters.in_bonds ? fractured_stretch(site, bond, shares_of(site, bond, false), of_cells)
+                             : in_situ_stretch(site, bond) + relief_at(site, bond, of_cells);
+}
+
+
+template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
-  const std::vector<double> &u, const std::vector<double> &relief, Rim &rim) const
+  const std::vector<double> &u, const std::vector<double> &of_cells, Rim &rim) const
 {
   const double least = softening.brittle() ? 1. : soon_to_soften;
-  double most_relief = 0.;
-  for (const double r : relief)
-    most_relief = std::max(most_relief, r);
+  double most_of_cells = 0.;
+  for (unsigned int i = 0; i < of_cells.size(); ++i)
+    most_of_cells =
+      std::max(most_of_cells, of_cells[i] + (i < released.size() ? released[i].norm() : 0.));
   std::vector<Candidate> candidates;
   const unsigned int half = stencil.size() / 2;
   for (const unsigned int i : zone.peridynamic_sites())
@@ -137,17 +150,17 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       const bool breakable = bonds.can_break(i, b);
       if (b >= half && breakable && zone.far_end(i, b).mirrored == 0)
         continue; // seen from the other end
-      double stretch = elongation(i, b, u) / coefficients[b].length;
-      stretch += in_situ_stretch(i, b);
+      const double stretch = elongation(i, b, u) / coefficients[b].length;
       const auto ratio_with = [&](const double more)
       {
         return rounded(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
                        softening.first);
       };
-      if (ratio_with(most_relief) < least || softening_bond(i, b) != nullptr)
+      const double most = most_of_cells + (parameters.in_bonds ? 0. : in_situ_stretch(i, b));
+      if (ratio_with(most) < least || softening_bond(i, b) != nullptr)
         continue;
-      const double ratio = ratio_with(relief_at(i, b, relief));
-      if (ratio < least)
+      const double ratio = ratio_with(added_stretch(i, b, of_cells));
+      if (ratio < least || (parameters.tracked && !crossing_of(i, b)))
         continue;
       if (breakable)
         candidates.push_back({ratio, i, b});
@@ -197,8 +210,10 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (!parameters.growth)
     return verdict_on(context, state, collectives);
   Rim rim = Rim::away;
-  const std::vector<double> relief = pressure_stretch(state, collectives);
-  const std::vector<Candidate> candidates = overstretched(displacement, relief, rim);
+  const std::vector<double> of_cells = pressure_stretch(state, collectives);
+  if (parameters.tracked)
+    track(state, of_cells);
+  const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
   if (rim == Rim::stays && !told_of_rim)
   {
     messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
@@ -224,7 +239,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);
   const unsigned int n_new = cells.size() - n_segments_before;
   const bool changed =
-    softening.brittle() ? !candidates.empty() : soften_bonds(displacement, relief, candidates);
+    softening.brittle() ? !candidates.empty() : soften_bonds(displacement, of_cells, candidates);
   if (!changed)
   {
     verdict = verdict_on(context, state, collectives);
@@ -270,6 +285,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                                                                    const Collectives &) const; \
   template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                     \
                                                const std::vector<double> &) const;             \
+  template double Peridynamics<dim>::added_stretch(unsigned int, unsigned int,                 \
+                                                   const std::vector<double> &) const;         \
   template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
     const std::vector<double> &, const std::vector<double> &, Rim &) const;                    \
   template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \

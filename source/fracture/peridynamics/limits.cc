@@ -91,7 +91,8 @@ void Peridynamics<dim>::foresee(const double spacing)
   if (!parameters.growth)
     return;
   set_law(spacing);
-  foresee_stress(spacing);
+  if (!parameters.in_bonds)
+    foresee_stress(spacing);
   foresee_pressure(spacing);
 }
 
@@ -200,8 +201,8 @@ template <int dim>
 double Peridynamics<dim>::fracture_volume(const State &state, const Collectives &collectives) const
 {
   std::vector<double> volume(1, 0.);
-  for (const Segment<dim> &segment : owned_segments)
-    volume[0] += segment.area * value(segment.opening, state.current);
+  for (unsigned int k = 0; k < owned_segments.size(); ++k)
+    volume[0] += owned_segments[k].area * aperture(k, state);
   collectives.sum(volume);
   return volume[0];
 }

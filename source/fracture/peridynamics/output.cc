@@ -16,7 +16,7 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   FractureSummary result;
   std::vector<double> apertures(cells.size(), 0.);
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
-    apertures[owned_cells[k]] = value(owned_segments[k].opening, state.current);
+    apertures[owned_cells[k]] = aperture(k, state);
   collectives.sum(apertures);
   const std::vector<bool> beside = are_beside(cells, apertures, parameters.horizon + 1.);
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -29,6 +29,12 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
     result.length += all_segments[i].area;
     result.broken_length += broken * all_segments[i].area;
     result.n_tips += all_segments[i].at_tip;
+  }
+  if (parameters.tracked)
+  {
+    const double half = half_process_zones();
+    result.length = paths.length() + half;
+    result.broken_length = paths.length() - half;
   }
   result.dissipated_energy = dissipated;
   result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));
@@ -84,10 +90,11 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
   sink.add_cell_field("damage", mean_damage);
 
   if constexpr (dim == 2)
-    for (const Segment<dim> &segment : owned_segments)
+    for (unsigned int k = 0; k < owned_segments.size(); ++k)
     {
-      std::vector<std::pair<std::string, double>> values{
-        {"aperture", value(segment.opening, state.current)}, {"damage", 1.}};
+      const Segment<dim> &segment = owned_segments[k];
+      std::vector<std::pair<std::string, double>> values{{"aperture", aperture(k, state)},
+                                                         {"damage", 1.}};
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(segment.key));
       Tensor<1, dim> along;

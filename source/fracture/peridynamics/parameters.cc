@@ -74,9 +74,12 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "which makes its faces too soft. With the correction, the bonds that are left "
                     "are stiffer, in proportion.");
   prm.declare_entry(
-    "Closure", "conserving", Patterns::Selection("conserving|as published"),
+    "Closure", "conserving", Patterns::Selection("conserving|in bonds|as published"),
     "What the pressure in a crack does to the rock. conserving: it loads the faces, "
-    "and does the work of their opening. as published: it lengthens unbroken bonds "
+    "and does the work of their opening. in bonds: it is part of the law of bonds, as if rock "
+    "under a uniform stress had cracks without load, less the uniform stress; then toughness does "
+    "not depend on the direction, nor on the in-situ stress along the crack. as published: it "
+    "lengthens unbroken bonds "
     "(Sun et al. 2021, Eqs. 7 and 28), which leaves the faces without a load and "
     "opens a crack to a tenth; for comparison. In porous rock with 'Fluid = permeability tensor' "
     "only, and with the balance of fluid that is printed: fracture cells conduct by w^2/12 over "
@@ -84,6 +87,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "of their height, store 1/K_f, and their change of volume does not count.");
   permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
+  prm.declare_entry(
+    "Tracking", "none", Patterns::Selection("none|path"),
+    "none: any bond softens that is stretched too far; where nothing guides it, the "
+    "way of a fracture is the mesh's. path: only those that cross a path, which "
+    "runs ahead of each tip, at right angles to the greatest principal stress, "
+    "averaged there over some horizons. In two dimensions, with 'Closure = in bonds'; "
+    "not where fractures fork.");
   prm.declare_entry("Bonds per pass", default_bonds_per_pass, Patterns::Integer(1),
                     "Brittle bonds that break, the most stretched first, before the step is solved "
                     "again. Bonds that soften all follow their stretch at once.");
@@ -130,6 +140,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
               : volumes == "full"    ? VolumeRule::full
               : volumes == "ramp"    ? VolumeRule::ramp
                                      : VolumeRule::exact;
+  p.tracked = prm.get("Tracking") == "path";
   p.margin = number("Margin", p.horizon + 2.);
   if (!(p.margin >= p.horizon + 1.))
     throw bad("Margin", "at least " + std::to_string(p.horizon + 1) +
@@ -148,7 +159,15 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";
   p.as_published = prm.get("Closure") == "as published";
+  p.in_bonds = prm.get("Closure") == "in bonds";
   p.tensor_fluid = permeability_tensor::is_chosen(prm);
+  if (p.tracked && (dim != 2 || !p.in_bonds || p.softening == 1.))
+    throw bad("Tracking", dim != 2      ? "none in three dimensions"
+                          : !p.in_bonds ? "none, or 'Closure = in bonds'"
+                                        : "none with brittle bonds ('Softening = 1')");
+  if (p.in_bonds && (p.state_based || p.tensor_fluid))
+    throw bad("Closure", p.state_based ? "conserving with 'Bond law = state-based'"
+                                       : "conserving with 'Fluid = permeability tensor'");
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   if (p.softening > 1. && prm.get("Bonds per pass") != default_bonds_per_pass)

@@ -25,10 +25,12 @@ struct Parameters
   double softening; ///< last over first stretch of a bond that softens; 1: brittle
   bool surface_correction;
   bool effective_stretch; ///< bonds break by effective stress
+  bool in_bonds;          ///< the pressure is part of the law of bonds
   bool as_published;      ///< the pressure's load on bonds, as printed
   bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
   double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
   bool growth;
+  bool tracked; ///< bonds soften across the ways of cracks only
   enum class Bonds
   {
     none,

@@ -61,6 +61,9 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
     throw EntryError("Fracture/peridynamics/Closure", "as published",
                      "'conserving' in porous rock (Rock/Bulk model), or 'Fluid = permeability "
                      "tensor'");
+  if (parameters.in_bonds && scene.rock.bulk_model() == "poroelastic")
+    throw EntryError("Fracture/peridynamics/Closure", "in bonds",
+                     "'conserving' in porous rock (Rock/Bulk model)");
   if (parameters.boxes.empty())
     needs::initial_crack(scene, "peridynamics", "or the box of its 'Zone'");
   refuse_what_bonds_do_not_know();
@@ -92,6 +95,7 @@ void Peridynamics<dim>::set_law(const double spacing)
   law = parameters.state_based ? state_based_law<dim>(rock, stencil, spacing)
                                : bond_based_law<dim>(rock, stencil, spacing);
   coefficients = bond_coefficients<dim>(stencil, law, spacing);
+  strain_of_pressure = 1. / (dim * lattice_moduli<dim>(stencil, law, spacing).bulk());
   critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
   const double held = crossing_energy<dim>(stencil, law, spacing, critical_stretch);
@@ -107,7 +111,7 @@ void Peridynamics<dim>::set_law(const double spacing)
   softening.last = critical_stretch * std::sqrt(parameters.softening);
   // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
   if (const double at_one = crossing_energy<dim>(stencil, law, spacing, 1.);
-      parameters.effective_stretch && at_one > 0.)
+      parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
     relief_by_fluid = spacing * softening.when_wet() / softening.first / (2. * at_one);
 }
 
@@ -142,7 +146,17 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     cut_initial_cracks();
     committed_bonds = committed_cracked = bonds.places();
     cracked.set_broken(committed_bonds);
-    set_initial_normals();
+    if constexpr (dim == 2)
+      if (parameters.tracked)
+      {
+        paths.reinit(scene.cracks, zone.spacing(),
+                     [&](const Point<dim> &end)
+                     { return zone.is_inside(end, same_place * zone.spacing()); });
+        committed_paths = paths;
+        committed_way_energy.assign(scene.cracks.size(), {{0., 0.}});
+      }
+    if (!parameters.tracked)
+      set_initial_normals();
     if (parameters.surface_correction)
       for (const unsigned int i : zone.peridynamic_sites())
         if (const double gone = bonds.damage(i); gone > 0.)
@@ -169,13 +183,18 @@ void Peridynamics<dim>::refresh_segments()
         corrected_damage[i] = corrected;
   }
   const std::vector<FractureCell<dim>> cells_before = cells;
-  cells = find_fracture_cells(zone, cracked);
-  align_normals(cells, parameters.horizon + 1);
-  for (FractureCell<dim> &cell : cells)
-    if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
-      for (unsigned int d = 0; d < dim; ++d)
-        cell.normal[d] = old->second[d];
-  all_segments = make_segments(zone, cells);
+  if (parameters.tracked)
+    follow_paths();
+  else
+  {
+    cells = find_fracture_cells(zone, cracked);
+    align_normals(cells, parameters.horizon + 1);
+    for (FractureCell<dim> &cell : cells)
+      if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
+        for (unsigned int d = 0; d < dim; ++d)
+          cell.normal[d] = old->second[d];
+    all_segments = make_segments(zone, cells);
+  }
   at_front.clear();
   published.clear();
   if (parameters.as_published && !parameters.tensor_fluid)
@@ -193,7 +212,7 @@ void Peridynamics<dim>::refresh_segments()
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     Segment<dim> &segment = all_segments[i];
-    at_front.push_back(is_at_front(zone, cells[i], segment));
+    at_front.push_back(parameters.tracked ? segment.at_tip : is_at_front(zone, cells[i], segment));
     if (scene.has_pore_pressure)
       segment.share_of_pores = scene.rock.main().biot_coefficient;
     // Unknowns are measured from the in-situ pressure.
@@ -216,6 +235,8 @@ void Peridynamics<dim>::refresh_segments()
       }
     }
   }
+  if (parameters.in_bonds)
+    open_by_bonds();
   find_changed_rows(damage_before, corrected_before, cells_before);
 }
 
@@ -257,6 +278,11 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &)
     committed_bonds = bonds.places();
     committed_cracked = cracked.places();
   }
+  if (parameters.tracked)
+  {
+    committed_paths = paths;
+    committed_way_energy = energy_across_ways();
+  }
   committed_softening.clear();
   for (SofteningBond &bond : softening_bonds)
   {
@@ -273,7 +299,7 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &)
   for (unsigned int i = 0; i < cells.size(); ++i)
     if (at_front[i])
       front.push_back(all_segments[i].centre);
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < cells.size() && !parameters.tracked; ++i)
     if (std::none_of(front.begin(), front.end(),
                      [&](const Point<dim> &end)
                      { return end.distance(all_segments[i].centre) < settled; }))
@@ -317,6 +343,7 @@ void Peridynamics<dim>::rollback()
   told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
   dissipated = committed_energy;
+  paths = committed_paths;
   if (passes == 0)
     return;
   passes = 0;
@@ -370,7 +397,8 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_correction << committed_energy
-          << committed_damage_relaxation << told_of_rim << told_of_pressure;
+          << committed_damage_relaxation << told_of_rim << told_of_pressure << committed_paths
+          << committed_way_energy;
 }
 
 
@@ -381,7 +409,8 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_rim >> told_of_pressure;
+    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy;
+  paths = committed_paths;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)
     corner[d] = origin[d];

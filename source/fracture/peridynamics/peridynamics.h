@@ -1,11 +1,13 @@
 #pragma once
 
 #include "fracture/peridynamics/bond_set.h"
+#include "fracture/peridynamics/crossed_cells.h"
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
 #include "fracture/peridynamics/published_load.h"
 #include "fracture/peridynamics/row_versions.h"
 #include "fracture/peridynamics/softening.h"
+#include "fracture/peridynamics/tracked_paths.h"
 #include "stockwork/fracture/model.h"
 
 #include <functional>
@@ -141,7 +143,8 @@ private:
     BondView view;
     /// Greatest stretch so far, as of a bond of the lattice's stiffness.
     double committed = 0., trial = 0.;
-    /// Stretch that is not elongation: in situ, and what fluid relieves.
+    /// Stretch that is not elongation: in situ, and what fluid relieves. With the pressure in the
+    /// bonds it is not kept, see added_stretch().
     double offset = 0.;
   };
 
@@ -163,7 +166,7 @@ private:
   /// Follow the softening bonds, and let candidates soften.
   /// @return whether unknowns or segments have changed
   bool soften_bonds(const std::vector<double> &displacement,
-                    const std::vector<double> &relief,
+                    const std::vector<double> &of_cells,
                     const std::vector<Candidate> &candidates);
 
   /// Elastic energy of a bond, all of its views, at stretch one [J/m].
@@ -173,6 +176,81 @@ private:
   double equivalent_stretch(unsigned int site, unsigned int bond, double elongation) const;
 
   void assemble_softening(const State &state, Sink &sink) const;
+
+  // With the pressure in the bonds (pressure_in_bonds.cc).
+
+  /// Strain of the lattice under a stress that has the in-situ traction of a fracture cell's plane,
+  /// and is the same in all directions along this plane and across it, but for shear.
+  dealii::SymmetricTensor<2, dim> released_strain(unsigned int cell) const;
+
+  /// Of each cell, the stretch that the pressure of its fluid gives bonds in rock that is free to
+  /// expand.
+  std::vector<double> fluid_stretch(const State &state) const;
+
+  /// Of a bond that holds, the stretch that it would have by the net pressure of the cells that it
+  /// belongs to.
+  /// @param of_pressure fluid_stretch()
+  double fractured_stretch(unsigned int site,
+                           unsigned int bond,
+                           const CellShares &shares,
+                           const std::vector<double> &of_pressure) const;
+
+  /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
+  CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
+
+  // With tracked paths (tracking.cc).
+
+  /// Where a bond, or its image in the domain, crosses a path.
+  std::optional<TrackedPaths::Crossing> crossing_of(unsigned int site, unsigned int bond) const;
+
+  /// Fracture cells and segments are the pieces of paths that fluid has reached.
+  void follow_paths();
+
+  /// Paths go on ahead of tips that have come near to their ends.
+  void track(const State &state, const std::vector<double> &of_cells);
+
+  /// How far tips have come by the energy that softening bonds have dissipated.
+  /// @return whether fluid has reached another piece
+  bool advance_tips();
+
+  /// From tips, as far as they have come by the energy dissipated, to the farthest bonds that have
+  /// softened; all tips together. By as much process zones reach back [m].
+  double half_process_zones() const;
+
+  /// Of the bonds across the way of each end of a path [J/m].
+  std::vector<std::array<double, 2>> energy_across_ways() const;
+
+  /// Of a peridynamic site, but for what it is in situ [Pa].
+  /// @param softened what has become of the elongation of bonds without any force [m]
+  dealii::SymmetricTensor<2, dim> stress_of_bonds(unsigned int site,
+                                                  const std::map<BondView, double> &softened,
+                                                  const std::vector<double> &of_cells) const;
+
+  /// Of a site among elements of the size of the lattice's cells; nothing at the rim of these.
+  std::optional<dealii::SymmetricTensor<2, dim>> stress_of_elements(unsigned int site) const;
+
+  /// The stress ahead of a tip, of sites on the side that @p ahead points to, weighted by their
+  /// distance [Pa].
+  dealii::SymmetricTensor<2, dim> stress_ahead(const dealii::Point<dim> &tip,
+                                               const dealii::Tensor<1, dim> &ahead,
+                                               const State &state,
+                                               const std::vector<double> &of_cells) const;
+
+  /// Segments open by what bonds have lost of their elongation.
+  void open_by_bonds();
+
+  /// Volume per elongation without any force that a bond gives the fluid, adjoint to its push
+  /// [m; m^2 in 3-D].
+  double pushed_volume(const BondView &view) const;
+
+  /// Forces on the ends of broken bonds by the in-situ stress that a fracture does not carry.
+  void assemble_released_stress(Sink &sink) const;
+
+  /// The sites that bonds across a fracture cell of this rank may lead to, and some more.
+  std::vector<unsigned int> sites_of_crossing_bonds() const;
+
+  /// Of an owned segment [m].
+  double aperture(unsigned int owned, const State &state) const;
 
   /// What fracture cells conduct along the fracture, in the elements of the pore pressure.
   void assemble_tensor_fluid(const StepContext &context, const State &state, Sink &sink) const;
@@ -193,14 +271,23 @@ private:
 
   /// The most stretched first.
   std::vector<Candidate> overstretched(const std::vector<double> &displacement,
-                                       const std::vector<double> &relief,
+                                       const std::vector<double> &of_cells,
                                        Rim &rim) const;
 
-  /// Of each fracture cell, the stretch that bonds ahead of it are relieved of: by the in-situ
-  /// stress normal to the fracture, which its faces release; and by the fluid. For a cell that
-  /// fluid enters is open already, by its rock's stretch w_0 / h. The fluid fills this volume, but
-  /// its work, p w_0 per area, does not reach the rock; so that it is not lost, the bonds take so
-  /// much less to break. What pressure the pores carry, the rock has seen already.
+  /// What counts for softening and breaking besides a bond's elongation: in-situ stress and fluid.
+  /// @param of_cells see pressure_stretch()
+  double
+  added_stretch(unsigned int site, unsigned int bond, const std::vector<double> &of_cells) const;
+
+  /// The same of a bond that softens.
+  double added_stretch(const SofteningBond &bond, const std::vector<double> &of_cells) const;
+
+  /// With the pressure in the bonds, fluid_stretch(). Else, of each fracture cell, the stretch that
+  /// bonds ahead of it are relieved of: by the in-situ stress normal to the fracture, which its
+  /// faces release; and by the fluid. For a cell that fluid enters is open already, by its rock's
+  /// stretch w_0 / h. The fluid fills this volume, but its work, p w_0 per area, does not reach the
+  /// rock; so that it is not lost, the bonds take so much less to break. What pressure the pores
+  /// carry, the rock has seen already.
   std::vector<double> pressure_stretch(const State &state, const Collectives &collectives) const;
 
   /// That of the nearest cell whose plane crosses a bond, if one is within a horizon.
@@ -287,6 +374,7 @@ private:
   std::vector<BondCoefficients<dim>> coefficients;
   double critical_stretch = 0.;
   SofteningLaw softening;
+  double strain_of_pressure = 0.; ///< of the lattice, in each direction [1/Pa]
   double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
   double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
   unsigned int rank = 0;
@@ -301,10 +389,17 @@ private:
   std::vector<unsigned int> n_broken;         ///< bonds of all sites
   std::vector<double> corrected_damage;       ///< what the surface correction, if any, makes up for
   std::vector<FractureCell<dim>> cells;
-  std::vector<Segment<dim>> all_segments;                 ///< of all ranks
-  std::vector<bool> at_front;                             ///< which of them the fracture ends at
-  std::vector<PublishedLoad<dim>> published;              ///< of owned segments
-  std::vector<Segment<dim>> owned_segments;               ///< their openings are known here
+  std::vector<Segment<dim>> all_segments;    ///< of all ranks
+  std::vector<bool> at_front;                ///< which of them the fracture ends at
+  std::vector<PublishedLoad<dim>> published; ///< of owned segments
+  CrossedCells<dim> crossed;
+  std::vector<dealii::SymmetricTensor<2, dim>> released; ///< strain of each cell, if not all zero
+  std::vector<LinearFunctional> released_forces;         ///< of owned segments [N/m]
+  std::vector<CellShares> softening_shares;              ///< of the softening bonds
+  TrackedPaths paths, committed_paths;
+  std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
+  std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
+  std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here
   std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;

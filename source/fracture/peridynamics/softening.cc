@@ -107,6 +107,9 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
   force.bulk.resize(dim);
   law_of_bond.extra.resize(1);
   law_of_bond.bulk.resize(2 * dim);
+  std::vector<double> of_pressure;
+  if (parameters.in_bonds && !softening_bonds.empty())
+    of_pressure = fluid_stretch(state);
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
     const auto &[site, bond] = softening_bonds[n].view;
@@ -141,19 +144,45 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
       elongation += at_far[d] * state.current.bulk(law_of_bond.bulk[dim + d]) -
                     e[d] * state.current.bulk(law_of_bond.bulk[d]);
     }
-    // What an in-situ stress adds to the stretch is not the bond's to carry.
-    const double total = elongation + softening_bonds[n].offset * coefficients[bond].length;
+    double added = softening_bonds[n].offset * coefficients[bond].length;
+    if (parameters.in_bonds)
+      added =
+        coefficients[bond].length * fractured_stretch(site, bond, softening_shares[n], of_pressure);
+    const double total = elongation + added;
     const double stretch = equivalent_stretch(site, bond, total);
     const double committed = softening_bonds[n].committed;
     const double kappa = maximum_stretch(softening_bonds[n], stretch);
     const double damage = softening.damage(kappa);
-    // Of damage times elongation by the elongation.
+    // What an in-situ stress adds to the stretch is not the bond's to carry, unless it is part of
+    // its law.
+    const double carried = parameters.in_bonds ? total : elongation;
+    // Of damage times this elongation by the elongation.
     const double slope = stretch > committed && total != 0.
                            ? damage + (softening.slope(kappa) - damage) * damage_relaxation *
-                                        stretch / kappa * elongation / total
+                                        stretch / kappa * carried / total
                            : damage;
+    law_of_bond.extra.resize(1);
+    if (parameters.in_bonds && state.segment_unknown)
+      for (const auto &[cell, share] : softening_shares[n])
+        if (const auto unknown = state.segment_unknown(all_segments[cell].key))
+          law_of_bond.extra.push_back(*unknown);
     law_of_bond.reinit();
-    law_of_bond.residual(2 * dim) = k * (x - damage * elongation);
+    law_of_bond.residual(2 * dim) = k * (x - damage * carried);
+    if (parameters.in_bonds && state.segment_pressure)
+    {
+      // The network loads this row as it loads what opens a segment.
+      const double of_network = pushed_volume(softening_bonds[n].view),
+                   of_law =
+                     coefficients[bond].stiffness * coefficients[bond].length * strain_of_pressure;
+      unsigned int column = 2 * dim;
+      for (const auto &[cell, share] : softening_shares[n])
+      {
+        const auto key = all_segments[cell].key;
+        law_of_bond.residual(2 * dim) += share * of_network * state.segment_pressure(key);
+        if (state.segment_unknown && state.segment_unknown(key))
+          law_of_bond.matrix(2 * dim, ++column) = share * (of_network - slope * of_law);
+      }
+    }
     law_of_bond.matrix(2 * dim, 2 * dim) = k;
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -187,8 +216,17 @@ bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
 
 
 template <int dim>
+double Peridynamics<dim>::added_stretch(const SofteningBond &bond,
+                                        const std::vector<double> &of_cells) const
+{
+  return parameters.in_bonds ? added_stretch(bond.view.first, bond.view.second, of_cells)
+                             : bond.offset;
+}
+
+
+template <int dim>
 bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
-                                     const std::vector<double> &relief,
+                                     const std::vector<double> &of_cells,
                                      const std::vector<Candidate> &candidates)
 {
   bool changed = false;
@@ -202,16 +240,18 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   const auto stretch_of = [&](const SofteningBond &bond)
   {
     const auto &[site, b] = bond.view;
-    return equivalent_stretch(site, b,
-                              elongation(site, b, u) + bond.offset * coefficients[b].length);
+    return equivalent_stretch(
+      site, b, elongation(site, b, u) + added_stretch(bond, of_cells) * coefficients[b].length);
   };
   for (SofteningBond &bond : softening_bonds)
   {
     bond.trial = maximum_stretch(bond, stretch_of(bond));
-    if (lets_fluid_in(bond))
+    if (!parameters.tracked && lets_fluid_in(bond))
       crack(bond.view);
   }
-  if (changed)
+  if (parameters.tracked)
+    changed = advance_tips();
+  else if (changed)
     changed = find_fracture_cells(zone, cracked).size() != cells.size();
   for (const Candidate &candidate : candidates)
     changed = changed || candidate.stretch >= 1.;
@@ -234,10 +274,10 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   {
     SofteningBond bond;
     bond.view = view;
-    bond.offset =
-      in_situ_stretch(view.first, view.second) + relief_at(view.first, view.second, relief);
+    if (!parameters.in_bonds)
+      bond.offset = added_stretch(view.first, view.second, of_cells);
     bond.trial = maximum_stretch(bond, stretch_of(bond));
-    if (lets_fluid_in(bond))
+    if (!parameters.tracked && lets_fluid_in(bond))
       cracked.set_broken(view.first, view.second);
     softening_now.push_back(bond);
   }
@@ -278,6 +318,8 @@ void Peridynamics<dim>::restore_softening()
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \
   template double Peridynamics<dim>::maximum_stretch(const SofteningBond &, double) const;         \
   template void Peridynamics<dim>::assemble_softening(const State &, Sink &) const;                \
+  template double Peridynamics<dim>::added_stretch(const SofteningBond &,                          \
+                                                   const std::vector<double> &) const;             \
   template bool Peridynamics<dim>::soften_bonds(                                                   \
     const std::vector<double> &, const std::vector<double> &, const std::vector<Candidate> &);     \
   template bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &) const;                     \

@@ -10,6 +10,7 @@
 #include "stockwork/mesh/mesh_view.h"
 
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <vector>
@@ -153,6 +154,11 @@ public:
   /// Planes of symmetry that a site lies on: bit d, one normal to direction d.
   unsigned int planes_of(const unsigned int site) const;
 
+  /// Call `use(place, mirrored)` for a cell, and for its images beyond planes of symmetry that are
+  /// no farther than @p reach cells from it.
+  template <class Function>
+  void for_each_image(const Place<dim> &cell, const int reach, const Function &use) const;
+
   /// Lower corners of the cells whose corners are all peridynamic.
   const std::vector<Place<dim>> &cells() const
   {
@@ -217,4 +223,33 @@ private:
   dealii::BoundingBox<dim> domain, largest;
   unsigned int rank = 0;
 };
+
+
+template <int dim>
+template <class Function>
+void Zone<dim>::for_each_image(const Place<dim> &cell, const int reach, const Function &use) const
+{
+  // In each direction the cell itself, and its image in one plane or the other.
+  unsigned int n = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    n *= 3;
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    Place<dim> place = cell;
+    unsigned int mirrored = 0;
+    bool is_near = true;
+    for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 3)
+      if (rest % 3 != 0)
+      {
+        const int m = mirrors[d][rest % 3 - 1];
+        is_near = is_near && m != no_mirror && std::abs(m - cell[d]) <= reach;
+        if (!is_near)
+          break;
+        place[d] = 2 * m - cell[d] - 1;
+        mirrored |= 1u << d;
+      }
+    if (is_near)
+      use(place, mirrored);
+  }
+}
 } // namespace stockwork::peridynamics

@@ -1,0 +1,382 @@
+#include "fracture/peridynamics/tracked_paths.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+/// Places that are nearer to one another are the same [pieces].
+constexpr double same_spot = 1e-6;
+/// Shorter pieces are joined with the one before [pieces].
+constexpr double short_piece = 0.3;
+
+/// Where the line from a to b crosses the one from c to d, as shares of their lengths. A point on
+/// the second line belongs to its left side.
+std::optional<std::array<double, 2>> meet(const Point<2> &a,
+                                          const Point<2> &b,
+                                          const Point<2> &c,
+                                          const Point<2> &d,
+                                          const double tolerance)
+{
+  const Tensor<1, 2> along = d - c;
+  const double length = along.norm();
+  const auto above = [&](const Point<2> &x)
+  { return (along[0] * (x[1] - c[1]) - along[1] * (x[0] - c[0])) / length; };
+  const double s = above(a), t = above(b);
+  if ((s >= -tolerance) == (t >= -tolerance))
+    return {};
+  const double share = s / (s - t);
+  const double place = (a + share * (b - a) - c) * along / length;
+  if (place < -tolerance || place > length + tolerance)
+    return {};
+  return std::array<double, 2>{{share, std::clamp(place / length, 0., 1.)}};
+}
+} // namespace
+
+
+double TrackedPaths::Path::begin(const unsigned int piece) const
+{
+  double arc = 0.;
+  for (unsigned int i = ends[0].n_points; i < piece; ++i)
+    arc += length(i);
+  for (unsigned int i = piece; i < ends[0].n_points; ++i)
+    arc -= length(i);
+  return arc;
+}
+
+
+void TrackedPaths::reinit(const std::vector<InitialCrack<2>> &cracks,
+                          const double spacing,
+                          const std::function<bool(const Point<2> &)> &may_grow)
+{
+  h = spacing;
+  paths.clear();
+  for (const InitialCrack<2> &crack : cracks)
+  {
+    if (crack.points.size() < 2)
+      continue;
+    Path path;
+    path.ends[0].grows = may_grow(crack.points.front());
+    path.ends[1].grows = may_grow(crack.points.back());
+    path.points.push_back({{crack.points[0][0], crack.points[0][1]}});
+    for (unsigned int leg = 0; leg + 1 < crack.points.size(); ++leg)
+    {
+      const Tensor<1, 2> along = crack.points[leg + 1] - crack.points[leg];
+      unsigned int n = std::max(1l, std::lround(along.norm() / h));
+      // A well in the middle of a crack is in the middle of a piece.
+      if (n % 2 == 0 && crack.points.size() == 2 && path.ends[0].grows && path.ends[1].grows)
+        n += along.norm() / h > n ? 1 : -1;
+      for (unsigned int i = 1; i <= n; ++i)
+      {
+        const Point<2> point = crack.points[leg] + double(i) / n * along;
+        path.points.push_back({{point[0], point[1]}});
+      }
+    }
+    paths.push_back(path);
+  }
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+      join_where_it_begins({p, side});
+  find_wet_pieces();
+}
+
+
+void TrackedPaths::join_where_it_begins(const End &end)
+{
+  Growth &growth = paths[end.path].ends[end.side];
+  const Point<2> own = paths[end.path].point(end.side == 0 ? 0 : paths[end.path].n_pieces());
+  for (unsigned int p = 0; p < paths.size() && growth.grows; ++p)
+    for (unsigned int i = 0; i < paths[p].n_pieces() && p != end.path; ++i)
+    {
+      const Point<2> from = paths[p].point(i);
+      const Tensor<1, 2> along = paths[p].point(i + 1) - from;
+      const double place = std::clamp((own - from) * along / along.norm_square(), 0., 1.);
+      if (own.distance(from + place * along) > short_piece * h)
+        continue;
+      growth.grows = false;
+      growth.joined = true;
+      growth.joined_path = p;
+      growth.joined_arc = paths[p].begin(i) + place * along.norm();
+      break;
+    }
+}
+
+
+std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
+                                                             const Point<2> &b) const
+{
+  const double reach = 0.5 * a.distance(b) + h;
+  const Point<2> middle = a + 0.5 * (b - a);
+  std::optional<Crossing> found;
+  double nearest = 2.;
+  for (unsigned int p = 0; p < paths.size(); ++p)
+  {
+    const Path &path = paths[p];
+    for (unsigned int i = 0; i < path.n_pieces(); ++i)
+    {
+      const Point<2> c = path.point(i), d = path.point(i + 1);
+      if (std::min(c[0], d[0]) > middle[0] + reach || std::max(c[0], d[0]) < middle[0] - reach ||
+          std::min(c[1], d[1]) > middle[1] + reach || std::max(c[1], d[1]) < middle[1] - reach)
+        continue;
+      if (const auto shares = meet(a, b, c, d, same_spot * h))
+        if (const double away = std::abs((*shares)[0] - 0.5); away < nearest - same_spot)
+        {
+          nearest = away;
+          found = Crossing{p, path.begin(i) + (*shares)[1] * path.length(i)};
+        }
+    }
+  }
+  return found;
+}
+
+
+CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) const
+{
+  CellShares result;
+  unsigned int first = 0;
+  while (first < wet.size() && wet[first].path != crossing.path)
+    ++first;
+  unsigned int last = first;
+  while (last < wet.size() && wet[last].path == crossing.path)
+    ++last;
+  if (first == last || crossing.arc < wet[first].begin - reach ||
+      crossing.arc > wet[last - 1].end + reach)
+    return result;
+  const auto add = [&](const unsigned int piece, const double share)
+  {
+    if (share <= 0.)
+      return;
+    if (!result.empty() && (result.back().first == piece || result.size() == result.capacity()))
+      result.back().second += share;
+    else
+      result.emplace_back(piece, share);
+  };
+  const double from = crossing.arc - h, to = crossing.arc + h;
+  const auto part = [&](const double begin, const double end)
+  { return (std::min(end, to) - std::max(begin, from)) / (2. * h); };
+  add(first, part(from, wet[first].begin));
+  for (unsigned int i = first; i < last; ++i)
+    add(i, part(wet[i].begin, wet[i].end));
+  add(last - 1, part(wet[last - 1].end, to));
+  return result;
+}
+
+
+std::optional<TrackedPaths::End> TrackedPaths::end_at(const Crossing &crossing) const
+{
+  const Path &path = paths[crossing.path];
+  const double tolerance = same_spot * h;
+  if (crossing.arc < tolerance && (path.ends[0].n_points > 0 || crossing.arc < -tolerance))
+    return End{crossing.path, 0};
+  const unsigned int last = path.n_pieces() - path.ends[1].n_points;
+  if (path.ends[1].n_points > 0 && crossing.arc > path.begin(last) - tolerance)
+    return End{crossing.path, 1};
+  return {};
+}
+
+
+std::vector<TrackedPaths::End> TrackedPaths::ends() const
+{
+  std::vector<End> result;
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+      if (paths[p].ends[side].grows)
+        result.push_back({p, side});
+  return result;
+}
+
+
+double TrackedPaths::way(const End &end) const
+{
+  const Path &path = paths[end.path];
+  double length = 0.;
+  for (unsigned int i = 0; i < at(end).n_points; ++i)
+    length += path.length(end.side == 0 ? i : path.n_pieces() - 1 - i);
+  return length;
+}
+
+
+bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance)
+{
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+    {
+      Growth &growth = paths[p].ends[side];
+      if (growth.n_points == 0)
+        continue;
+      growth.advance = std::min(advance({p, side}), way({p, side}));
+      growth.wet = std::max(growth.wet, growth.advance);
+    }
+  const std::size_t before = wet.size();
+  find_wet_pieces();
+  return wet.size() != before;
+}
+
+
+double TrackedPaths::beyond_tip(const Crossing &crossing, const End &end) const
+{
+  const Path &path = paths[end.path];
+  const double start = path.begin(path.n_pieces() - path.ends[1].n_points);
+  return (end.side == 0 ? -crossing.arc : crossing.arc - start) - at(end).advance;
+}
+
+
+double TrackedPaths::lead(const End &end) const
+{
+  return way(end) - at(end).advance;
+}
+
+
+Point<2> TrackedPaths::tip(const End &end) const
+{
+  const Path &path = paths[end.path];
+  const unsigned int n = at(end).n_points, last = path.n_pieces();
+  double left = at(end).advance;
+  // From the end of the initial crack outwards.
+  for (unsigned int k = n; k > 0; --k)
+  {
+    const unsigned int inner = end.side == 0 ? k : last - k,
+                       outer = end.side == 0 ? k - 1 : last - k + 1;
+    const Tensor<1, 2> along = path.point(outer) - path.point(inner);
+    if (left <= along.norm())
+      return path.point(inner) + left / along.norm() * along;
+    left -= along.norm();
+  }
+  return path.point(end.side == 0 ? 0 : last);
+}
+
+
+Tensor<1, 2> TrackedPaths::direction(const End &end) const
+{
+  const Path &path = paths[end.path];
+  const unsigned int last = path.n_pieces();
+  const Tensor<1, 2> along =
+    end.side == 0 ? path.point(0) - path.point(1) : path.point(last) - path.point(last - 1);
+  return along / along.norm();
+}
+
+
+void TrackedPaths::extend(const End &end, const Tensor<1, 2> &direction)
+{
+  Path &path = paths[end.path];
+  Growth &growth = path.ends[end.side];
+  const Point<2> head = path.point(end.side == 0 ? 0 : path.n_pieces());
+  Point<2> next = head + h * direction;
+  double nearest = 2.;
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (unsigned int i = 0; i < paths[p].n_pieces(); ++i)
+    {
+      if (p == end.path && i == (end.side == 0 ? 0 : path.n_pieces() - 1))
+        continue;
+      if (const auto met = meet(head, head + 1.5 * h * direction, paths[p].point(i),
+                                paths[p].point(i + 1), same_spot * h);
+          met && (*met)[0] < nearest && (*met)[0] > -same_spot)
+      {
+        nearest = (*met)[0];
+        next = head + 1.5 * h * nearest * direction;
+        growth.grows = false;
+        growth.joined = true;
+        growth.joined_path = p;
+        growth.joined_arc = paths[p].begin(i) + (*met)[1] * paths[p].length(i);
+      }
+    }
+  const std::array<double, 2> point{{next[0], next[1]}};
+  if (growth.joined && nearest < short_piece && growth.n_points > 0)
+    path.points[end.side == 0 ? 0 : path.n_pieces()] = point;
+  else
+  {
+    path.points.insert(end.side == 0 ? path.points.begin() : path.points.end(), point);
+    ++growth.n_points;
+  }
+}
+
+
+void TrackedPaths::forget_way(const End &end)
+{
+  Path &path = paths[end.path];
+  Growth &growth = path.ends[end.side];
+  if (end.side == 0)
+    path.points.erase(path.points.begin(), path.points.begin() + growth.n_points);
+  else
+    path.points.resize(path.points.size() - growth.n_points);
+  growth.n_points = 0;
+  growth.advance = growth.wet = 0.;
+}
+
+
+double TrackedPaths::length() const
+{
+  double sum = 0.;
+  for (const Path &path : paths)
+  {
+    for (unsigned int i = path.ends[0].n_points; i < path.n_pieces() - path.ends[1].n_points; ++i)
+      sum += path.length(i);
+    sum += path.ends[0].advance + path.ends[1].advance;
+  }
+  return sum;
+}
+
+
+void TrackedPaths::find_wet_pieces()
+{
+  wet.clear();
+  std::vector<std::pair<unsigned int, Joint>> joints;
+  for (unsigned int p = 0; p < paths.size(); ++p)
+  {
+    const Path &path = paths[p];
+    // Pieces of each way that fluid has reached.
+    std::array<unsigned int, 2> reached{{0, 0}};
+    for (const unsigned int side : {0u, 1u})
+    {
+      const Growth &growth = path.ends[side];
+      double inner = 0.;
+      for (unsigned int k = growth.n_points; k > 0; --k)
+      {
+        if (growth.wet <= inner + same_spot * h)
+          break;
+        ++reached[side];
+        inner += path.length(side == 0 ? k - 1 : path.n_pieces() - k);
+      }
+    }
+    const unsigned int first = path.ends[0].n_points - reached[0],
+                       end = path.n_pieces() - path.ends[1].n_points + reached[1];
+    for (unsigned int i = first; i < end; ++i)
+    {
+      Piece piece{p, path.point(i), path.point(i + 1), path.begin(i), 0., false, {}};
+      piece.end = piece.begin + path.length(i);
+      const unsigned int number = wet.size();
+      if (i > first)
+        piece.neighbours.push_back(number - 1);
+      if (i + 1 < end)
+        piece.neighbours.push_back(number + 1);
+      for (const unsigned int side : {0u, 1u})
+      {
+        const Growth &growth = path.ends[side];
+        if (i != (side == 0 ? first : end - 1))
+          continue;
+        const bool all = reached[side] == growth.n_points;
+        if (growth.joined && all)
+          joints.emplace_back(number, Joint{growth.joined_path, growth.joined_arc});
+        else if (growth.grows || growth.joined)
+          piece.at_tip = true;
+      }
+      wet.push_back(piece);
+    }
+  }
+  for (const auto &[piece, joint] : joints)
+    for (unsigned int i = 0; i < wet.size(); ++i)
+      if (i != piece && wet[i].path == joint.path && wet[i].begin <= joint.arc &&
+          wet[i].end >= joint.arc)
+      {
+        wet[piece].neighbours.push_back(i);
+        wet[i].neighbours.push_back(piece);
+        wet[i].at_tip = false;
+        break;
+      }
+}
+} // namespace stockwork::peridynamics

@@ -1,0 +1,182 @@
+#pragma once
+
+#include "fracture/peridynamics/crossed_cells.h"
+#include "stockwork/exchange/scene.h"
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace stockwork::peridynamics
+{
+/// The ways of cracks in a plane, as lines of straight pieces about as long as cells: an initial
+/// crack, and ahead of each of its ends that is in rock the way that it will take. Bonds soften
+/// only where they cross one. How far a tip has come on its way is known from the energy that has
+/// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
+/// paths.
+class TrackedPaths
+{
+public:
+  struct Crossing
+  {
+    unsigned int path;
+    double arc; ///< from the first point of the initial crack, negative before it [m]
+  };
+
+  /// A place on a path.
+  using Joint = Crossing;
+
+  struct Piece
+  {
+    unsigned int path;
+    dealii::Point<2> from, to;
+    double begin, end; ///< arc [m]
+    bool at_tip;       ///< the fluid ends here, within rock
+    std::vector<unsigned int> neighbours;
+  };
+
+  /// An end that grows, by its path and its side (0: before the first point, 1: after the last).
+  struct End
+  {
+    unsigned int path, side;
+  };
+
+  /// @param spacing length of pieces [m]
+  /// @param may_grow from a point that is the end of a crack
+  void reinit(const std::vector<InitialCrack<2>> &cracks,
+              double spacing,
+              const std::function<bool(const dealii::Point<2> &)> &may_grow);
+
+  /// Of the line from a to b, nearest to its middle; nothing if it crosses no path.
+  std::optional<Crossing> crossing(const dealii::Point<2> &a, const dealii::Point<2> &b) const;
+
+  /// The wet pieces that a bond belongs to which crosses a path there. So many bonds do, per length
+  /// of the path, in the mean over some cells only; so a bond is shared out to all of a length of
+  /// two pieces around. None if the fluid is farther than @p reach [m].
+  CellShares shares(const Crossing &crossing, double reach) const;
+
+  /// The end whose way is crossed there; nothing on an initial crack.
+  std::optional<End> end_at(const Crossing &crossing) const;
+
+  const std::vector<Piece> &wet_pieces() const
+  {
+    return wet;
+  }
+
+  /// All that grow.
+  std::vector<End> ends() const;
+
+  /// Of an end that grows, how far its tip has come [m].
+  double advance(const End &end) const
+  {
+    return at(end).advance;
+  }
+
+  /// How far the tip of an end has come, on the way that is there [m].
+  /// @return whether fluid has reached other pieces than before
+  bool set_advances(const std::function<double(const End &)> &advance);
+
+  /// How far ahead of the tip of an end its way is crossed there [m].
+  double beyond_tip(const Crossing &crossing, const End &end) const;
+
+  /// What is left of the way ahead of the tip [m].
+  double lead(const End &end) const;
+
+  /// Where the tip is.
+  dealii::Point<2> tip(const End &end) const;
+
+  /// Of the last piece of the way, outwards.
+  dealii::Tensor<1, 2> direction(const End &end) const;
+
+  bool has_set_out(const End &end) const
+  {
+    return at(end).n_points > 0;
+  }
+
+  /// A piece more, in this direction. It ends at another path if it meets one, or comes as near as
+  /// half of a piece; then the end does not grow any more.
+  void extend(const End &end, const dealii::Tensor<1, 2> &direction);
+
+  /// Forget the way ahead, where nothing has softened yet.
+  void forget_way(const End &end);
+
+  /// Length of the initial cracks and of what tips have advanced by [m].
+  double length() const;
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &h &paths;
+    if (Archive::is_loading::value)
+      find_wet_pieces();
+  }
+
+private:
+  struct Growth
+  {
+    bool grows = false;
+    unsigned int n_points = 0;     ///< of its way
+    double advance = 0., wet = 0.; ///< of the tip, and the greatest so far [m]
+    bool joined = false;           ///< it has met another path
+    unsigned int joined_path = 0;  ///< which
+    double joined_arc = 0.;        ///< and where on it
+
+    template <class Archive>
+    void serialize(Archive &ar, const unsigned int)
+    {
+      ar &grows &n_points &advance &wet &joined &joined_path &joined_arc;
+    }
+  };
+
+  struct Path
+  {
+    std::vector<std::array<double, 2>> points; ///< of the ways as well
+    std::array<Growth, 2> ends;
+
+    template <class Archive>
+    void serialize(Archive &ar, const unsigned int)
+    {
+      ar &points &ends;
+    }
+
+    unsigned int n_pieces() const
+    {
+      return points.size() - 1;
+    }
+
+    dealii::Point<2> point(const unsigned int i) const
+    {
+      return dealii::Point<2>(points[i][0], points[i][1]);
+    }
+
+    double length(const unsigned int piece) const
+    {
+      return point(piece).distance(point(piece + 1));
+    }
+
+    /// Arc at which a piece begins [m].
+    double begin(unsigned int piece) const;
+  };
+
+  const Growth &at(const End &end) const
+  {
+    return paths[end.path].ends[end.side];
+  }
+
+  /// Where an initial crack ends at another one.
+  void join_where_it_begins(const End &end);
+
+  /// Length of the way of an end [m].
+  double way(const End &end) const;
+
+  void find_wet_pieces();
+
+  double h = 0.;
+  std::vector<Path> paths;
+  std::vector<Piece> wet;
+};
+} // namespace stockwork::peridynamics

@@ -1,0 +1,341 @@
+// `Tracking = path`: bonds soften only where they cross the way of a crack, which is found from the
+// stress ahead of its tip.
+#include "fracture/peridynamics/peridynamics.h"
+#include "stockwork/mesh/key.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+/// Turn of a way at a piece, and at its first one [rad].
+constexpr double most_turn = 20. * M_PI / 180., most_first_turn = 70. * M_PI / 180.;
+/// Of the greater principal stress, less than which they do not differ.
+constexpr double same_stress = 1e-9;
+
+/// Of the stress at a place, from the tip, in the mean ahead of it. Near the tip the stress is the
+/// lattice's, so most of it is that of a ring, 1.7 units wide; and sites come in and go out at its
+/// sides, at 70 to 110 degrees, without a jump. Where a way is oblique to the mesh, the process
+/// zone carries some shear. It turns the mean of the stress by up to 1.7 degrees, one way straight
+/// ahead and the other way beside that; with these shares, 0.1
+/// (doc/laboratory/peridynamics_paths.md).
+double ring_weight(const Tensor<1, 2> &away, const Tensor<1, 2> &ahead)
+{
+  constexpr double first = 70. * M_PI / 180., last = 110. * M_PI / 180.;
+  const double r = away.norm(), cosine = std::clamp(away * ahead / r, -1., 1.);
+  const double t = std::clamp((last - std::acos(cosine)) / (last - first), 0., 1.);
+  return r * r * std::exp(-0.5 * r * r) * (1.5 - 0.5 * cosine * cosine) * t * t * (3. - 2. * t);
+}
+
+/// The direction at right angles to the greatest principal stress, nearest to another one.
+Tensor<1, 2> across_greatest(const SymmetricTensor<2, 2> &stress, const Tensor<1, 2> &ahead)
+{
+  const double half = 0.5 * (stress[0][0] - stress[1][1]), shear = stress[0][1];
+  if (std::hypot(half, shear) <= same_stress * stress.norm())
+    return ahead;
+  const double angle = 0.5 * std::atan2(shear, half) + 0.5 * M_PI;
+  const Tensor<1, 2> direction({std::cos(angle), std::sin(angle)});
+  return direction * ahead < 0. ? -direction : direction;
+}
+
+/// A direction, turned towards another one, by so much at most.
+Tensor<1, 2> turned(const Tensor<1, 2> &from, const Tensor<1, 2> &to, const double most)
+{
+  const double angle =
+    std::clamp(std::atan2(from[0] * to[1] - from[1] * to[0], from * to), -most, most);
+  return Tensor<1, 2>({std::cos(angle) * from[0] - std::sin(angle) * from[1],
+                       std::sin(angle) * from[0] + std::cos(angle) * from[1]});
+}
+} // namespace
+
+
+template <int dim>
+std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(const unsigned int site,
+                                                                     const unsigned int bond) const
+{
+  if constexpr (dim == 2)
+  {
+    const Place<dim> &from = zone.sites()[site].place;
+    Place<dim> to = from;
+    for (unsigned int d = 0; d < dim; ++d)
+      to[d] += stencil[bond].offset[d];
+    if (const auto crossing = paths.crossing(zone.position(from), zone.position(to)))
+      return crossing;
+    // Beyond planes of symmetry paths go on as images.
+    const FarEnd end = zone.far_end(site, bond);
+    const Place<dim> &image = zone.sites()[end.site].place;
+    for (unsigned int mirrored = 1; mirrored <= end.mirrored; ++mirrored)
+    {
+      if ((mirrored & ~static_cast<unsigned int>(end.mirrored)) != 0)
+        continue;
+      Place<dim> a = from, b = to;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (mirrored >> d & 1)
+        {
+          b[d] = image[d];
+          a[d] = image[d] + to[d] - from[d];
+        }
+      if (const auto crossing = paths.crossing(zone.position(a), zone.position(b)))
+        return crossing;
+    }
+  }
+  return {};
+}
+
+
+template <int dim>
+void Peridynamics<dim>::follow_paths()
+{
+  cells.clear();
+  all_segments.clear();
+  if constexpr (dim == 2)
+  {
+    const double h = zone.spacing();
+    for (const TrackedPaths::Piece &piece : paths.wet_pieces())
+    {
+      Segment<dim> segment;
+      const Tensor<1, dim> along = piece.to - piece.from;
+      segment.area = along.norm();
+      segment.centre = piece.from + 0.5 * along;
+      segment.key = Key().add(segment.centre, 1e-4 * h);
+      segment.normal = cross_product_2d(-along) / along.norm();
+      if (segment.normal[1] < 0. || (segment.normal[1] == 0. && segment.normal[0] < 0.))
+        segment.normal = -segment.normal;
+      segment.at_tip = piece.at_tip;
+      FractureCell<dim> cell;
+      cell.normal = segment.normal;
+      for (unsigned int d = 0; d < dim; ++d)
+        cell.place[d] = static_cast<int>(
+          std::floor((segment.centre[d] - zone.position(Place<dim>{})[d]) / h + same_place));
+      cells.push_back(cell);
+      for (unsigned int v = 0; v < 1u << dim; ++v)
+      {
+        Place<dim> corner = cell.place;
+        double weight = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          corner[d] += v >> d & 1;
+          weight *= 1. - std::abs(segment.centre[d] - zone.position(corner)[d]) / h;
+        }
+        const unsigned int site = zone.find(corner);
+        if (site == dealii::numbers::invalid_unsigned_int ||
+            zone.sites()[site].pressure_dof == dealii::numbers::invalid_dof_index)
+          continue;
+        segment.pore_pressure.bulk.push_back(zone.sites()[site].pressure_dof);
+        segment.pore_pressure.bulk_coefficients.push_back(weight);
+        segment.pore_distance +=
+          weight * std::abs((zone.position(corner) - segment.centre) * segment.normal);
+      }
+      all_segments.push_back(segment);
+    }
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
+      for (const unsigned int other : paths.wet_pieces()[i].neighbours)
+        all_segments[i].neighbours.push_back(
+          {all_segments[other].key, 0.5 * all_segments[i].area, 1.});
+  }
+  softening_ends.clear();
+  for (const SofteningBond &bond : softening_bonds)
+  {
+    const auto crossing = crossing_of(bond.view.first, bond.view.second);
+    softening_ends.push_back(crossing ? paths.end_at(*crossing) : std::nullopt);
+  }
+}
+
+
+template <int dim>
+std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const
+{
+  std::vector<std::array<double, 2>> energy = committed_way_energy;
+  for (unsigned int n = 0; n < softening_ends.size(); ++n)
+    if (const auto &end = softening_ends[n])
+    {
+      const SofteningBond &bond = softening_bonds[n];
+      energy[end->path][end->side] +=
+        energy_at_unit_stretch(bond.view) *
+        (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
+    }
+  return energy;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::half_process_zones() const
+{
+  std::map<std::pair<unsigned int, unsigned int>, double> ahead;
+  for (unsigned int n = 0; n < softening_ends.size(); ++n)
+    if (const auto &end = softening_ends[n]; end && softening.damage(softening_bonds[n].trial) > 0.)
+    {
+      const auto crossing =
+        crossing_of(softening_bonds[n].view.first, softening_bonds[n].view.second);
+      double &farthest = ahead[{end->path, end->side}];
+      farthest = std::max(farthest, paths.beyond_tip(*crossing, *end));
+    }
+  double sum = 0.;
+  for (const auto &end : ahead)
+    sum += end.second;
+  return sum;
+}
+
+
+template <int dim>
+bool Peridynamics<dim>::advance_tips()
+{
+  const auto energy = energy_across_ways();
+  const double unit = zone.spacing() * scene.rock.main().energy_release_rate;
+  return paths.set_advances(
+    [&](const TrackedPaths::End &end)
+    { return zone.spacing() * rounded(energy[end.path][end.side] / unit); });
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim>
+Peridynamics<dim>::stress_of_bonds(const unsigned int site,
+                                   const std::map<BondView, double> &softened,
+                                   const std::vector<double> &of_cells) const
+{
+  SymmetricTensor<2, dim> stress;
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+  {
+    const Tensor<1, dim> &e = coefficients[b].direction;
+    double force = 0.;
+    if (bonds.is_broken(site, b))
+      for (const auto &[cell, share] : shares_of(site, b, false))
+        force -= coefficients[b].stiffness * coefficients[b].length * share *
+                 (of_cells[cell] + (in_situ_is_zero ? 0. : e * (released[cell] * e)));
+    else
+    {
+      const auto found = softened.find({site, b});
+      force = stiffness(site, b) *
+              (elongation(site, b, displacement) - (found != softened.end() ? found->second : 0.));
+    }
+    stress += 0.5 * force * coefficients[b].length * symmetrize(outer_product(e, e));
+  }
+  return stress / std::pow(zone.spacing(), dim);
+}
+
+
+template <int dim>
+std::optional<SymmetricTensor<2, dim>>
+Peridynamics<dim>::stress_of_elements(const unsigned int site) const
+{
+  SymmetricTensor<2, dim> strain;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    std::array<unsigned int, 2> beside;
+    for (const unsigned int side : {0u, 1u})
+    {
+      Place<dim> place = zone.sites()[site].place;
+      place[d] += side == 0 ? -1 : 1;
+      beside[side] = zone.find(place);
+      if (beside[side] == dealii::numbers::invalid_unsigned_int)
+        return {};
+    }
+    for (unsigned int c = 0; c < dim; ++c)
+      strain[c][d] += (c == d ? 1. : 0.5) *
+                      (displacement[beside[1] * dim + c] - displacement[beside[0] * dim + c]) /
+                      (2. * zone.spacing());
+  }
+  const RockProperties &rock = scene.rock.main();
+  return rock.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
+         2. * rock.shear_modulus() * strain;
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
+                                                        const Tensor<1, dim> &ahead,
+                                                        const State &state,
+                                                        const std::vector<double> &of_cells) const
+{
+  SymmetricTensor<2, dim> sum;
+  if constexpr (dim == 2)
+  {
+    const double length = parameters.horizon * zone.spacing(), reach = 3. * length;
+    std::map<BondView, double> softened;
+    for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+      for (const BondView &view :
+           views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
+        softened[view] = state.current.extra[n];
+    double weights = 0.;
+    for (unsigned int i = 0; i < zone.sites().size(); ++i)
+    {
+      const Point<dim> place = zone.position(zone.sites()[i].place);
+      const Tensor<1, dim> away = place - tip;
+      if (away.norm_square() > reach * reach || away.norm_square() == 0.)
+        continue;
+      auto stress =
+        zone.sites()[i].peridynamic
+          ? std::optional<SymmetricTensor<2, dim>>(stress_of_bonds(i, softened, of_cells))
+          : stress_of_elements(i);
+      if (!stress)
+        continue;
+      if (!in_situ_is_zero)
+        *stress += scene.in_situ_stress(place);
+      const double weight = ring_weight(away / length, ahead);
+      sum += weight * *stress;
+      weights += weight;
+    }
+    if (weights > 0.)
+      sum /= weights;
+  }
+  return sum;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::track(const State &state, const std::vector<double> &of_cells)
+{
+  if constexpr (dim == 2)
+  {
+    const double h = zone.spacing();
+    for (const TrackedPaths::End &end : paths.ends())
+    {
+      // Before anything softens the way may still be another.
+      if (committed_way_energy[end.path][end.side] == 0. &&
+          std::none_of(softening_ends.begin(), softening_ends.end(),
+                       [&](const auto &other)
+                       { return other && other->path == end.path && other->side == end.side; }))
+        paths.forget_way(end);
+      const auto grows = [&]
+      {
+        for (const TrackedPaths::End &other : paths.ends())
+          if (other.path == end.path && other.side == end.side)
+            return true;
+        return false;
+      };
+      while (grows() && paths.lead(end) < (parameters.horizon - 1e-6) * h)
+      {
+        const Tensor<1, dim> ahead = paths.direction(end);
+        const SymmetricTensor<2, dim> stress = stress_ahead(paths.tip(end), ahead, state, of_cells);
+        paths.extend(end, turned(ahead, across_greatest(stress, ahead),
+                                 paths.has_set_out(end) ? most_turn : most_first_turn));
+      }
+    }
+  }
+}
+
+#define INSTANTIATE(dim)                                                                           \
+  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(                   \
+    unsigned int, unsigned int) const;                                                             \
+  template void Peridynamics<dim>::follow_paths();                                                 \
+  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const;       \
+  template double Peridynamics<dim>::half_process_zones() const;                                   \
+  template bool Peridynamics<dim>::advance_tips();                                                 \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                             \
+    unsigned int, const std::map<BondView, double> &, const std::vector<double> &) const;          \
+  template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(           \
+    unsigned int) const;                                                                           \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                                \
+    const Point<dim> &, const Tensor<1, dim> &, const State &, const std::vector<double> &) const; \
+  template void Peridynamics<dim>::track(const State &, const std::vector<double> &);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics

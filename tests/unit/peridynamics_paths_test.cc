@@ -1,0 +1,134 @@
+// The ways of cracks between the vertices of a lattice.
+#include <doctest/doctest.h>
+
+#include "fracture/peridynamics/tracked_paths.h"
+
+#include <cmath>
+
+namespace stockwork::peridynamics_paths_test
+{
+using dealii::Point;
+using dealii::Tensor;
+using peridynamics::TrackedPaths;
+
+namespace
+{
+InitialCrack<2> crack(const std::vector<Point<2>> &points)
+{
+  InitialCrack<2> result;
+  result.points = points;
+  return result;
+}
+
+double sum(const peridynamics::CellShares &shares)
+{
+  double total = 0.;
+  for (const auto &share : shares)
+    total += share.second;
+  return total;
+}
+
+bool anywhere(const Point<2> &)
+{
+  return true;
+}
+} // namespace
+
+
+TEST_CASE("pieces are about as long as cells, an odd number of them between two ends that grow")
+{
+  TrackedPaths paths;
+  paths.reinit({crack({Point<2>(-1., 0.5), Point<2>(1., 0.5)})}, 0.2, anywhere);
+  REQUIRE(paths.wet_pieces().size() % 2 == 1);
+  CHECK(paths.length() == doctest::Approx(2.));
+  CHECK(paths.wet_pieces().front().at_tip);
+  CHECK(paths.wet_pieces().back().at_tip);
+  // One that begins at a wall has any number.
+  paths.reinit({crack({Point<2>(0., 0.5), Point<2>(0.8, 0.5)})}, 0.2,
+               [](const Point<2> &end) { return end[0] > 0.; });
+  CHECK(paths.wet_pieces().size() == 4);
+  CHECK(!paths.wet_pieces().front().at_tip);
+  CHECK(paths.ends().size() == 1);
+}
+
+
+TEST_CASE("a bond crosses a path where it does, and its shares add up to one")
+{
+  TrackedPaths paths;
+  paths.reinit({crack({Point<2>(0., 0.5), Point<2>(4., 0.5)})}, 1.,
+               [](const Point<2> &end) { return end[0] > 0.; });
+  const auto crossing = paths.crossing(Point<2>(1., 0.), Point<2>(2., 2.));
+  REQUIRE(crossing);
+  CHECK(crossing->arc == doctest::Approx(1.25));
+  CHECK(!paths.end_at(*crossing));
+  CHECK(!paths.crossing(Point<2>(1., 1.), Point<2>(3., 1.)));
+  CHECK(!paths.crossing(Point<2>(5., 0.), Point<2>(5., 1.)));
+  CHECK(sum(paths.shares(*crossing, 3.)) == doctest::Approx(1.));
+  // From 0.25 to 2.25: of the pieces 0, 1 and 2.
+  const auto shares = paths.shares(*crossing, 3.);
+  REQUIRE(shares.size() == 3);
+  CHECK(shares[0].second == doctest::Approx(0.375));
+  CHECK(shares[1].second == doctest::Approx(0.5));
+  CHECK(shares[2].second == doctest::Approx(0.125));
+  // A node on a path is on its left side.
+  CHECK(paths.crossing(Point<2>(1., 0.5), Point<2>(1., 0.)));
+  CHECK(!paths.crossing(Point<2>(1., 0.5), Point<2>(1., 1.)));
+}
+
+
+TEST_CASE("a tip goes on its way, and fluid follows it")
+{
+  TrackedPaths paths;
+  paths.reinit({crack({Point<2>(0., 0.), Point<2>(2., 0.)})}, 1.,
+               [](const Point<2> &end) { return end[0] > 0.; });
+  const TrackedPaths::End end = paths.ends().front();
+  const Tensor<1, 2> up({std::sqrt(0.75), 0.5});
+  paths.extend(end, up);
+  paths.extend(end, up);
+  CHECK(paths.wet_pieces().size() == 2); // the way is dry
+  // A bond across the way feels the fluid that is near enough.
+  const auto ahead = paths.crossing(Point<2>(3., 0.), Point<2>(3., 1.));
+  REQUIRE(ahead);
+  CHECK(ahead->arc == doctest::Approx(2. + 1. / std::sqrt(0.75)));
+  CHECK(paths.end_at(*ahead));
+  CHECK(paths.shares(*ahead, 1.).empty());
+  CHECK(sum(paths.shares(*ahead, 2.)) == doctest::Approx(1.));
+
+  CHECK(paths.set_advances([](const TrackedPaths::End &) { return 1.25; }));
+  CHECK(paths.wet_pieces().size() == 4);
+  CHECK(paths.wet_pieces().back().at_tip);
+  CHECK(!paths.wet_pieces()[1].at_tip);
+  CHECK(paths.lead(end) == doctest::Approx(0.75));
+  CHECK(paths.length() == doctest::Approx(3.25));
+  CHECK(paths.tip(end).distance(Point<2>(2., 0.) + 1.25 * up) < 1e-12);
+  // It does not run dry again.
+  paths.set_advances([](const TrackedPaths::End &) { return 0.5; });
+  CHECK(paths.wet_pieces().size() == 4);
+}
+
+
+TEST_CASE("a way ends where it meets another path, and the fluid goes on there")
+{
+  TrackedPaths paths;
+  paths.reinit(
+    {crack({Point<2>(0., 0.), Point<2>(2., 0.)}), crack({Point<2>(3.7, -3.), Point<2>(3.7, 3.)})},
+    1., [](const Point<2> &end) { return end[0] > 0.; });
+  REQUIRE(paths.ends().size() == 3);
+  const TrackedPaths::End end{0, 1};
+  const Tensor<1, 2> along({1., 0.});
+  paths.extend(end, along);
+  CHECK(paths.ends().size() == 3);
+  paths.extend(end, along); // 0.7 to go
+  CHECK(paths.ends().size() == 2);
+  CHECK(paths.lead(end) == doctest::Approx(1.7));
+  const std::size_t before = paths.wet_pieces().size();
+  paths.set_advances([](const TrackedPaths::End &e) { return e.path == 0 ? 1.5 : 0.; });
+  const auto &pieces = paths.wet_pieces();
+  REQUIRE(pieces.size() == before + 2);
+  CHECK(!pieces[3].at_tip);
+  REQUIRE(pieces[3].neighbours.size() == 2);
+  const auto &other = pieces[pieces[3].neighbours[1]];
+  CHECK(other.path == 1);
+  CHECK(other.neighbours.back() == 3);
+}
+} // namespace stockwork::peridynamics_paths_test
