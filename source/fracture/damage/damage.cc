@@ -266,7 +266,7 @@ void Damage<dim>::start(const Collectives &collectives)
       "its "
       "plane than along its stairs of cells: discs turned by 27 and 45 degrees have become 1.04 to "
       "1.09 "
-      "times as long as wide in viscous fluid, 1.15 to 1.22 times where toughness dominates, with "
+      "times as long as wide in viscous fluid, 1.12 to 1.22 times where toughness dominates, with "
       "up to 7 % less pressure than along the mesh. Turn the mesh, if you can, so that the crack "
       "lies along it.");
   if (parameters.cell_size > 1.5 * initial_size)
