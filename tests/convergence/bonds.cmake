@@ -91,13 +91,19 @@ stockwork_case_test(NAME convergence/kgd/sun/permeable/tensor
          "final/fluid_volume_defect < 1e-12" "final/fluid_volume_defect > -1e-12")
 
 # With the pressure in the law of bonds, what stress there is along a fracture, and across it at equal net pressure,
-# makes no difference. Without a path, and with one.
+# makes no difference: to rounding without a path; with one to a thousandth, for without stress the path is off the axis by
+# thousandths of its length, as the cells of one size around the zone are not as many above it as below.
 set(in_bonds "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Output/Fields=false" "Time/End time=10 s")
 foreach(tracking none path)
+  set(tolerance 1e-6)
+  set(ignored "error|^inlet_pressure|^minimum_pressure|^maximum_pressure|borehole_pressure|energy|load")
+  if(tracking STREQUAL "path")
+    set(tolerance 1e-3)
+    string(APPEND ignored "|extent_y")
+  endif()
   stockwork_same_test(NAME convergence/kgd/toughness/in_bonds/stress/${tracking}
     DECK prm/kgd/toughness/peridynamics.prm SET ${in_bonds} "Fracture/peridynamics/Tracking=${tracking}"
-    SECOND_SET "In situ/Stress=-23 MPa, -17 MPa" TOLERANCE 1e-6
-    IGNORE "error|^inlet_pressure|^minimum_pressure|^maximum_pressure|borehole_pressure|energy|load")
+    SECOND_SET "In situ/Stress=-23 MPa, -17 MPa" TOLERANCE ${tolerance} IGNORE "${ignored}")
   stockwork_case_test(NAME convergence/kgd/toughness/in_bonds/${tracking} NEGATIVE
     DECK prm/kgd/toughness/peridynamics.prm
     SET "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=${tracking}"

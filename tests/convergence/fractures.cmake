@@ -46,6 +46,13 @@ stockwork_case_test(NAME convergence/natural_crack/peridynamics
   EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
          "final/fracture_volume = final/injected_volume within 1e-9"
          "fluid_balance/relative_error < 1e-8")
+# A tracked path ends there and joins it, to rounding.
+stockwork_case_test(NAME convergence/natural_crack/peridynamics/path
+  DECK tests/data/natural_crack.prm
+  SET "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=path"
+  EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
+         "final/fracture_volume = final/injected_volume within 1e-12"
+         "fluid_balance/relative_error < 1e-8")
 # Inertia that is too small to matter changes nothing: Newmark's scheme with gamma = 1 against the
 # quasi-static run.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/inertia

@@ -100,6 +100,8 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
   CHECK(!paths.wet_pieces()[1].at_tip);
   CHECK(paths.lead(end) == doctest::Approx(0.75));
   CHECK(paths.length() == doctest::Approx(3.25));
+  CHECK(paths.beyond_tip(*ahead, end) == doctest::Approx(1. / std::sqrt(0.75) - 1.25));
+  CHECK(paths.distance(Point<2>(1., 2.)) == doctest::Approx(2.));
   CHECK(paths.tip(end).distance(Point<2>(2., 0.) + 1.25 * up) < 1e-12);
   // It does not run dry again.
   paths.set_advances([](const TrackedPaths::End &) { return 0.5; });

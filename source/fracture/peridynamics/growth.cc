@@ -235,6 +235,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   }
 
   warn_of_pressure(state);
+  if (parameters.tracked)
+    warn_off_paths();
 
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);
   const unsigned int n_new = cells.size() - n_segments_before;

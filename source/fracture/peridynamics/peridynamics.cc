@@ -262,6 +262,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   n_messages_before = messages.size();
   told_of_rim_before = told_of_rim;
   told_of_pressure_before = told_of_pressure;
+  told_off_paths_before = told_off_paths;
   n_segments_before = cells.size();
   extent_before = extent();
   n_tips_before = 0;
@@ -342,6 +343,7 @@ void Peridynamics<dim>::rollback()
   messages.resize(n_messages_before);
   told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
+  told_off_paths = told_off_paths_before;
   dissipated = committed_energy;
   paths = committed_paths;
   if (passes == 0)
@@ -398,7 +400,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_correction << committed_energy
           << committed_damage_relaxation << told_of_rim << told_of_pressure << committed_paths
-          << committed_way_energy;
+          << committed_way_energy << told_off_paths;
 }
 
 
@@ -409,7 +411,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy;
+    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths;
   paths = committed_paths;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)

@@ -313,6 +313,9 @@ private:
   void foresee_stress(double spacing);
   void foresee_pressure(double spacing);
 
+  /// Once, when bonds are stretched too far where no crack may go, far from all paths.
+  void warn_off_paths();
+
   /// Once, when the net pressure is so high that bonds may break where no crack is.
   void warn_of_pressure(const State &state);
 
@@ -413,7 +416,7 @@ private:
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
-  bool told_of_rim = false, told_of_pressure = false;
+  bool told_of_rim = false, told_of_pressure = false, told_off_paths = false;
 
   // Of the current step.
   std::size_t n_messages_before = 0;
@@ -427,6 +430,6 @@ private:
   bool has_rejected = false;        ///< the last attempt
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
-  bool told_of_rim_before = false, told_of_pressure_before = false;
+  bool told_of_rim_before = false, told_of_pressure_before = false, told_off_paths_before = false;
 };
 } // namespace stockwork::peridynamics

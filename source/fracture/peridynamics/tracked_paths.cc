@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stockwork::peridynamics
 {
@@ -306,6 +307,21 @@ void TrackedPaths::forget_way(const End &end)
     path.points.resize(path.points.size() - growth.n_points);
   growth.n_points = 0;
   growth.advance = growth.wet = 0.;
+}
+
+
+double TrackedPaths::distance(const Point<2> &point) const
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Path &path : paths)
+    for (unsigned int i = 0; i < path.n_pieces(); ++i)
+    {
+      const Tensor<1, 2> along = path.point(i + 1) - path.point(i);
+      const double place =
+        std::clamp((point - path.point(i)) * along / along.norm_square(), 0., 1.);
+      nearest = std::min(nearest, point.distance(path.point(i) + place * along));
+    }
+  return nearest;
 }
 
 

@@ -104,6 +104,9 @@ public:
   /// Forget the way ahead, where nothing has softened yet.
   void forget_way(const End &end);
 
+  /// Of a point from the nearest piece of any path or way [m].
+  double distance(const dealii::Point<2> &point) const;
+
   /// Length of the initial cracks and of what tips have advanced by [m].
   double length() const;
 
