@@ -398,7 +398,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   reference = make_reference<dim>(prm, reference_input(prm, *this));
   starts_from_reference = stockwork::starts_from_reference(prm);
   check_random_rock(prm, *this);
-  check_reference(prm, *this);
+  check_reference(prm, *this, warnings);
   audits_energy = !coupling.restarts() && can_audit_energy(*this);
   if (const std::string &entry = boundary_conditions.entry_with_reference(); !entry.empty())
   {

@@ -50,9 +50,11 @@ void check_permeability(dealii::ParameterHandler &prm, const Case<dim> &the_case
 template <int dim>
 void check_random_rock(dealii::ParameterHandler &prm, const Case<dim> &the_case);
 
-/// What a reference solution cannot be of.
+/// What a reference solution cannot be of; @p warnings gets what it will not be near to.
 template <int dim>
-void check_reference(dealii::ParameterHandler &prm, const Case<dim> &the_case);
+void check_reference(dealii::ParameterHandler &prm,
+                     const Case<dim> &the_case,
+                     std::vector<std::string> &warnings);
 
 /// What flow in pores and in fractures cannot do without.
 void require_for_flow(dealii::ParameterHandler &prm, bool in_pores, bool in_fractures);
