@@ -7,6 +7,7 @@
 #include "scales.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace stockwork
@@ -285,22 +286,6 @@ bool is_of_growing_fracture(const ReferenceSolution<dim> &reference, const doubl
   const auto length = after.find("equivalent_length");
   return length != after.end() && length->second > before.at("equivalent_length");
 }
-
-
-template <int dim>
-Tensor<1, dim> normal_of(const InitialCrack<dim> &crack)
-{
-  if (crack.disc)
-    return crack.disc->normal;
-  Tensor<1, dim> normal;
-  if (dim == 2 && crack.points.size() > 1)
-  {
-    const Tensor<1, dim> along = crack.points.back() - crack.points.front();
-    normal[0] = -along[1] / along.norm();
-    normal[1] = along[0] / along.norm();
-  }
-  return normal;
-}
 } // namespace
 
 
@@ -327,18 +312,12 @@ void check_reference(ParameterHandler &prm,
   // More than a deck's rounding of a direction: a tenth of a degree where stresses differ by half.
   constexpr double noticeable = 1e-3;
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)
-  {
-    const Tensor<1, dim> normal = normal_of(crack);
-    const Point<dim> place = crack.disc ? crack.disc->centre : crack.points.front();
-    const SymmetricTensor<2, dim> stress = the_case.scene.in_situ_stress(place);
-    const Tensor<1, dim> traction = stress * normal;
-    if (const double shear = (traction - (traction * normal) * normal).norm();
-        shear > noticeable * stress.norm())
+    if (const double shear = shear_stress(the_case.scene, crack);
+        shear > noticeable * std::abs(closing_stress(the_case.scene, crack)))
       warnings.push_back(
         "Crack '" + crack.text + "' has a shear stress of " + to_string(shear, dimension::stress) +
         " from the stress in situ and will turn. The reference, " + the_case.reference->name() +
         ", is of one that stays in its plane: errors against it tell nothing.");
-  }
 }
 
 

@@ -57,17 +57,54 @@ double maximum_traction(const BoundaryConditions<dim> &boundary_conditions)
 } // namespace
 
 
-double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack)
+namespace
+{
+/// Compression across a crack, or across the middle one of its pieces, and shear along it.
+struct PlaneStress
+{
+  double closing, shear;
+};
+
+template <int dim>
+PlaneStress on_plane(const Scene<dim> &scene, const Point<dim> &place, const Tensor<1, dim> &normal)
+{
+  const Tensor<1, dim> traction = scene.in_situ_stress(place) * normal;
+  return {-(traction * normal), (traction - (traction * normal) * normal).norm()};
+}
+
+PlaneStress on_crack(const Scene<2> &scene, const InitialCrack<2> &crack)
 {
   const unsigned int middle = crack.points.size() / 2;
   const Tensor<1, 2> along = crack.points[middle] - crack.points[middle - 1];
   const Tensor<1, 2> normal = Point<2>(-along[1], along[0]) / along.norm();
-  return -(normal * (scene.in_situ_stress(crack.points[middle - 1] + 0.5 * along) * normal));
+  return on_plane<2>(scene, crack.points[middle - 1] + 0.5 * along, normal);
+}
+
+PlaneStress on_crack(const Scene<3> &scene, const InitialCrack<3> &crack)
+{
+  return on_plane<3>(scene, crack.disc->centre, crack.disc->normal);
+}
+} // namespace
+
+
+double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack)
+{
+  return on_crack(scene, crack).closing;
 }
 
 double closing_stress(const Scene<3> &scene, const InitialCrack<3> &crack)
 {
-  return -(crack.disc->normal * (scene.in_situ_stress(crack.disc->centre) * crack.disc->normal));
+  return on_crack(scene, crack).closing;
+}
+
+double shear_stress(const Scene<2> &scene, const InitialCrack<2> &crack)
+{
+  return on_crack(scene, crack).shear;
+}
+
+double shear_stress(const Scene<3> &scene, const InitialCrack<3> &crack)
+{
+  return on_crack(scene, crack).shear;
 }
 
 

@@ -36,6 +36,10 @@ struct Scales
 double closing_stress(const Scene<2> &scene, const InitialCrack<2> &crack);
 double closing_stress(const Scene<3> &scene, const InitialCrack<3> &crack);
 
+/// Its shear along the same piece [Pa]. A crack that has any will turn.
+double shear_stress(const Scene<2> &scene, const InitialCrack<2> &crack);
+double shear_stress(const Scene<3> &scene, const InitialCrack<3> &crack);
+
 /// The pressure is the greatest of what toughness and viscosity take at this length (the scaling of
 /// Adachi & Detournay 2002, and for a radial fracture of Savitski & Detournay 2002), of given
 /// pressures over the closing stress, and of the loads on the boundary.

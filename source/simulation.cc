@@ -18,6 +18,7 @@
 #include "report.h"
 #include "scene_audit.h"
 #include "scene_estimates.h"
+#include "scene_numbers.h"
 
 #include <deal.II/numerics/vector_tools.h>
 

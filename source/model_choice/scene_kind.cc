@@ -197,7 +197,7 @@ SceneKind kind_of_growing(const Charts &charts, const Case<2> &the_case, const b
   const Tensor<1, 2> along = (crack.points[1] - crack.points[0]) / crack.size();
   const Tensor<1, 2> across = Point<2>(-along[1], along[0]);
   const auto stress = the_case.scene.in_situ_stress(crack.points[0]);
-  if (std::abs(along * (stress * across)) > 1e-6 * stress.norm())
+  if (shear_stress(the_case.scene, crack) > 1e-6 * stress.norm())
     return nobodys("the stress in situ shears the crack, which will turn");
   if (across * (stress * across) < along * (stress * along) - 1e-6 * stress.norm())
     return nobodys("the stress in situ is greatest across the crack, which will turn");
@@ -230,11 +230,9 @@ SceneKind kind_of_growing(const Charts &charts, const Case<3> &the_case, const b
     return nobodys("there is no chart of discs that leak");
   const InitialCrack<3> &crack = the_case.scene.cracks[0];
   const SymmetricTensor<2, 3> stress = the_case.scene.in_situ_stress(crack.disc->centre);
-  const Tensor<1, 3> traction = stress * crack.disc->normal;
-  const double across = traction * crack.disc->normal;
-  if ((traction - across * crack.disc->normal).norm() > 1e-6 * stress.norm())
+  if (shear_stress(the_case.scene, crack) > 1e-6 * stress.norm())
     return nobodys("the stress in situ shears the crack, which will turn");
-  if (across < eigenvalues(stress)[0] - 1e-6 * stress.norm())
+  if (-closing_stress(the_case.scene, crack) < eigenvalues(stress)[0] - 1e-6 * stress.norm())
     return nobodys("the stress in situ across the crack is not the least, and it will turn");
   return kind_of_growing(
     charts, "growing, disc", "",

@@ -7,6 +7,7 @@
 #include "stockwork/base/quantity.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace stockwork
 {
@@ -47,7 +48,12 @@ void LinearSolverParameters::parse_parameters(dealii::ParameterHandler &prm)
                                : Type::automatic;
   direct_below.reset();
   if (const auto number = get_optional_quantity(prm, "Direct below", dimension::number))
+  {
+    if (*number != std::floor(*number))
+      throw InputError("'Linear solver/Direct below' is '" + prm.get("Direct below") +
+                       "'; allowed is auto or a whole number of unknowns");
     direct_below = static_cast<unsigned int>(std::min(*number, 4e9));
+  }
   max_iterations = prm.get_integer("Maximum iterations");
   restart = prm.get_integer("Restart");
   prm.leave_subsection();

@@ -95,7 +95,7 @@ stockwork_case_test(NAME convergence/kgd/sun/permeable/tensor
 # thousandths of its length, as the cells of one size around the zone are not as many above it as below.
 set(in_bonds "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Output/Fields=false" "Time/End time=10 s")
 foreach(tracking none path)
-  set(tolerance 1e-6)
+  set(tolerance 1e-9) # 1e-11
   set(ignored "error|^inlet_pressure|^minimum_pressure|^maximum_pressure|borehole_pressure|energy|load")
   if(tracking STREQUAL "path")
     set(tolerance 1e-3)

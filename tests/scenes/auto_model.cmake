@@ -90,3 +90,5 @@ stockwork_scene_test(model/disc_leaks DECK prm/radial/carter/damage.prm
 # A solver that is none for a small scene.
 stockwork_scene_test(slow_solver DECK prm/kgd/sun/damage.prm
   ARGS --checked --ends 0 --set "Linear solver/Type=direct" --says "Linear solver/Type = direct: set 'auto'")
+stockwork_scene_test(slow_solver/disc DECK prm/radial/small/damage.prm
+  ARGS --checked --ends 0 --set "Linear solver/Type=iterative" --says "Linear solver/Type = iterative: set 'auto'")

@@ -95,6 +95,7 @@ void Damage<dim>::setup(const MeshView<dim> &d, const Collectives &collectives)
 template <int dim>
 void Damage<dim>::find_segments()
 {
+  springs = slip_springs();
   all_segments = band.segments(scene.in_situ_pore_pressure);
   for (unsigned int i = 0; i < all_segments.size(); ++i)
   {
@@ -265,10 +266,9 @@ void Damage<dim>::start(const Collectives &collectives)
       "A crack is turned against the mesh, and grows more easily along the lines of the mesh in "
       "its "
       "plane than along its stairs of cells: discs turned by 27 and 45 degrees have become 1.04 to "
-      "1.09 "
-      "times as long as wide in viscous fluid, 1.12 to 1.22 times where toughness dominates, with "
-      "up to 7 % less pressure than along the mesh. Turn the mesh, if you can, so that the crack "
-      "lies along it.");
+      "1.09 times as long as wide in viscous fluid, 1.12 to 1.22 times where toughness dominates, "
+      "with up to 7 % less pressure than along the mesh. Turn the mesh, if you can, so that the "
+      "crack lies along it.");
   if (parameters.cell_size > 1.5 * initial_size)
   {
     std::ostringstream text;
@@ -539,70 +539,6 @@ void Damage<dim>::load(boost::archive::binary_iarchive &archive)
   {
     begin_step({});
   }
-}
-
-
-template <int dim>
-FractureSummary Damage<dim>::summary(const State &state, const Collectives &) const
-{
-  FractureSummary result;
-  for (unsigned int i = 0; i < band.cells.size(); ++i)
-  {
-    const CrackCell<dim> &crack = band.cells[i];
-    const SeamLaw &of_rock = law(crack);
-    const double share = crack.area() / CrackCell<dim>::n_points;
-    const auto jumps = band.jumps(i, state.current.extra);
-    for (unsigned int q = 0; q < jumps.size(); ++q)
-    {
-      // What has a crack but still holds is intact rock.
-      if (crack.greatest[q] > of_rock.start)
-        result.length += share * crack.reached;
-      if (crack.greatest[q] >= of_rock.critical)
-        result.broken_length += share;
-      result.stored_energy +=
-        0.5 * share * (seam(crack, q, jumps[q]).traction * seam_jump(crack, jumps[q]));
-    }
-    result.stored_energy += energy_in_stairs(i, state.current.extra);
-    result.n_tips += dim == 2 && band.is_front(i);
-  }
-  result.dissipated_energy = dissipated;
-  return result;
-}
-
-
-template <int dim>
-void Damage<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
-{
-  std::vector<double> damage(mesh_view->triangulation.n_active_cells(), 0.), opening(damage),
-    pressure(damage);
-  for (const auto &owned : band.owned())
-  {
-    const CrackCell<dim> &crack = band.cells[owned.number];
-    const unsigned int index = owned.cell->active_cell_index();
-    const Tensor<1, dim> jump = band.jump(owned.number, state.current.extra);
-    damage[index] = this->damage(crack);
-    opening[index] = jump * crack.normal;
-    if (state.segment_pressure)
-      pressure[index] = state.segment_pressure(crack.key());
-    if constexpr (dim == 2)
-    {
-      const Tensor<1, dim> along = crack.axes()[0];
-      const Point<dim> centre = crack.middle();
-      std::vector<std::pair<std::string, double>> values{
-        {"aperture", opening[index]}, {"slip", jump * along}, {"damage", damage[index]}};
-      const ContactResponse<dim> touching = contact(crack, jump);
-      values.emplace_back("contact_pressure", -touching.normal);
-      values.emplace_back("friction", touching.shear * along);
-      if (state.segment_pressure)
-        values.emplace_back("fluid_pressure", pressure[index]);
-      sink.add_fracture_piece(
-        {centre - 0.5 * crack.area() * along, centre + 0.5 * crack.area() * along}, values);
-    }
-  }
-  sink.add_cell_field("damage", damage);
-  sink.add_cell_field("opening", opening);
-  if (dim == 3 && state.segment_pressure)
-    sink.add_cell_field("fluid_pressure", pressure);
 }
 
 

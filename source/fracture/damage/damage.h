@@ -82,7 +82,8 @@ public:
   void write_fields(const State &state, FieldSink<dim> &sink) const override;
 
 private:
-  /// The segments of the band as the fluid is to see them, after the band has changed.
+  /// The segments of the band as the fluid is to see them, and the springs, after the band has
+  /// changed.
   void find_segments();
 
   void start(const Collectives &collectives);
@@ -129,18 +130,22 @@ private:
   /// What holds a cell's slip to that of a neighbour, see slip_springs().
   struct SlipSpring
   {
-    unsigned int other;                        ///< number of the neighbour
+    unsigned int cell, other;                  ///< numbers of the two
     double side;                               ///< -1 where its plus side is this one's minus side
     dealii::SymmetricTensor<2, dim> stiffness; ///< [N/m]
   };
 
-  /// Those to neighbours with a higher number.
-  std::vector<SlipSpring> slip_springs(unsigned int number) const;
+  /// Of the band as it is.
+  std::vector<SlipSpring> slip_springs() const;
 
   void hold_stairs(const State &state, Sink &sink) const;
 
-  /// Stored in them [J].
-  double energy_in_stairs(unsigned int number, const std::vector<double> &extra) const;
+  /// By how much the slip of its cells differs [m].
+  dealii::Tensor<1, dim> difference(const SlipSpring &spring,
+                                    const std::vector<double> &extra) const;
+
+  /// Stored in it [J].
+  double energy_of(const SlipSpring &spring, const std::vector<double> &extra) const;
 
   /// Whether faces overlap too much, which then carry more: the step is to be solved again.
   bool press_faces(const State &);
@@ -219,6 +224,7 @@ private:
   Band<dim> band;
   std::unique_ptr<MeshView<dim>> mesh_view;
   std::vector<Segment<dim>> all_segments;
+  std::vector<SlipSpring> springs; ///< of the band as it is
   std::vector<std::string> messages;
 
   // History, the same on all ranks.

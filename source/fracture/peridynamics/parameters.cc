@@ -168,6 +168,9 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   if (p.in_bonds && (p.state_based || p.tensor_fluid))
     throw bad("Closure", p.state_based ? "conserving with 'Bond law = state-based'"
                                        : "conserving with 'Fluid = permeability tensor'");
+  // A fracture that enters a cell then asks for more than a step can give.
+  if (p.in_bonds && p.horizon < 3)
+    throw bad("Horizon", "3 and more with 'Closure = in bonds'");
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   if (p.softening > 1. && prm.get("Bonds per pass") != default_bonds_per_pass)
