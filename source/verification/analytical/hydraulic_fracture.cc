@@ -250,7 +250,8 @@ double HydraulicFracture::Steps::half_length(const double t) const
 
 HydraulicFracture::HydraulicFracture(const HydraulicFractureParameters &parameters,
                                      const double last_time)
-  : steps(std::make_unique<Steps>(parameters, last_time))
+  : parameters(parameters)
+  , last_time(last_time)
 {
 }
 
@@ -260,9 +261,17 @@ HydraulicFracture::HydraulicFracture(HydraulicFracture &&) noexcept = default;
 HydraulicFracture &HydraulicFracture::operator=(HydraulicFracture &&) noexcept = default;
 
 
+const HydraulicFracture::Steps &HydraulicFracture::steps() const
+{
+  if (!marched)
+    marched = std::make_unique<Steps>(parameters, last_time);
+  return *marched;
+}
+
+
 double HydraulicFracture::half_length(const double t) const
 {
-  return steps->half_length(t);
+  return steps().half_length(t);
 }
 
 
@@ -283,27 +292,27 @@ double HydraulicFracture::opening(const double x, const double t) const
   const double l = half_length(t), xi = std::abs(x) / l;
   if (xi >= 1.)
     return 0.;
-  return steps->small_number(t) * l * std::exp(steps->value(steps->shape, xi, t)) *
+  return steps().small_number(t) * l * std::exp(steps().value(steps().shape, xi, t)) *
          std::sqrt((1. - xi) * (1. + xi));
 }
 
 
 double HydraulicFracture::pressure(const double x, const double t) const
 {
-  return steps->small_number(t) * steps->modulus *
-         steps->value(steps->pressure, std::abs(x) / half_length(t), t);
+  return steps().small_number(t) * steps().modulus *
+         steps().value(steps().pressure, std::abs(x) / half_length(t), t);
 }
 
 
 double HydraulicFracture::injected_volume(const double t) const
 {
-  return steps->rate * t;
+  return parameters.fracture.rate * t;
 }
 
 
 double HydraulicFracture::fracture_volume(const double t) const
 {
-  return injected_volume(t) * std::exp(steps->value(steps->log_efficiency, t));
+  return injected_volume(t) * std::exp(steps().value(steps().log_efficiency, t));
 }
 
 

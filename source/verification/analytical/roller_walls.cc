@@ -68,15 +68,18 @@ void RollerWalls::gradient_matrix(const HalfCrackGrid &grid,
     for (std::size_t j = 0; j < n; ++j)
       matrix[i][j] = a * a * a / (4. * pi) *
                      (cot_excess_2(a * (xi[i] - xi[j])) + cot_excess_2(a * (xi[i] + xi[j])));
+  std::vector<double> cosine(n);
   for (unsigned int m = 1; m <= n_waves(); ++m)
   {
     const double k = m * pi / half_width;
     const double factor = -0.5 * l / half_width * k * k * l * l * layer_excess(k * half_height);
+    for (std::size_t j = 0; j < n; ++j)
+      cosine[j] = std::cos(k * l * xi[j]);
     for (std::size_t i = 0; i < n; ++i)
     {
       const double sine = factor * std::sin(k * l * xi[i]);
       for (std::size_t j = 0; j < n; ++j)
-        matrix[i][j] += sine * std::cos(k * l * xi[j]);
+        matrix[i][j] += sine * cosine[j];
     }
   }
   for (std::size_t i = 0; i < n; ++i)
