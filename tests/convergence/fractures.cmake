@@ -32,7 +32,7 @@ stockwork_case_test(NAME convergence/kgd/sun/peridynamics NEGATIVE
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse"
   EXPECT "errors/equivalent_length/mean < 0.015" "errors/inlet_aperture/mean < 0.025"
          "errors/net_inlet_pressure/mean < 0.006" "fluid_balance/relative_error < 1e-8")
-stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics DECK prm/kgd/sun/peridynamics.prm
+stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics DECK prm/kgd/sun/peridynamics.prm LABELS nightly
   SET "Output/Fields=false" SERIES "Resolution=coarse" "Resolution=medium" TOLERANCE 0.3
   ORDER "errors/equivalent_length/mean=1" "errors/inlet_aperture/mean=1" "errors/net_inlet_pressure/mean=1")
 # The zone that grows with the fracture does what one does that has been there before.

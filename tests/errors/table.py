@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bad decks by the dozen: each line of a table changes a sound deck, which must then be refused.
 
-    table.py PROGRAM TABLE SCRATCH [FAMILY]
+    table.py PROGRAM LOADED_ONCE TABLE SCRATCH [FAMILY]
 
 A line `[FAMILY DECK]` names the sound deck, relative to the source tree, of the lines after it. A
 line
@@ -14,10 +14,12 @@ deck itself must pass."""
 import os
 import re
 import shutil
-import subprocess
 import sys
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "tests", "loaded_once"))
+
+from loaded_once import Program  # noqa: E402
 
 
 def read_table(name):
@@ -53,21 +55,16 @@ def check(program, scratch, name, text):
     with open(deck, "w", encoding="utf-8") as file:
         file.write(text)
     output = os.path.join(scratch, "output")
-    done = subprocess.run([program, deck, "--check", "--output", output], stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, text=True, timeout=60, check=False, cwd=scratch)
+    status, _, complained = program.run([deck, "--check", "--output", output])
     if os.path.exists(output):
-        return done.returncode, "an output directory was made"
-    return done.returncode, " ".join(done.stderr.split())
+        return status, "an output directory was made"
+    return status, " ".join(complained.split())
 
 
-def main():
-    program, table, scratch = (os.path.abspath(name) for name in sys.argv[1:4])
-    shutil.rmtree(scratch, ignore_errors=True)
-    os.makedirs(scratch)
+def check_families(program, scratch, families):
+    """(number of bad decks, what is wrong)"""
     n, failures = 0, []
-    for family, base, lines in read_table(table):
-        if len(sys.argv) > 4 and family != sys.argv[4]:
-            continue
+    for family, base, lines in families:
         status, said = check(program, scratch, family, deck_text(base, []))
         if status != 0:
             failures.append(f"{family}: the sound deck is refused: {said}")
@@ -81,6 +78,15 @@ def main():
                 failures.append(f"{what}: no file and line: {said}")
             elif "'" not in said or sentence not in said:
                 failures.append(f"{what}: does not say '{sentence}' but: {said}")
+    return n, failures
+
+
+def main():
+    name, library, table, scratch = (os.path.abspath(name) for name in sys.argv[1:5])
+    families = [family for family in read_table(table) if len(sys.argv) < 6 or family[0] == sys.argv[5]]
+    shutil.rmtree(scratch, ignore_errors=True)
+    with Program(name, library, scratch) as program:
+        n, failures = check_families(program, scratch, families)
     print(f"{n} bad decks")
     if failures or n == 0:
         sys.exit("\n".join(failures) or "no such family")
