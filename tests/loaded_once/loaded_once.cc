@@ -80,8 +80,13 @@ int serve(int, char **arguments, char **environment)
 
 
 // What the C library's start-up code calls when all is loaded.
-extern "C" int __libc_start_main(Main main, int n_arguments, char **arguments, void (*init)(), void (*fini)(),
-                                 void (*rtld_fini)(), void *stack_end)
+extern "C" int __libc_start_main(Main main,
+                                 int n_arguments,
+                                 char **arguments,
+                                 void (*init)(),
+                                 void (*fini)(),
+                                 void (*rtld_fini)(),
+                                 void *stack_end)
 {
   real_main = main;
   using Start = int (*)(Main, int, char **, void (*)(), void (*)(), void (*)(), void *);
