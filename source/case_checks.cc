@@ -308,6 +308,11 @@ void check_reference(ParameterHandler &prm,
       "solution is of linear rock");
   if (!the_case.reference)
     return;
+  if (!the_case.scene.cracks.empty() && !the_case.model->requirements().may_grow &&
+      is_of_growing_fracture(*the_case.reference, the_case.control.end_time))
+    warnings.push_back("The reference, " + the_case.reference->name() +
+                       ", is of a fracture that grows, which here none does ('Fracture/Model = " +
+                       the_case.model_name + "'): errors against it tell nothing.");
   // More than a deck's rounding of a direction: a tenth of a degree where stresses differ by half.
   constexpr double noticeable = 1e-3;
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)

@@ -167,38 +167,45 @@ double pressure_diffusivity(const Case<dim> &the_case, const types::material_id 
 
 
 template <int dim>
-double final_half_length(const Case<dim> &the_case)
+double half_length_at_start(const Case<dim> &the_case)
 {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (the_case.scene.cracks.empty() || !(the_case.rock.main().energy_release_rate > 0.))
-    return unknown;
-  const Pumping pumping = first_pumping(the_case);
-  if (!(pumping.rate > 0.))
-    return unknown;
-  double half_length;
-  if constexpr (dim == 2)
-    half_length = analytical::leaking_kgd(plane_fracture(the_case, pumping),
-                                          leak_off_coefficient(the_case), pumping.duration)
-                    .half_length;
-  else if (the_case.network.leak_off_law() == LeakOff::none)
-    half_length = analytical::radial_radius(radial_fracture(the_case, pumping), pumping.duration);
-  else
-    return unknown;
-  return std::max(half_length, 0.5 * the_case.scene.cracks[0].size());
+  const InitialCrack<dim> &crack = the_case.scene.cracks[0];
+  const bool is_half =
+    std::any_of(crack.points.begin(), crack.points.end(),
+                [&](const Point<dim> &point) { return the_case.geometry.on_side(point); });
+  return (is_half ? 1. : 0.5) * crack.size();
+}
+
+
+template <int dim>
+bool is_driven_on(const Case<dim> &the_case)
+{
+  return !the_case.scene.cracks.empty() && the_case.model->requirements().may_grow &&
+         the_case.rock.main().energy_release_rate > 0. && first_pumping(the_case).rate > 0.;
 }
 
 
 template <int dim>
 double half_length_at_end(const Case<dim> &the_case)
 {
-  if (const double grown = final_half_length(the_case);
-      !std::isnan(grown) || the_case.network.has_wells())
-    return grown;
-  const InitialCrack<dim> &crack = the_case.scene.cracks[0];
-  const bool is_half =
-    std::any_of(crack.points.begin(), crack.points.end(),
-                [&](const Point<dim> &point) { return the_case.geometry.on_side(point); });
-  return (is_half ? 1. : 0.5) * crack.size();
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (the_case.scene.cracks.empty())
+    return unknown;
+  const double start = half_length_at_start(the_case);
+  if (!the_case.network.has_wells() || !the_case.model->requirements().may_grow)
+    return start;
+  if (!is_driven_on(the_case))
+    return unknown;
+  const Pumping pumping = first_pumping(the_case);
+  if constexpr (dim == 2)
+    return std::max(start, analytical::leaking_kgd(plane_fracture(the_case, pumping),
+                                                   leak_off_coefficient(the_case), pumping.duration)
+                             .half_length);
+  else if (the_case.network.leak_off_law() == LeakOff::none)
+    return std::max(
+      start, analytical::radial_radius(radial_fracture(the_case, pumping), pumping.duration));
+  else
+    return unknown;
 }
 
 
@@ -216,8 +223,10 @@ template Pumping first_pumping<2>(const Case<2> &);
 template Pumping first_pumping<3>(const Case<3> &);
 template double pressure_diffusivity<2>(const Case<2> &, types::material_id);
 template double pressure_diffusivity<3>(const Case<3> &, types::material_id);
-template double final_half_length<2>(const Case<2> &);
-template double final_half_length<3>(const Case<3> &);
+template double half_length_at_start<2>(const Case<2> &);
+template double half_length_at_start<3>(const Case<3> &);
+template bool is_driven_on<2>(const Case<2> &);
+template bool is_driven_on<3>(const Case<3> &);
 template double half_length_at_end<2>(const Case<2> &);
 template double half_length_at_end<3>(const Case<3> &);
 } // namespace stockwork

@@ -26,15 +26,18 @@ double smallest_extent(const Case<dim> &the_case);
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case);
 
-/// Half length of the first fracture when its pumping ends, of the plane-strain fracture with
-/// leak-off, or of its crack if that is longer; radius of the radial one in impermeable rock [m].
-/// NaN where nothing tells it.
+/// Half length or radius of the first crack, of which symmetry may show one half [m].
 template <int dim>
-double final_half_length(const Case<dim> &the_case);
+double half_length_at_start(const Case<dim> &the_case);
 
-/// Half length or radius of the first fracture when the run ends, as far as anything tells it: as
-/// above, or of its crack, of which symmetry may show one half [m]. NaN: a well drives it, and
-/// there is no estimate.
+/// Whether a well drives the first fracture on, through rock whose toughness the deck gives.
+template <int dim>
+bool is_driven_on(const Case<dim> &the_case);
+
+/// Half length or radius of the first fracture when the run ends [m]: where it is driven on, of the
+/// plane-strain fracture with leak-off when its pumping ends, or the radius of the radial one in
+/// impermeable rock; or of its crack, if that is longer, or nothing drives it. NaN: nothing tells
+/// it.
 template <int dim>
 double half_length_at_end(const Case<dim> &the_case);
 

@@ -107,7 +107,7 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   }
 
   add_start(the_case, parameters, pumping.duration, mesh.smallest, numbers);
-  const double reach = std::max(length, 0.5 * the_case.scene.cracks[0].size());
+  const double reach = half_length_at_end(the_case);
   const double walls = distance_to_walls(the_case) / reach;
   std::ostringstream text;
   text << "the fracture grows to about " << std::setprecision(3) << reach << " m per wing; "
@@ -507,7 +507,9 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
     numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,
                        "at it, what the well takes is what flows (Minimum pressure)"});
 
-  if (!the_case.scene.cracks.empty() && !std::isnan(rock.energy_release_rate))
+  if (is_cracked(the_case) && !the_case.model->requirements().may_grow)
+    numbers.push_back({"growth", 0., "left out: the cracks stay as long as the deck gives them"});
+  else if (!the_case.scene.cracks.empty() && !std::isnan(rock.energy_release_rate))
   {
     if (!std::isnan(rock.tensile_strength))
     {
@@ -520,10 +522,10 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
                            : "not resolved: pressure and width come out too large"});
     }
     if constexpr (dim == 2)
-      if (pumping.rate > 0.)
+      if (is_driven_on(the_case))
         add_hydraulic_numbers(the_case, pumping, mesh, numbers);
     if constexpr (dim == 3)
-      if (pumping.rate > 0. && the_case.network.leak_off_law() == LeakOff::none)
+      if (is_driven_on(the_case) && the_case.network.leak_off_law() == LeakOff::none)
       {
         const double toughness =
           analytical::radial_toughness(radial_fracture(the_case, pumping), pumping.duration);

@@ -388,10 +388,9 @@ void Simulation<dim>::announce()
   const bool cracked = is_cracked(the_case);
   const CostEstimate cost = estimate_cost(dim, system.n_unknowns(), costly_physics(the_case));
   const double cells =
-    !cracked ? 0.
-    : dim == 3
-      ? std::numeric_limits<double>::quiet_NaN() // not all of a front comes on at once
-      : (final_half_length(the_case) - 0.5 * the_case.scene.cracks[0].size()) / mesh.smallest;
+    !cracked   ? 0.
+    : dim == 3 ? std::numeric_limits<double>::quiet_NaN() // not all of a front comes on at once
+               : (half_length_at_end(the_case) - half_length_at_start(the_case)) / mesh.smallest;
   run.out << "  "
           << in_words(cost, expected_steps(the_case.control, the_case.control.end_time - clock.time,
                                            clock.dt, cracked, cells))

@@ -2,6 +2,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <memory>
 #include <random>
 #include <sstream>
@@ -96,6 +98,28 @@ public:
   unsigned int n_unknowns() const
   {
     return system.n_unknowns();
+  }
+
+  /// At the iterate, with all its zeros. Bulk unknowns, then extra ones.
+  dealii::FullMatrix<double> matrix()
+  {
+    const LinearSystem &linear = linearise();
+    dealii::FullMatrix<double> result(n_unknowns(), n_unknowns());
+    for (const auto &entry : linear.bulk)
+      result(entry.row(), entry.column()) = entry.value();
+    if (linear.rock_change != nullptr)
+      for (const auto &entry : *linear.rock_change)
+        result(entry.row(), entry.column()) += entry.value();
+    const auto add =
+      [&](const Triplets &triplets, const unsigned int row, const unsigned int column)
+    {
+      for (std::size_t k = 0; k < triplets.values.size(); ++k)
+        result(row + triplets.rows[k], column + triplets.columns[k]) += triplets.values[k];
+    };
+    add(linear.bulk_extra, 0, n_bulk());
+    add(linear.extra_bulk, n_bulk(), 0);
+    add(linear.extra_extra, n_bulk(), n_bulk());
+    return result;
   }
 
   /// Bulk unknowns, then extra ones.

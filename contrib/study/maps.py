@@ -64,7 +64,9 @@ def chosen_map(results, chosen, file=None):
             except (KeyError, TypeError, ValueError) as error:
                 raise ResultError(f"the map shows '{chosen['measure']}', but {result.directory}: {error}") from None
     panels = list(groups(results, chosen["x"], chosen["y"]).items())
-    figure = draw(panels, chosen["x"], chosen["y"], numbers, chosen.get("label", chosen["measure"]), chosen.get("limit"))
+    figure = draw(panels, chosen["x"], chosen["y"], numbers, chosen.get("label", chosen["measure"]),
+                  (chosen.get("least", -math.inf), chosen.get("limit", math.inf)), chosen.get("x_names"),
+                  chosen.get("x_label"))
     if file:
         figure.savefig(file, dpi=100, bbox_inches="tight", metadata={"Software": None})
     return figure
@@ -86,9 +88,9 @@ def groups(results, x, y):
     return found
 
 
-def draw(panels, x, y, numbers, label, limit=None):
-    """Panels side by side on one scale, with the number in each field; hatched where there is none, or more than the
-    limit."""
+def draw(panels, x, y, numbers, label, allowed=(-math.inf, math.inf), x_names=None, x_label=None):
+    """Panels side by side on one scale, with the number in each field; hatched where there is none, or one that is not
+    allowed."""
     everything = [r for _, group in panels for r in group]
     xs, ys = along(everything, x), along(everything, y)
     figure, axes = plt.subplots(1, len(panels), figsize=(1.6 + 0.62 * len(xs) * len(panels), 1.5 + 0.4 * len(ys)),
@@ -99,14 +101,15 @@ def draw(panels, x, y, numbers, label, limit=None):
         ax.grid(False)
         for result in group:
             its = settings_of(result)
-            field(ax, xs.index(its[x]), ys.index(its[y]), numbers[result.directory], result, scale, limit)
+            field(ax, xs.index(its[x]), ys.index(its[y]), numbers[result.directory], result, scale, allowed)
         ax.set_title(title.replace(", ", "\n"), fontsize=9)
         ax.set_xlim(0, len(xs))
         ax.set_ylim(0, len(ys))
-        turned = dict(rotation=45, ha="right", rotation_mode="anchor") if max(map(len, xs)) > 6 else {}
-        ax.set_xticks(np.arange(len(xs)) + 0.5, xs, **turned)
+        names = x_names or xs
+        turned = dict(rotation=45, ha="right", rotation_mode="anchor") if max(map(len, names)) > 6 else {}
+        ax.set_xticks(np.arange(len(xs)) + 0.5, names, **turned)
         ax.set_yticks(np.arange(len(ys)) + 0.5, ys)
-    figure.supxlabel(x, fontsize=9)
+    figure.supxlabel(x_label or x, fontsize=9)
     figure.supylabel(y, fontsize=9)
     if there:
         figure.colorbar(plt.cm.ScalarMappable(scale, "viridis_r"), ax=list(axes[0]), label=label, pad=0.02)
@@ -130,9 +133,9 @@ def ended(result):
     return "refused" if re.search(r"(\.prm:\d+|command line): ", result.reason) else "fails"
 
 
-def field(ax, column, row, number, result, scale, limit):
+def field(ax, column, row, number, result, scale, allowed):
     known = math.isfinite(number)
-    failed = result.status == "failed" or (limit is not None and known and number > limit)
+    failed = result.status == "failed" or (known and not allowed[0] <= number <= allowed[1])
     dark = known and scale(number) > 0.5
     ax.add_patch(plt.Rectangle((column, row), 1, 1, facecolor=plt.cm.viridis_r(scale(number)) if known else "0.85",
                                edgecolor="0.8" if dark else "0.3", hatch="////" if failed else None, lw=0.))

@@ -18,6 +18,9 @@
     measure = "final/inlet_pressure"       # a name of contrib/measures.py
     label   = "inlet pressure [Pa]"        # none: the name
     limit   = 1e6                          # more is a failure; none: only runs that do not end are
+    least   = 0                            # less is a failure
+    x_names = ["1 s", "10 s"]              # what stands there for the values of x; none: themselves
+    x_label = "first step"                 # and for x
 
 cases, models, resolutions, ranks, time_limit and set may stand above, for all [[runs]].
 """
@@ -35,7 +38,7 @@ SHIPPED = os.path.join(DECKS, "studies")
 LISTS = ("cases", "models", "resolutions", "ranks")
 OF_RUNS = (*LISTS, "set", "time_limit")
 OF_STUDY = ("title", "text", "quantities", "runs", "map", *OF_RUNS)
-OF_MAP = ("x", "y", "measure", "label", "limit")
+OF_MAP = ("x", "y", "measure", "label", "limit", "least", "x_names", "x_label")
 
 
 @dataclasses.dataclass
@@ -107,10 +110,11 @@ def map_of(path, given, blocks):
     for key in ("x", "y", "measure"):
         if key not in given:
             raise ResultError(f"{path}: [map] has no '{key}'")
-    if not all(isinstance(given.get(key, ""), str) for key in ("x", "y", "measure", "label")):
-        raise ResultError(f"{path}: x, y, measure and label of [map] are texts")
-    if isinstance(given.get("limit", 0.), bool) or not isinstance(given.get("limit", 0.), (int, float)):
-        raise ResultError(f"{path}: limit = {given['limit']!r}, but it is a number")
+    if not all(isinstance(given.get(key, ""), str) for key in ("x", "y", "measure", "label", "x_label")):
+        raise ResultError(f"{path}: x, y, measure, label and x_label of [map] are texts")
+    for key in ("limit", "least"):
+        if isinstance(given.get(key, 0.), bool) or not isinstance(given.get(key, 0.), (int, float)):
+            raise ResultError(f"{path}: {key} = {given[key]!r}, but it is a number")
     beginning = given["measure"].split("/")[0]
     if beginning not in BEGINNINGS:
         raise ResultError(f"{path}: [map] has measure = '{given['measure']}', but a number's name begins with one of: "
@@ -124,6 +128,10 @@ def map_of(path, given, blocks):
         if given[key] not in varied:
             raise ResultError(f"{path}: [map] has {key} = '{given[key]}', which is not varied; there is: "
                               f"{', '.join(varied) or 'nothing'}")
+    names = given.get("x_names", [])
+    if not texts(names) or (names and len(names) != len(values[given["x"]])):
+        raise ResultError(f"{path}: x_names = {names!r}, but it is a list of {len(values[given['x']])} texts, one for each "
+                          f"value of '{given['x']}'")
     if given["x"] == given["y"]:
         raise ResultError(f"{path}: [map] has the same entry, '{given['x']}', for x and for y")
     return given

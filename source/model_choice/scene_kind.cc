@@ -62,8 +62,7 @@ std::string beyond_charts(const Case<dim> &the_case)
     if (!the_case.boundary_conditions.loads().empty() ||
         the_case.boundary_conditions.maximum_displacement(the_case.control.end_time) != 0.)
       return "there are loads on the boundary";
-    const double reach = std::isnan(the_case.scene.crack_pressure) ? final_half_length(the_case)
-                                                                   : half_length_at_end(the_case);
+    const double reach = half_length_at_end(the_case);
     if (std::isnan(reach))
       return "nothing tells how long the fracture will be";
     if (!(distance_to_walls(the_case) >= far_walls<dim> * reach))

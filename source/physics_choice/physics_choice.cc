@@ -121,8 +121,7 @@ leave_out_physics(const Deck &deck,
   if (the_case->elements.has_pore_pressure)
     take(decide_pores(*the_case, deck, [&]() { return strength_with(settings); }));
   if constexpr (dim == 2)
-    if (is_cracked(*the_case) && first_pumping(*the_case).rate > 0. &&
-        the_case->rock.main().energy_release_rate > 0.)
+    if (is_cracked(*the_case) && is_driven_on(*the_case))
       take(decide_lubrication(*the_case));
   set_entries(prm, settings);
   return decisions;

@@ -10,8 +10,6 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/lone_process.h"
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <iostream>
 
 using namespace stockwork;
@@ -62,26 +60,6 @@ Vector<double> rigid_motion(const Scenario &scenario,
     }
   }
   return values;
-}
-
-dealii::FullMatrix<double> dense(const LinearSystem &system, const unsigned int n_bulk)
-{
-  const unsigned int n = n_bulk + system.residual_extra.size();
-  dealii::FullMatrix<double> matrix(n, n);
-  for (const auto &entry : system.bulk)
-    matrix(entry.row(), entry.column()) = entry.value();
-  if (system.rock_change != nullptr)
-    for (const auto &entry : *system.rock_change)
-      matrix(entry.row(), entry.column()) += entry.value();
-  const auto add = [&](const Triplets &triplets, const unsigned int row, const unsigned int column)
-  {
-    for (std::size_t k = 0; k < triplets.values.size(); ++k)
-      matrix(row + triplets.rows[k], column + triplets.columns[k]) += triplets.values[k];
-  };
-  add(system.bulk_extra, 0, n_bulk);
-  add(system.extra_bulk, n_bulk, 0);
-  add(system.extra_extra, n_bulk, n_bulk);
-  return matrix;
 }
 
 /// Of a bulk unknown or, behind these, an extra one.
@@ -195,7 +173,7 @@ TEST_CASE("derivative")
       CHECK(summary.broken_length < summary.length);
   }
 
-  const dealii::FullMatrix<double> matrix = dense(scenario.linearise(), n_bulk);
+  const dealii::FullMatrix<double> matrix = scenario.matrix();
   if (scenario.system.nonlinear_rock() != nullptr)
     CHECK(scenario.linearise().rock_change != nullptr); // or nothing of it would be tested
   const auto &constraints = scenario.system.mesh_view().constraints;

@@ -149,13 +149,13 @@ stockwork_case_test(NAME convergence/damage/disc DECK tests/data/growing_disc.pr
          "fluid_balance/relative_error < 1e-8" "final/extent_z < 1e-3" "rejected_steps == 0")
 # An open slot conducts as the cubic law says, however it is turned. Behind the bounds: 0.0005 with the network; 0.0126 with
 # the tensor, for half of what a well takes flows through half of its cell only.
-foreach(slot :142.70 _15:140.18 _30:140.72 _45:141.27)
+foreach(slot 0:142.70 15:140.18 30:140.72 45:141.27)
   string(REPLACE ":" ";" slot "${slot}")
   list(GET slot 0 turned)
   list(GET slot 1 drop)
-  stockwork_case_test(NAME convergence/damage/slot${turned}/network DECK tests/data/open_slot${turned}.prm
+  stockwork_case_test(NAME convergence/damage/slot/${turned}/network DECK prm/stability/slot/${turned}/damage.prm
     SET "Fracture/damage/Fluid=network" EXPECT "final/well_1_borehole_pressure = ${drop} within 0.001")
-  stockwork_case_test(NAME convergence/damage/slot${turned}/tensor DECK tests/data/open_slot${turned}.prm
+  stockwork_case_test(NAME convergence/damage/slot/${turned}/tensor DECK prm/stability/slot/${turned}/damage.prm
     EXPECT "final/well_1_borehole_pressure = ${drop} within 0.02")
 endforeach()
 # A fracture of constant height, tight and with Carter leak-off, and a disc with it. At these times the first two are

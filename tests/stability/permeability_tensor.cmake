@@ -7,7 +7,7 @@ stockwork_case_test(NAME stability/i/tight_rock/fails DECK ${deck}
 stockwork_case_test(NAME stability/i/tight_rock/network DECK ${deck}
   SET ${tight} "Fracture/damage/Fluid=network" EXPECT "final/fracture_volume = final/injected_volume within 2e-3")
 # A slot at 30 degrees to the mesh, 140 Pa along it: below the least pressure that is given, 0, there is none.
-stockwork_case_test(NAME stability/i/undershoot/fails DECK tests/data/open_slot_30.prm
+stockwork_case_test(NAME stability/i/undershoot/fails DECK prm/stability/slot/30/damage.prm
   SET "Output/Fields=true" EXPECT "fields/pore_pressure/minimum < -0.5") # -0.95
-stockwork_case_test(NAME stability/i/undershoot/network DECK tests/data/open_slot_30.prm
+stockwork_case_test(NAME stability/i/undershoot/network DECK prm/stability/slot/30/damage.prm
   SET "Output/Fields=true" "Fracture/damage/Fluid=network" EXPECT "fields/pore_pressure/minimum > -1e-9")

@@ -50,6 +50,7 @@ struct Requirements
   const RockLaw *law = nullptr;
 
   bool has_fracture = true; ///< else neither unknowns nor segments, ever
+  bool may_grow = true;     ///< else its cracks stay as long as the deck gives them
   RegionalRock regional_rock = RegionalRock::any;
   bool random_rock = false; ///< it reads the constants of the place that it looks at: Rock::at()
 

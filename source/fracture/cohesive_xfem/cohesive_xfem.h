@@ -31,6 +31,7 @@ public:
     needs.symmetric = !contact.has_friction();
     needs.regional_rock = RegionalRock::of_uniform_strength;
     needs.random_rock = true;
+    needs.may_grow = parameters.growth;
     return needs;
   }
 

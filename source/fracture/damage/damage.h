@@ -31,6 +31,7 @@ public:
     needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
     needs.symmetric = !parameters.tensor_fluid && !(parameters.friction > 0.);
     needs.breaks_between_steps = true;
+    needs.may_grow = parameters.growth;
     return needs;
   }
 

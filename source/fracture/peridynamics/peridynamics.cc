@@ -82,6 +82,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.symmetric = false;
   requirements.pore_pressure = requirements.fluid_in_pores = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
+  requirements.may_grow = parameters.growth;
   requirements.regional_rock = RegionalRock::none;
   return requirements;
 }

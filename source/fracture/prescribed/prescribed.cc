@@ -60,6 +60,7 @@ public:
     Requirements needs;
     needs.symmetric = !contact.has_friction();
     needs.random_rock = true;
+    needs.may_grow = false;
     return needs;
   }
 
