@@ -236,8 +236,7 @@ std::vector<ReferenceSource<dim>> sources_in_rock(const Network<dim> &network,
   {
     ReferenceSource<dim> source{well.number,          well.points,           well.fraction,
                                 well.borehole_radius, well.minimum_pressure, {}};
-    const bool is_in_pieces = std::isfinite(well.rate.maximum());
-    for (double t = control.start_time; is_in_pieces && t < control.end_time;)
+    for (double t = control.start_time; well.rate.is_in_pieces() && t < control.end_time;)
     {
       const double next = std::min(well.rate.next_jump(t), control.end_time);
       source.rates.emplace_back(t, well.rate(next, next)); // a piece holds until its end
@@ -264,7 +263,7 @@ ReferenceInput<dim> reference_input(ParameterHandler &prm, const Case<dim> &the_
       input.discs.push_back(*crack.disc);
   }
   input.injection_rate = the_case.network.rate_of_first_well(the_case.control.end_time);
-  input.rate_is_constant = std::isinf(the_case.network.next_jump(the_case.control.start_time));
+  input.rate_is_constant = wells_are_constant(the_case);
   input.n_wells = the_case.network.n_wells();
   input.sources = sources_in_rock(the_case.network, the_case.control);
   if (the_case.network.has_wells())
@@ -397,7 +396,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
 
   reference = make_reference<dim>(prm, reference_input(prm, *this));
   starts_from_reference = stockwork::starts_from_reference(prm);
-  check_random_rock(prm, *this);
+  check_random_rock(prm, *this, warnings);
   check_reference(prm, *this, warnings);
   audits_energy = !coupling.restarts() && can_audit_energy(*this);
   if (const std::string &entry = boundary_conditions.entry_with_reference(); !entry.empty())

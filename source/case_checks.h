@@ -48,7 +48,9 @@ void check_permeability(dealii::ParameterHandler &prm, const Case<dim> &the_case
 
 /// Rock that varies from place to place, where somebody takes it for uniform.
 template <int dim>
-void check_random_rock(dealii::ParameterHandler &prm, const Case<dim> &the_case);
+void check_random_rock(dealii::ParameterHandler &prm,
+                       const Case<dim> &the_case,
+                       std::vector<std::string> &warnings);
 
 /// What a reference solution cannot be of; @p warnings gets what it will not be near to.
 template <int dim>

@@ -94,8 +94,19 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
   }
 
   if (outcome.leaked > 0.)
-    assumptions.push_back(
-      {"leak-off: leaked / injected", outcome.leaked / outcome.injected, true, "as modelled"});
+  {
+    std::string estimate;
+    if constexpr (dim == 2)
+      if (const Pumping pumping = first_pumping(the_case);
+          is_driven_on(the_case) && !pumping.is_shut_in)
+        estimate =
+          "; the estimate before the run was " +
+          per_cent(1. - analytical::leaking_kgd(plane_fracture(the_case, pumping),
+                                                leak_off_coefficient(the_case), pumping.duration)
+                          .efficiency);
+    assumptions.push_back({"leak-off: leaked / injected", outcome.leaked / outcome.injected, true,
+                           "as modelled" + estimate});
+  }
   else if (!the_case.elements.has_pore_pressure && the_case.rock.bulk_model() == "auto" &&
            rock.permeability > 0.)
   {

@@ -103,11 +103,31 @@ double rayleigh_speed(const RockProperties &rock)
 }
 
 
+namespace
+{
+/// Of a rate that changes all the time: its mean over the run.
+template <int dim>
+Pumping all_pumping(const Case<dim> &the_case)
+{
+  constexpr unsigned int samples = 1000;
+  Pumping pumping;
+  pumping.duration = duration_of(the_case);
+  for (unsigned int i = 0; i < samples; ++i)
+    pumping.rate += the_case.network.rate_of_first_well(the_case.control.start_time +
+                                                        (i + 0.5) / samples * pumping.duration) /
+                    samples;
+  return pumping;
+}
+} // namespace
+
+
 template <int dim>
 Pumping first_pumping(const Case<dim> &the_case)
 {
   const Network<dim> &network = the_case.network;
   const StepControl &control = the_case.control;
+  if (!network.wells_are_in_pieces())
+    return all_pumping(the_case);
   Pumping pumping;
   double volume = 0., start = control.start_time;
   for (double t = control.start_time; t < control.end_time && !pumping.is_shut_in;)
@@ -127,6 +147,14 @@ Pumping first_pumping(const Case<dim> &the_case)
   if (volume > 0.)
     pumping.rate = volume / pumping.duration;
   return pumping;
+}
+
+
+template <int dim>
+bool wells_are_constant(const Case<dim> &the_case)
+{
+  return the_case.network.wells_are_in_pieces() &&
+         std::isinf(the_case.network.next_jump(the_case.control.start_time));
 }
 
 
@@ -223,6 +251,8 @@ template Pumping first_pumping<2>(const Case<2> &);
 template Pumping first_pumping<3>(const Case<3> &);
 template double pressure_diffusivity<2>(const Case<2> &, types::material_id);
 template double pressure_diffusivity<3>(const Case<3> &, types::material_id);
+template bool wells_are_constant<2>(const Case<2> &);
+template bool wells_are_constant<3>(const Case<3> &);
 template double half_length_at_start<2>(const Case<2> &);
 template double half_length_at_start<3>(const Case<3> &);
 template bool is_driven_on<2>(const Case<2> &);

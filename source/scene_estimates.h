@@ -59,6 +59,10 @@ struct Pumping
 template <int dim>
 Pumping first_pumping(const Case<dim> &the_case);
 
+/// Whether what the wells are given does not change in time.
+template <int dim>
+bool wells_are_constant(const Case<dim> &the_case);
+
 /// Of the first crack, as the deck's law of leak-off has it. Where the flow in the rock is
 /// resolved, and in one dimension: C = (p_f - p_0) sqrt(k S/(pi mu)), with S of rock that is held
 /// sideways (Howard & Fast 1957).

@@ -268,6 +268,16 @@ public:
     return all_wells.size();
   }
 
+  bool has_borehole_volume() const
+  {
+    return all_wells.have_volume();
+  }
+
+  bool wells_are_in_pieces() const
+  {
+    return all_wells.are_in_pieces();
+  }
+
   double rate_of_first_well(double t) const
   {
     return all_wells.first_rate(t);

@@ -156,6 +156,11 @@ double TimeHistory::minimum() const
                     : *std::min_element(values.begin(), values.end());
 }
 
+bool TimeHistory::is_in_pieces() const
+{
+  return !expression;
+}
+
 double TimeHistory::maximum() const
 {
   return expression ? std::numeric_limits<double>::infinity()

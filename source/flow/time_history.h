@@ -43,6 +43,9 @@ public:
   /// The greatest magnitude; of an expression, the greatest found at powers of ten of time.
   double magnitude() const;
 
+  /// Whether it is constant between its jumps: an expression is not taken to be.
+  bool is_in_pieces() const;
+
   /// The least value; of an expression, unknown: minus infinity.
   double minimum() const;
 

@@ -580,6 +580,21 @@ double Wells<dim>::next_jump(const double t) const
 
 
 template <int dim>
+bool Wells<dim>::have_volume() const
+{
+  return std::any_of(wells.begin(), wells.end(), [](const Well &well) { return well.volume > 0.; });
+}
+
+
+template <int dim>
+bool Wells<dim>::are_in_pieces() const
+{
+  return std::all_of(wells.begin(), wells.end(),
+                     [](const Well &well) { return well.value.is_in_pieces(); });
+}
+
+
+template <int dim>
 bool Wells<dim>::starts_at(const double t) const
 {
   return std::any_of(wells.begin(), wells.end(),

@@ -177,6 +177,12 @@ public:
   /// The next time after t at which a rate or pressure jumps.
   double next_jump(double t) const;
 
+  /// Whether a borehole stores fluid.
+  bool have_volume() const;
+
+  /// Whether all rates and pressures are constant between jumps.
+  bool are_in_pieces() const;
+
   /// Whether a well that has rested until this time begins to inject at a given rate.
   bool starts_at(double t) const;
 

@@ -67,9 +67,11 @@ std::string in_words(const Candidate &candidate)
 {
   std::ostringstream text;
   text << std::setprecision(2) << candidate.model << ", " << candidate.resolution << ": "
-       << 100. * candidate.promise.row.error << " % and about " << candidate.promise.seconds
-       << " s by " << candidate.promise.row.deck << ", which has " << std::setprecision(3)
-       << candidate.promise.row.cells << " cells in its half length; here are " << candidate.cells;
+       << 100. * candidate.promise.row.error << " % by " << candidate.promise.row.deck
+       << ", which has " << std::setprecision(3) << candidate.promise.row.cells
+       << " cells in its half length, and about " << std::setprecision(2)
+       << candidate.promise.seconds << " s with its mesh; here are " << std::setprecision(3)
+       << candidate.cells << " cells";
   return text.str();
 }
 
@@ -151,8 +153,8 @@ public:
     if (candidates.empty())
     {
       std::ostringstream allowed;
-      allowed << "an accuracy that a chart promises, which " << 100. * accuracy
-              << " % ('Accuracy') is not, or " << or_by_name() << remarks_by_model();
+      allowed << "cells and an 'Accuracy' for which a chart promises something, which these and "
+              << 100. * accuracy << " % are not, or " << or_by_name() << remarks_by_model();
       refuse(allowed.str());
     }
     std::sort(candidates.begin(), candidates.end(),
@@ -251,7 +253,7 @@ private:
       ParameterHandler prm;
       declare_all_parameters(prm, plug_ins);
       its.parse_into(prm);
-      if (const std::string own = own_setting(prm, model); !own.empty())
+      if (const std::string own = own_setting(prm, model) + own_elements(prm, model); !own.empty())
       {
         remark(resolution + " has '" + own + "', which is in no chart");
         return std::nullopt;
@@ -290,6 +292,16 @@ private:
           entry.value != entry.default_value)
         return entry.path() + " = " + entry.value;
     return "";
+  }
+
+  /// Other elements than the charts', which are those of the model's part or the program's.
+  static std::string own_elements(ParameterHandler &prm, const std::string &model)
+  {
+    const std::string elements = value_of(prm, {"Discretisation"}, "Elements"),
+                      charted = Deck::read(part_of(model).string())
+                                  .peek("Discretisation/Elements")
+                                  .value_or("Q2-Q1");
+    return elements == charted ? "" : "Discretisation/Elements = " + elements;
   }
 
   /// A message from "; allowed is ..." on, for entry and value are known here.

@@ -32,6 +32,11 @@ constexpr double far_walls = dim == 2 ? 10. : 5.;
 /// hangs no more on the other.
 constexpr double viscous = 1., tough = 4.;
 
+/// A minimum aperture of a twentieth of what the fracture opens by at its inlet changes no error of
+/// a chart (kgd/toughness: a tenth, kgd/viscosity: a fortieth); a quarter changes the length by 25
+/// %.
+constexpr double greatest_minimum_aperture = 0.05;
+
 /// Estimates of the dimensionless toughness and of the share leaked may be off by this share.
 constexpr double margin = 0.15;
 
@@ -56,6 +61,8 @@ std::string beyond_charts(const Case<dim> &the_case)
     return "there are several wells";
   if (!(the_case.rock.main().energy_release_rate > 0.))
     return "the rock has no toughness";
+  if (the_case.rock.main().poisson_ratio > 0.4)
+    return "Poisson's ratio is above 0.4, where cells begin to lock";
   if (!the_case.walls_follow_reference)
   {
     // Charts are of cracks in a wide body that nothing but the stress in situ loads.
@@ -182,6 +189,14 @@ std::string beyond_growing(const Case<dim> &the_case)
   const Pumping pumping = first_pumping(the_case);
   if (!(pumping.rate > 0.) || pumping.is_shut_in || the_case.network.maximum_pressure())
     return "no well pumps at a given rate until the end";
+  if (!wells_are_constant(the_case))
+    return "the well's rate changes in time";
+  if (the_case.network.has_borehole_volume())
+    return "the well has a 'Borehole volume'";
+  if (the_case.network.may_cavitate())
+    return "the fluid may cavitate ('Fracture flow/Vapour pressure')";
+  if (half_length_at_start(the_case) > 0.5 * half_length_at_end(the_case))
+    return "the crack is more than half as long as its fracture would be at the end";
   if (!std::isnan(the_case.rock.main().tensile_strength))
     return "the deck gives a tensile strength, and charts are of those that models take for their "
            "cells";
@@ -209,6 +224,16 @@ SceneKind kind_of_growing(const Charts &charts, const Case<2> &the_case, const b
   if (turned && law != LeakOff::none)
     return nobodys("there is no chart for leak-off at an angle to the mesh");
   const analytical::KgdParameters parameters = plane_fracture(the_case, pumping);
+  const analytical::Kgd kgd(parameters);
+  const double opening = kgd.inlet_opening(pumping.duration);
+  if (the_case.network.smallest_hydraulic_aperture() > greatest_minimum_aperture * opening)
+    return nobodys(
+      "'Fracture flow/Minimum aperture' is more than a twentieth of what the fracture opens by, " +
+      to_string(opening, dimension::length));
+  if (kgd.inlet_pressure(pumping.duration) * the_case.rock.fluid().compressibility > 0.01)
+    return nobodys("the net pressure compresses the fluid by more than 1 % ('Fluid/Bulk modulus')");
+  if (parameters.dimensionless_toughness() < 1. && the_case.scheme.kind() != TimeScheme::Kind::bdf2)
+    return nobodys("viscosity dominates, and charts of that are with 'Time/Scheme = BDF2'");
   const double leaked =
     1. - analytical::leaking_kgd(parameters, leak_off_coefficient(the_case), pumping.duration)
            .efficiency;

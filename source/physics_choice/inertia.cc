@@ -44,6 +44,8 @@ std::string why_waves_matter(const Case<dim> &the_case)
     return "pore pressures or fluxes on the boundary change in time";
   if (the_case.network.maximum_pressure())
     return "a well with a given pressure acts at once";
+  if (!the_case.network.wells_are_in_pieces())
+    return "a well's rate is an expression, and nothing tells how fast it changes";
   if (!is_cracked(the_case))
     return "";
   if (!std::isnan(the_case.scene.crack_pressure))

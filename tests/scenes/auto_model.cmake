@@ -21,11 +21,14 @@ stockwork_choice_said_test(model_given "Fracture/Model = cohesive_xfem, Resoluti
 stockwork_choice_said_test(resolution_given "Fracture/Model = damage, Resolution = medium" --set Resolution=medium)
 # Where viscosity dominates, bonds fail: never them. In between both neighbours have to promise.
 stockwork_choice_said_test(viscous "Fracture/Model = cohesive_xfem, Resolution = coarse.*shown failing: 'peridynamics .kgd/viscosity.'"
+  --set "Rock/Fracture toughness=0.01 MPa m^0.5" --set "Fluid/Viscosity=1e-3 Pa s" --set Time/Scheme=BDF2)
+stockwork_choice_test(viscous_first_order 1 "charts of that are with 'Time/Scheme = BDF2'"
   --set "Rock/Fracture toughness=0.01 MPa m^0.5" --set "Fluid/Viscosity=1e-3 Pa s")
 stockwork_choice_said_test(between "the charts of 'growing' with K_m = 2 to 2.2 and 'growing' with K_m = 7.2" --set "Fluid/Viscosity=1e-5 Pa s"
   --set "Accuracy=4 %")
 stockwork_choice_test(bonds_in_viscous_fluid 1 "charts of this kind of scene show doing well, which 'peridynamics' is not"
-  --set "Fracture/Model=peridynamics" --set "Rock/Fracture toughness=0.01 MPa m^0.5" --set "Fluid/Viscosity=1e-3 Pa s")
+  --set "Fracture/Model=peridynamics" --set "Rock/Fracture toughness=0.01 MPa m^0.5" --set "Fluid/Viscosity=1e-3 Pa s"
+  --set Time/Scheme=BDF2)
 # What no chart covers.
 stockwork_choice_test(too_accurate 1 "not cohesive_xfem: coarse promises 1.1 %"
   --set "Accuracy=0.01 %")
@@ -41,6 +44,15 @@ stockwork_choice_test(loaded 1 "there are loads on the boundary" --set "Boundary
 stockwork_choice_test(walls 1 "the walls are nearer" --set "Mesh/Box/Lower corner=0, -32 m" --set "Mesh/Box/Upper corner=32 m, 32 m")
 stockwork_choice_said_test(held "Fracture/Model = cohesive_xfem, .*not damage: coarse has 'Fracture/damage/Growth = false'"
   --set "Fracture/damage/Growth=false")
+stockwork_choice_said_test(other_elements "not cohesive_xfem: coarse has 'Discretisation/Elements = Q1-Q1'"
+  --set "Discretisation/Elements=Q1-Q1")
+stockwork_choice_test(wide_at_least 1 "is more than a twentieth of what the fracture opens by" --set "Fracture flow/Minimum aperture=0.1 mm")
+stockwork_choice_test(incompressible 1 "Poisson's ratio is above 0.4" --set "Rock/Poisson ratio=0.45")
+stockwork_choice_test(long_crack 1 "more than half as long as its fracture would be" --set "Cracks/Open=0, 0 -> 19 m, 0")
+stockwork_choice_test(rate_of_an_expression 1 "the well's rate changes in time" --set Verification/Reference=none
+  --set "Wells/Well 1/Rate=f(t) = 1e-4*(1 + 0.9*sin(t))")
+stockwork_choice_test(cavitating 1 "the fluid may cavitate" --set "Fracture flow/Vapour pressure=-1 kPa")
+stockwork_choice_test(compressible 1 "the net pressure compresses the fluid" --set "Fluid/Bulk modulus=1 MPa")
 stockwork_choice_test(moving 1 "inertia is on" --set "Time/Inertia=on" --set "Rock/Density=2500")
 
 # More leaks off than in any chart.
