@@ -22,6 +22,8 @@ def error_against_cost(rows, error, label, styles):
     for ax, (cost, cost_label) in zip(axes, COSTS):
         accuracy(ax, rows, error, cost, styles)
         ax.set_xlabel(cost_label)
+        few_decades(ax.xaxis)
+    few_decades(axes[1].yaxis)  # that of both
     axes[0].set_ylabel(label)
     return legend_below(figure)
 
@@ -38,6 +40,8 @@ def all_cases(cases, styles):
         ax.set_title(case, fontsize=9)
         ax.set_xlabel("CPU time [s]")
         ax.set_ylabel(label)
+        few_decades(ax.xaxis)
+        few_decades(ax.yaxis)
     return legend_below(figure)
 
 
@@ -68,8 +72,6 @@ def accuracy(ax, rows, error, cost, styles):
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.margins(0.12)
-    for axis in (ax.xaxis, ax.yaxis):
-        few_decades(axis)
 
 
 def few_decades(axis):
@@ -80,7 +82,7 @@ def few_decades(axis):
     shown = [n for n in numbers if first <= n <= last]
     if last > 300. * first:
         shown = [n for n in shown if math.log10(n) % 1 < 1e-9]
-    axis.set_view_interval(first, last, ignore=True)
+    axis.axes.set(**{axis.axis_name + "lim": (first, last)})
     axis.set_major_locator(FixedLocator(shown))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))

@@ -25,7 +25,7 @@ sys.path[:0] = [CONTRIB]
 import pandas  # noqa: E402
 
 from results import ResultError  # noqa: E402
-from study import cost, difference, estimate, matrix, study_file  # noqa: E402
+from study import charts, cost, difference, estimate, fields, look, matrix, study_file  # noqa: E402
 from study.command import main  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.exists(sys.argv[1]) else None
@@ -280,6 +280,28 @@ class StandIn(InADirectory):
 
 
 class Parts(unittest.TestCase):
+    def test_axes_that_are_shared(self):
+        """Both panels of error against cost have one scale, though the right one has more points; numbers are outside."""
+        rows = pandas.DataFrame({"status": ["finished"] * 3, "curve": ["a"] * 3, "resolution": ["coarse"] * 3,
+                                 "cpu_seconds": [1., 8., None], "unknowns": [1e3, 1e4, 1e5], "error": [0.08, 0.02, 1e-5]})
+        figure = charts.error_against_cost(rows, "error", "error [%]", {"a": {"marker": "o", "linestyle": "-", "color": "k"}})
+        left, right = figure.axes
+        self.assertEqual(left.get_ylim(), right.get_ylim())
+        self.assertLessEqual(left.get_ylim()[0], 1e-3)
+        self.assertGreaterEqual(left.get_ylim()[1], 8.)
+        look.plt.close(figure)
+        figure, axes = look.plt.subplots(2, 3, sharex=True, sharey=True)
+        axes[1, 2].remove()
+        fields.numbers_outside(axes)
+        figure.canvas.draw()
+        for (line, column), ax in [((i, j), axes[i, j]) for i in (0, 1) for j in (0, 1, 2) if (i, j) != (1, 2)]:
+            last = line == 1 or column == 2
+            self.assertEqual([bool(ax.get_xlabel()), any(t.get_visible() and t.get_text() for t in ax.get_xticklabels())],
+                             [last, last])
+            self.assertEqual([bool(ax.get_ylabel()), any(t.get_visible() and t.get_text() for t in ax.get_yticklabels())],
+                             [column == 0, column == 0])
+        look.plt.close(figure)
+
     def test_matrix(self):
         block = study_file.Block(["mandel", "column/rod"], ["none", "peridynamics"], ["coarse", "fine"], [1, 2],
                                  {"Coupling/Scheme": ["monolithic", "undrained"], "Time/Initial step": ["1"]})
