@@ -42,17 +42,35 @@ def compare(options):
 def run_study(options, study):
     from study.campaign import run_jobs
     from study.matrix import jobs
+    from study.place import held
     from study.record import write_about
     output = os.path.abspath(options.output or os.path.join("studies", study.name))
     planned = jobs(study)
-    records = run_jobs(planned, options, output)
-    if records is None:  # only the estimate was asked for
+    check_quantities(study, planned, output)
+    if options.estimate:
+        run_jobs(planned, options, output)
         return 0
     title = study.title or study.name
-    write_about(output, {"title": title, "text": study.text, "quantities": study.quantities, "map": study.map})
-    show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), title, study.text,
-         study.quantities, study.map, options)
+    with held(output):
+        records = run_jobs(planned, options, output, lambda: write_about(output, {
+            "title": title, "text": study.text, "quantities": study.quantities, "map": study.map,
+            "runs": [{"name": job.name, **job.about()} for job in planned]}))
+        show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), title, study.text,
+             study.quantities, study.map, options)
     return 1 if any(record["status"] == "failed" for record in records) else 0
+
+
+def check_quantities(study, planned, output):
+    """Refuses those of which it is known that no run will have them: each case has had a run, and none has."""
+    from study.collect import results
+    from study.record import read
+    from study.verdict import missing, table
+    ended = {job.case: os.path.join(output, job.name) for job in planned
+             if (read(os.path.join(output, job.name)) or {}).get("status") == "finished"}
+    if study.quantities and set(ended) == {job.case for job in planned}:
+        text = missing(table(results(list(ended.values()))), study.quantities)
+        if text:
+            raise ResultError(text)
 
 
 def report(options):
@@ -75,10 +93,9 @@ def show(directories, folder, title, text, quantities, chosen, options):
     if options.into:
         markdown.write(found, rows, options.into.removesuffix(".md"), title, text, quantities)
     print(verdict.by_case(rows, quantities, verdict.plain) + "\n\n" + path)
-    there = [c[len("error_end_"):] for c in rows.columns if c.startswith("error_end_")]
-    missing = [name for name in quantities if name not in there]
-    if missing and there:
-        raise ResultError(f"no run has an error of '{missing[0]}'; there is: {', '.join(there)}")
+    text = verdict.missing(rows, quantities)
+    if text:
+        raise ResultError(text)
 
 
 def main():
