@@ -67,7 +67,7 @@ def refusal(refused, number):
     names = {}
     for name, reason in refused.items():
         names.setdefault(reason, []).append(name)
-    text = f"the program refuses {'all' if len(refused) == number else len(refused)} of {number} runs:"
+    text = f"the program refuses {f'all {number}' if len(refused) == number else f'{len(refused)} of {number}'} runs:"
     for reason, its in list(names.items())[:REASONS]:
         text += f"\n  {reason} ({its[0]}" + (f" and {len(its) - 1} more)" if len(its) > 1 else ")")
     return text + (f"\n  and for {len(names) - REASONS} reasons more" if len(names) > REASONS else "")

@@ -17,6 +17,8 @@ from study.cores import busy_seconds
 MPIRUN = "mpirun --allow-run-as-root --oversubscribe --bind-to none -np"
 THREADS = dict(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", DEAL_II_NUM_THREADS="1")
 
+BELOW = "    "    # what begins a line that belongs to the one above
+
 
 class Runner:
     def __init__(self, program, output, cores, progress):
@@ -130,7 +132,8 @@ def why(directory, status):
 
 
 def said(text):
-    """What the program has said last: its error, or the last line."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    first = next((i for i, line in enumerate(lines) if line.startswith("Error")), len(lines) - 1)
-    return " ".join(lines[first:][:6])
+    """What the program has said last: its error, or the last line, with the line that it belongs to if it stands below one."""
+    lines = [line.rstrip() for line in text.splitlines() if line.strip()]
+    last = next((i for i in range(len(lines) - 1, 0, -1) if not lines[i].startswith(BELOW)), 0)
+    first = next((i for i, line in enumerate(lines) if line.startswith("Error")), last)
+    return " ".join(line.strip() for line in lines[first:][:6])

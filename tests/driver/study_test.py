@@ -38,7 +38,7 @@ deck = open(sys.argv[1]).read().split()[0]
 settings = dict(a.split("=", 1) for a in sys.argv if "=" in a)
 h = {"coarse": 1., "medium": 0.5, "auto": 0.5}[settings.get("Resolution", "coarse")]
 if "Rock/Yung modulus" in settings:
-    print("command line: there is no entry 'Rock/Yung modulus'")
+    print("  an audit\\ncommand line: there is no entry 'Rock/Yung modulus'\\n    there is: 'Young modulus'")
     sys.exit(1)
 if "--check" in sys.argv:
     print("Scene audit\\n  a number  7  decides\\n about 5 steps would take 2 s on one core")
@@ -392,7 +392,7 @@ class StandIn(InADirectory):
         wrong = self.study("good.prm", set={"Rock/Yung modulus": ["1 GPa", "2 GPa"]})
         for more in ((), ("--estimate",)):
             text = self.call("run", wrong, "--program", self.program, "--output", "out", *more, status=1)
-            self.assertIn("the program refuses all of 2 runs:\n  command line: there is no entry 'Rock/Yung modulus' (", text)
+            self.assertIn("the program refuses all 2 runs:\n  command line: there is no entry 'Rock/Yung modulus' there is: 'Young modulus' (", text)
             self.assertFalse(os.path.exists("started"))
         some = self.study("good.prm", runs=[{}, {"set": {"Rock/Yung modulus": 1}}])
         self.assertIn("refuses 1 of 2 runs", self.call("run", some, "--program", self.program, "--output", "out", "--estimate",
