@@ -46,8 +46,8 @@ def all_cases(cases, styles):
 
 
 def accuracy(ax, rows, error, cost, styles):
-    """One line per model and variant, larger marks where the mesh is finer; the Pareto front, and the cheapest for each
-    accuracy wanted."""
+    """One line per model and variant, larger marks where the mesh is finer; where all solve one problem, the Pareto front, and
+    the cheapest for each accuracy wanted."""
     for curve, of_curve in rows.groupby("curve", sort=False):
         there = sorted(points(of_curve, cost, error), key=lambda p: p[0])
         line = {k: v for k, v in styles[curve].items() if k != "marker"}
@@ -57,12 +57,13 @@ def accuracy(ax, rows, error, cost, styles):
             ax.plot([], [], label=curve, lw=1.2, ms=5, **styles[curve])
         for x, y, row in there:
             ax.plot(x, 100 * y, ms=MARK_SIZES.get(row["resolution"], 5), linestyle="", **mark)
-    best = front(points(rows, cost, error))
+    one_problem = rows["problem"].nunique() <= 1
+    best = front(points(rows, cost, error)) if one_problem else []
     if len(best) > 1:
         ax.plot([p[0] for p in best], [100 * p[1] for p in best], color="0.85", lw=6, zorder=0,
                 solid_capstyle="round", label="Pareto front")
     marked = {}
-    for wanted, point in cheapest(rows, error, cost):
+    for wanted, point in cheapest(rows, error, cost) if one_problem else []:
         if point:
             marked.setdefault(point[:2], []).append(f"{100 * wanted:g}")
     for (x, y), texts in marked.items():

@@ -61,14 +61,21 @@ def run_study(options, study):
 
 
 def check_quantities(study, planned, output):
-    """Refuses those of which it is known that no run will have them: each case has had a run, and none has."""
+    """Refuse those of which it is known that no run will have them: each model has finished a run of each case, and none has
+    them."""
     from study.collect import results
+    from study.difference import QUANTITIES
     from study.record import read
     from study.verdict import missing, table
-    ended = {job.case: os.path.join(output, job.name) for job in planned
-             if (read(os.path.join(output, job.name)) or {}).get("status") == "finished"}
-    if study.quantities and set(ended) == {job.case for job in planned}:
-        text = missing(table(results(list(ended.values()))), study.quantities)
+
+    def kind(job):
+        return job.case, job.model, *(value for entry, value in job.set if entry in ("Fracture/Model", "Verification/Reference"))
+    possible = [job for job in planned if job.deck]
+    ended = [job for job in possible if (read(os.path.join(output, job.name)) or {}).get("status") == "finished"]
+    if study.quantities and ended and {kind(job) for job in ended} == {kind(job) for job in possible}:
+        rows = table(results([os.path.join(output, job.name) for job in ended]))
+        wanted = [name for name in study.quantities if not rows["differs"].any() or name not in QUANTITIES]
+        text = missing(rows, wanted)
         if text:
             raise ResultError(text)
 

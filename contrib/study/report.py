@@ -134,10 +134,14 @@ def cost(page, rows, wanted, look):
             page.picture(file_name(case, "cost", error[len("error_mean_"):]), figure,
                          f"{case}: mean {what} of {name} against CPU time and unknowns. " + CHART)
         error, name = columns[0]
-        page.text(f"The cheapest setting for a mean {what} of {name}:")
-        page.table(["wanted [%]", "setting", f"{what} [%]", "CPU [s]", "unknowns"],
-                   [[f"{100 * w:g}", *(setting(best) if best else ["none of these runs", "", "", ""])]
-                    for w, best in cheapest(here, error)])
+        if here["problem"].nunique() > 1:
+            page.text(f"These runs solve {here['problem'].nunique()} physical problems: the cheapest setting is that of one, and is "
+                      "not told.")
+        else:
+            page.text(f"The cheapest setting for a mean {what} of {name}:")
+            page.table(["wanted [%]", "setting", f"{what} [%]", "CPU [s]", "unknowns"],
+                       [[f"{100 * w:g}", *(setting(best) if best else ["none of these runs", "", "", ""])]
+                        for w, best in cheapest(here, error)])
         found = [[curve, f"{a['asked']} → {b['asked']}", *order]
                  for curve, pairs in orders(here, error).items()
                  for (a, b, _), order in zip(pairs, zip(*(orders_of(here, e, curve) for e, _ in columns)))]

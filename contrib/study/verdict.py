@@ -5,6 +5,7 @@ import pandas
 
 from study.collect import NOT_RUN
 from study.difference import differences
+from study.problem import problems
 
 # An error below this is that of the arithmetic, or of a quantity that is imposed.
 IMPOSED = 1e-9
@@ -30,15 +31,18 @@ def table(results):
     rows = []
     for case in dict.fromkeys(r.case for r in results):
         here = [r for r in results if r.case == case]
+        number = {r.directory: i for i, group in enumerate(problems([r for r in here if r.status == "finished"]))
+                  for r in group}
         errors = {r.directory: r.summary.get("errors") or {} for r in here}
         if any(errors.values()):
-            rows += [row(r, errors[r.directory], reference(errors[r.directory])) for r in here]
+            rows += [row(r, errors[r.directory], reference(errors[r.directory]), number) for r in here]
             continue
         found = differences(here)
         for r in here:
             its, base, until = found.get(r.directory, ({}, None, None))
             alone = NO_OTHER if r.status == "finished" else ""
-            rows.append(row(r, its, alone if base is None else STANDS_IN if base is r else base.label, True, until))
+            rows.append(row(r, its, alone if base is None else STANDS_IN if base is r else base.label, number,
+                            True, until))
     return pandas.DataFrame(rows)
 
 
@@ -46,11 +50,12 @@ def reference(errors):
     return next((e["reference"] for e in errors.values() if e.get("reference")), "")
 
 
-def row(result, errors, against, differs=False, until=None):
+def row(result, errors, against, number, differs=False, until=None):
     summary, record = result.summary, result.record
     cells = {"case": result.case, "model": result.model, "variant": result.variant, "resolution": result.resolution,
              "asked": result.asked, "ranks": result.ranks, "status": result.status, "reason": result.reason,
              "curve": result.curve, "label": result.label, "against": against, "differs": differs, "until": until,
+             "problem": number.get(result.directory),
              "unknowns": summary.get("unknowns"), "cells": summary.get("cells"), "cell_size": cell_size(result),
              "reached": (summary.get("final") or {}).get("time"), "steps": summary.get("steps"), "rejected": summary.get("rejected_steps"),
              "nonlinear": summary.get("nonlinear_iterations"), "linear": summary.get("linear_iterations"),

@@ -313,6 +313,7 @@ class StandIn(InADirectory):
         text = self.call("run", study, "--program", self.program, "--output", "out", status=0)
         self.assertRegex(text, r"Young modulus 10 GPa +coarse +finished +4.8 \(2.9\) +good, Young modulus 10 GPa, medium")
         self.assertRegex(text, r"Young modulus 10 GPa +medium +finished +stands in")
+        self.assertIn("These runs solve 2 physical problems", self.page("out/report")[0])
         self.assertRegex(text, r"Young modulus 20 GPa +coarse +finished +4.8 \(2.9\) +good, Young modulus 20 GPa, medium")
         study = self.study("good.prm", set={"Rock/Young modulus": ["10 GPa", "20 GPa"], "No reference": "true"})
         self.call("run", study, "--program", self.program, "--output", "alone", status=0)
@@ -407,6 +408,10 @@ class StandIn(InADirectory):
         self.assertIn("no run has an error of &#x27;lenght&#x27;; there is: inlet_aperture", self.page("out/report")[0])
         self.assertIn("'lenght'", self.call(*command, "--again", "all", status=1))  # now it is known before
         self.assertEqual(self.started(), ["good"])
+        # A model that has not run yet may have it.
+        self.study("good.prm", "bad.prm", quantities=["lenght"])
+        self.call(*command, status=1)
+        self.assertEqual(self.started(), ["good", "bad"])
 
     def test_what_has_not_run_is_listed(self):
         self.call("run", self.study("good.prm", resolutions=["coarse", "medium"]), "--program", self.program, "--output", "out",
@@ -436,7 +441,7 @@ class StandIn(InADirectory):
 class Parts(unittest.TestCase):
     def test_axes_that_are_shared(self):
         """Both panels of error against cost have one scale, though the right one has more points; numbers are outside."""
-        rows = pandas.DataFrame({"status": ["finished"] * 3, "curve": ["a"] * 3, "resolution": ["coarse"] * 3,
+        rows = pandas.DataFrame({"status": ["finished"] * 3, "curve": ["a"] * 3, "resolution": ["coarse"] * 3, "problem": [0] * 3,
                                  "cpu_seconds": [1., 8., None], "unknowns": [1e3, 1e4, 1e5], "error": [0.08, 0.02, 1e-5]})
         figure = charts.error_against_cost(rows, "error", "error [%]", {"a": {"marker": "o", "linestyle": "-", "color": "k"}})
         left, right = figure.axes
