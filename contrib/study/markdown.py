@@ -2,7 +2,7 @@
 import os
 
 from study import report, verdict
-from study.collect import RESOLUTIONS
+from study.collect import NOT_RUN, RESOLUTIONS
 from study.estimate import in_time
 from study.look import plt, styles
 from study.place import folder
@@ -41,6 +41,7 @@ def made(results, rows):
     versions = sorted({f"Stockwork {s.get('version', '')} with deal.II {s.get('dealii_version', '')}, {s.get('machine', '')}, "
                        f"{s.get('date', '')[:10]}" for s in (r.summary for r in results) if s})
     failed = (rows["status"] == "failed").sum()
-    return (f"{len(rows)} runs{done and f' ({done})'}, {failed} of them failed; {in_time(rows['cpu_seconds'].sum())} of the "
-            f"processor in all. {'; '.join(versions)}. Errors are relative, at the end and, in brackets, on average over the "
-            f"history. {verdict.ALONE}")
+    absent = (rows["status"] == NOT_RUN).sum()
+    counted = f"{len(rows)} runs{done and f' ({done})'}, {failed} of them failed{f', {absent} not run' if absent else ''}"
+    return (f"{counted}; {in_time(rows['cpu_seconds'].sum())} of the processor in all. {'; '.join(versions)}. Errors are relative, at "
+            f"the end and, in brackets, on average over the history. {verdict.ALONE}")

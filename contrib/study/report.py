@@ -88,8 +88,8 @@ def table_of_runs(page, rows, wanted):
         page.heading(case)
         texts = verdict.shown(here, wanted).drop(columns=["case"])
         page.table(texts.columns, texts.values)
-        page.text(verdict.measured_against(here) + " Errors are relative, at the end and, in brackets, on average over the history. CPU: seconds of "
-                  "the processor on all ranks. " + verdict.ALONE, note=True)
+        page.text(verdict.measured_against(here) + " Errors are relative, at the end and, in brackets, on average over the "
+                  "history. CPU: seconds of the processor on all ranks. " + verdict.ALONE, note=True)
 
 
 def charted(rows, wanted):

@@ -7,7 +7,7 @@
 
     [[runs]]                               # as many as wanted; each is a product
     cases  = ["mandel", "column/rod"]      # prm/<case>/<model>.prm, or decks of one's own
-    models = ["none"]                      # none named: all that the case has a deck for
+    models = ["none"]                      # not given: all that the case has a deck for; not with decks of one's own
     ranks  = [1, 2]
     [runs.set]                             # --set, each entry with its values
     "Coupling/Scheme" = ["monolithic", "fixed stress"]

@@ -25,7 +25,7 @@ sys.path[:0] = [CONTRIB]
 import pandas  # noqa: E402
 
 from results import ResultError  # noqa: E402
-from study import charts, cost, difference, estimate, fields, look, matrix, names, study_file  # noqa: E402
+from study import charts, collect, cost, difference, estimate, fields, look, matrix, names, problem, study_file  # noqa: E402
 from study.command import main  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.exists(sys.argv[1]) else None
@@ -393,7 +393,8 @@ class StandIn(InADirectory):
         wrong = self.study("good.prm", set={"Rock/Yung modulus": ["1 GPa", "2 GPa"]})
         for more in ((), ("--estimate",)):
             text = self.call("run", wrong, "--program", self.program, "--output", "out", *more, status=1)
-            self.assertIn("the program refuses all 2 runs:\n  command line: there is no entry 'Rock/Yung modulus' there is: 'Young modulus' (", text)
+            self.assertIn("the program refuses all 2 runs:\n  command line: there is no entry 'Rock/Yung modulus' there is: "
+                          "'Young modulus' (", text)
             self.assertFalse(os.path.exists("started"))
         some = self.study("good.prm", runs=[{}, {"set": {"Rock/Yung modulus": 1}}])
         self.assertIn("refuses 1 of 2 runs", self.call("run", some, "--program", self.program, "--output", "out", "--estimate",
@@ -417,8 +418,10 @@ class StandIn(InADirectory):
         self.call("run", self.study("good.prm", resolutions=["coarse", "medium"]), "--program", self.program, "--output", "out",
                   status=0)
         os.remove("out/good/deck/as_in_the_deck/medium/run.json")  # as if it had been interrupted
-        text = self.call("report", "out", status=0)
+        text = self.call("report", "out", "--into", "page", status=0)
         self.assertRegex(text, r"medium +not run\n")
+        with open("page.md", encoding="utf-8") as file:
+            self.assertIn("2 runs (coarse, medium), 0 of them failed, 1 not run; ", file.read())
         self.assertEqual(pandas.read_csv("out/report/results.csv")["status"].tolist(), ["finished", "not run"])
         self.page("out/report")
 
@@ -439,6 +442,42 @@ class StandIn(InADirectory):
 
 
 class Parts(unittest.TestCase):
+    def test_what_makes_a_problem(self):
+        def run(settings, deck, model="damage", case="", resolution="coarse"):
+            record = {"settings": settings, "deck": case and f"prm/{case}/{model}.prm", "model": case and model}
+            return collect.Result("", case, model, resolution, 1, "finished", "", {}, record, deck)
+
+        def number(*runs):
+            return len(problem.problems(list(runs)))
+        for entry in ("Rock/Young modulus", "Rock/Region 1/Porosity", "Fluid/Viscosity", "In situ/Stress", "Cracks/Open",
+                      "Wells/Well 1/Rate", "Boundary conditions/Drained", "Fracture flow/Leak-off", "Time/End time"):
+            self.assertEqual(number(run([], {entry: "1"}), run([], {entry: "2"}, "peridynamics")), 2, entry)
+        for entry in ("Mesh/Box/X spacing", "Resolution", "Discretisation/Elements", "Linear solver/Type", "Coupling/Scheme",
+                      "Time/Scheme", "Time/Initial step", "Fracture/Model", "Fracture/damage/Cell size", "Title"):
+            self.assertEqual(number(run([], {entry: "1"}), run([], {entry: "2"})), 1, entry)
+        # Written in another way; the decks of a case, and what a study has set in them.
+        self.assertEqual(number(run([], {"Fluid/Viscosity": "1e-3 Pa s"}), run([], {"Fluid/Viscosity": "0.001  Pa s"})), 1)
+        soft, hard = {"Rock/Young modulus": "1 GPa"}, {"Rock/Young modulus": "2 GPa"}
+        self.assertEqual(number(run([], soft, case="rod"), run([], hard, "peridynamics", "rod")), 1)
+        self.assertEqual(number(run([], soft, case="rod"), run(["Rock/Young modulus=2 GPa"], hard, case="rod")), 2)
+        self.assertEqual(number(run([], soft, case="rod"), run([], hard, case="beam")), 2)
+        # Strength that decks choose by their cells, and strength that differs.
+        weak, strong = {"Rock/Tensile strength": "1 MPa"}, {"Rock/Tensile strength": "2 MPa"}
+        self.assertEqual(number(run([], weak), run([], strong, resolution="fine"), run([], {}, "peridynamics")), 1)
+        self.assertEqual(number(run([], weak), run([], strong)), 2)
+        self.assertEqual(number(run(["Rock/Tensile strength={1|2} MPa"], weak, case="a"), run(
+            ["Rock/Tensile strength={1|2} MPa"], strong, case="a", resolution="medium")), 1)
+
+    def test_names(self):
+        self.assertEqual(names.part("Young modulus 10 GPa, x"), "Young_modulus_10_GPa_x")
+        texts = ["..", ".", "", "/", "a/b", "a/../b", "../b", "x" * 400, "x" * 401, "é" * 200]
+        for name in map(names.part, texts):
+            self.assertRegex(name, r"^[^/]*[^./][^/]*$")
+            self.assertLess(len(name.encode()), 200)
+        self.assertEqual(len(set(map(names.part, texts))), len(texts))
+        self.assertEqual(names.of_decks(["/p/a/x.prm", "/p/b/x.prm", "/p/y.prm", "/q/b/x.prm"]),
+                         {"/p/a/x.prm": "a/x", "/p/b/x.prm": "p/b/x", "/p/y.prm": "y", "/q/b/x.prm": "q/b/x"})
+
     def test_axes_that_are_shared(self):
         """Both panels of error against cost have one scale, though the right one has more points; numbers are outside."""
         rows = pandas.DataFrame({"status": ["finished"] * 3, "curve": ["a"] * 3, "resolution": ["coarse"] * 3, "problem": [0] * 3,
