@@ -138,7 +138,7 @@ class InADirectory(unittest.TestCase):
         return text, found
 
 
-class StandIn(InADirectory):
+class WithStandIn(InADirectory):
     def setUp(self):
         super().setUp()
         self.program = self.file("program", STAND_IN, 0o755)
@@ -153,6 +153,18 @@ class StandIn(InADirectory):
         with open("started", encoding="utf-8") as file:
             return file.read().split()
 
+    def directory(self, name, deck="good.prm", *settings, status=0):
+        """A run that no study has made."""
+        os.makedirs(name)
+        sets = [a for setting in ("No reference=true", *settings) for a in ("--set", setting)]
+        done = subprocess.run([self.program, deck, "--output", name, *sets], check=False)
+        self.assertEqual(done.returncode, status)
+
+    def table(self, folder):
+        return pandas.read_csv(folder + "/results.csv").fillna("").set_index(["variant", "asked"])
+
+
+class Drawn(WithStandIn):
     def test_run_resumed_and_reported(self):
         study = self.study("good.prm", "bad.prm", resolutions=["coarse", "medium"])
         command = ("run", study, "--program", self.program, "--output", "out", "--cores", "1")
@@ -296,15 +308,32 @@ class StandIn(InADirectory):
         self.call("run", "nowhere", "--program", "nothing", status=2)
         self.call("run", "nowhere", "--cores", "0", status=2)
 
-    def directory(self, name, deck="good.prm", *settings, status=0):
-        """A run that no study has made."""
-        os.makedirs(name)
-        sets = [a for setting in ("No reference=true", *settings) for a in ("--set", setting)]
-        done = subprocess.run([self.program, deck, "--output", name, *sets], check=False)
-        self.assertEqual(done.returncode, status)
+    def test_rows_are_told_apart(self):
+        """A setting with one value in each product of runs is what differs."""
+        text = "".join(f'[[runs]]\ncases = ["good.prm"]\nset = {{ "Time/End time" = "{t} s", X = 1 }}\n' for t in (5, 20))
+        study = self.file("study.toml", text)
+        said = self.call("run", study, "--program", self.program, "--output", "out", status=0)
+        for variant in ("End time 5 s", "End time 20 s"):
+            self.assertRegex(said, rf"\ngood +{variant} +finished")
+            with open("out/report/good_history.svg", encoding="utf-8") as file:
+                self.assertIn(f"<!-- good, {variant} -->", file.read())
+        page = self.page("out/report")[0]
+        for time in ("5 s", "20 s"):  # what differs between the decks
+            self.assertIn(f"<tr><td>good, End time {time}</td><td>{time}</td></tr>", page)
+        study = self.study("good.prm", set={"Rock/Young modulus": "1 GPa", "Rock/Region 1/Young modulus": ["1 GPa", "2 GPa"]},
+                           runs=[{}, {"set": {"Rock/Young modulus": "2 GPa"}}])
+        self.call("run", study, "--program", self.program, "--output", "two", status=0)
+        self.assertEqual(self.table("two/report").index.nunique(), 4)
 
-    def table(self, folder):
-        return pandas.read_csv(folder + "/results.csv").fillna("").set_index(["variant", "asked"])
+
+class Undrawn(WithStandIn):
+    """Pages without their pictures, which are what takes time."""
+    def setUp(self):
+        super().setUp()
+        names = ("error_against_cost", "all_cases", "history", "profiles", "paths")
+        patched = unittest.mock.patch.multiple(charts, **{name: lambda *_: None for name in names})
+        patched.start()
+        self.addCleanup(patched.stop)
 
     def test_one_stand_in_for_each_problem(self):
         """Young's modulus makes another problem, the end time too, the resolution and the solver do not."""
@@ -336,23 +365,6 @@ class StandIn(InADirectory):
         self.directory("bad_one", "bad.prm", "Resolution=medium", status=2)
         text = self.call("report", "good_one", "bad_one", "--output", "page", status=0)
         self.assertRegex(text, r"bad .* 2.7 at 3 s \(\S+\) +good")
-
-    def test_rows_are_told_apart(self):
-        """A setting with one value in each product of runs is what differs."""
-        text = "".join(f'[[runs]]\ncases = ["good.prm"]\nset = {{ "Time/End time" = "{t} s", X = 1 }}\n' for t in (5, 20))
-        study = self.file("study.toml", text)
-        said = self.call("run", study, "--program", self.program, "--output", "out", status=0)
-        for variant in ("End time 5 s", "End time 20 s"):
-            self.assertRegex(said, rf"\ngood +{variant} +finished")
-            with open("out/report/good_history.svg", encoding="utf-8") as file:
-                self.assertIn(f"<!-- good, {variant} -->", file.read())
-        page = self.page("out/report")[0]
-        for time in ("5 s", "20 s"):  # what differs between the decks
-            self.assertIn(f"<tr><td>good, End time {time}</td><td>{time}</td></tr>", page)
-        study = self.study("good.prm", set={"Rock/Young modulus": "1 GPa", "Rock/Region 1/Young modulus": ["1 GPa", "2 GPa"]},
-                           runs=[{}, {"set": {"Rock/Young modulus": "2 GPa"}}])
-        self.call("run", study, "--program", self.program, "--output", "two", status=0)
-        self.assertEqual(self.table("two/report").index.nunique(), 4)
 
     def test_values_are_no_paths(self):
         values = ["x/../../../../../../esc1", "../../../../../../esc2", "x_.._.._.._.._.._.._esc1", "a/b", "a b", "a_b", ".."]
