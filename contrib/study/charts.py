@@ -22,6 +22,8 @@ def error_against_cost(rows, error, label, styles):
     for ax, (cost, cost_label) in zip(axes, COSTS):
         accuracy(ax, rows, error, cost, styles)
         ax.set_xlabel(cost_label)
+        few_decades(ax.xaxis)
+    few_decades(axes[1].yaxis)  # that of both
     axes[0].set_ylabel(label)
     return legend_below(figure)
 
@@ -38,12 +40,14 @@ def all_cases(cases, styles):
         ax.set_title(case, fontsize=9)
         ax.set_xlabel("CPU time [s]")
         ax.set_ylabel(label)
+        few_decades(ax.xaxis)
+        few_decades(ax.yaxis)
     return legend_below(figure)
 
 
 def accuracy(ax, rows, error, cost, styles):
-    """One line per model and variant, larger marks where the mesh is finer; the Pareto front, and the cheapest for each
-    accuracy wanted."""
+    """One line per model and variant, larger marks where the mesh is finer; where all solve one problem, the Pareto front, and
+    the cheapest for each accuracy wanted."""
     for curve, of_curve in rows.groupby("curve", sort=False):
         there = sorted(points(of_curve, cost, error), key=lambda p: p[0])
         line = {k: v for k, v in styles[curve].items() if k != "marker"}
@@ -53,12 +57,13 @@ def accuracy(ax, rows, error, cost, styles):
             ax.plot([], [], label=curve, lw=1.2, ms=5, **styles[curve])
         for x, y, row in there:
             ax.plot(x, 100 * y, ms=MARK_SIZES.get(row["resolution"], 5), linestyle="", **mark)
-    best = front(points(rows, cost, error))
+    one_problem = rows["problem"].nunique() <= 1
+    best = front(points(rows, cost, error)) if one_problem else []
     if len(best) > 1:
         ax.plot([p[0] for p in best], [100 * p[1] for p in best], color="0.85", lw=6, zorder=0,
                 solid_capstyle="round", label="Pareto front")
     marked = {}
-    for wanted, point in cheapest(rows, error, cost):
+    for wanted, point in cheapest(rows, error, cost) if one_problem else []:
         if point:
             marked.setdefault(point[:2], []).append(f"{100 * wanted:g}")
     for (x, y), texts in marked.items():
@@ -68,8 +73,6 @@ def accuracy(ax, rows, error, cost, styles):
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.margins(0.12)
-    for axis in (ax.xaxis, ax.yaxis):
-        few_decades(axis)
 
 
 def few_decades(axis):
@@ -80,7 +83,7 @@ def few_decades(axis):
     shown = [n for n in numbers if first <= n <= last]
     if last > 300. * first:
         shown = [n for n in shown if math.log10(n) % 1 < 1e-9]
-    axis.set_view_interval(first, last, ignore=True)
+    axis.axes.set(**{axis.axis_name + "lim": (first, last)})
     axis.set_major_locator(FixedLocator(shown))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))

@@ -42,17 +42,42 @@ def compare(options):
 def run_study(options, study):
     from study.campaign import run_jobs
     from study.matrix import jobs
+    from study.place import held
     from study.record import write_about
     output = os.path.abspath(options.output or os.path.join("studies", study.name))
     planned = jobs(study)
-    records = run_jobs(planned, options, output)
-    if records is None:  # only the estimate was asked for
+    check_quantities(study, planned, output)
+    if options.estimate:
+        run_jobs(planned, options, output)
         return 0
     title = study.title or study.name
-    write_about(output, {"title": title, "text": study.text, "quantities": study.quantities, "map": study.map})
-    show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), title, study.text,
-         study.quantities, study.map, options)
+    with held(output):
+        records = run_jobs(planned, options, output, lambda: write_about(output, {
+            "title": title, "text": study.text, "quantities": study.quantities, "map": study.map,
+            "runs": [{"name": job.name, **job.about()} for job in planned]}))
+        show([os.path.join(output, job.name) for job in planned], os.path.join(output, "report"), title, study.text,
+             study.quantities, study.map, options)
     return 1 if any(record["status"] == "failed" for record in records) else 0
+
+
+def check_quantities(study, planned, output):
+    """Refuse those of which it is known that no run will have them: each model has finished a run of each case, and none has
+    them."""
+    from study.collect import results
+    from study.difference import QUANTITIES
+    from study.record import read
+    from study.verdict import missing, table
+
+    def kind(job):
+        return job.case, job.model, *(value for entry, value in job.set if entry in ("Fracture/Model", "Verification/Reference"))
+    possible = [job for job in planned if job.deck]
+    ended = [job for job in possible if (read(os.path.join(output, job.name)) or {}).get("status") == "finished"]
+    if study.quantities and ended and {kind(job) for job in ended} == {kind(job) for job in possible}:
+        rows = table(results([os.path.join(output, job.name) for job in ended]))
+        wanted = [name for name in study.quantities if not rows["differs"].any() or name not in QUANTITIES]
+        text = missing(rows, wanted)
+        if text:
+            raise ResultError(text)
 
 
 def report(options):
@@ -75,10 +100,9 @@ def show(directories, folder, title, text, quantities, chosen, options):
     if options.into:
         markdown.write(found, rows, options.into.removesuffix(".md"), title, text, quantities)
     print(verdict.by_case(rows, quantities, verdict.plain) + "\n\n" + path)
-    there = [c[len("error_end_"):] for c in rows.columns if c.startswith("error_end_")]
-    missing = [name for name in quantities if name not in there]
-    if missing and there:
-        raise ResultError(f"no run has an error of '{missing[0]}'; there is: {', '.join(there)}")
+    text = verdict.missing(rows, quantities)
+    if text:
+        raise ResultError(text)
 
 
 def main():

@@ -1,7 +1,8 @@
-"""Runs of a case without a reference solution, measured against the most refined one that has finished."""
+"""Runs without a reference solution, measured against the most refined one of the same problem that has finished."""
 import numpy as np
 
 from results import ResultError, read_statistics
+from study.problem import problems
 
 # What is compared, as far as it is there.
 QUANTITIES = ("equivalent_length", "fracture_volume", "inlet_aperture", "net_inlet_pressure", "leaked_volume",
@@ -25,24 +26,33 @@ def baseline(results):
 
 
 def differences(results):
-    """({directory: {quantity: {"final", "mean"}}}, label of the baseline): relative to the greatest value of the
-    baseline, over the time that both have run; the mean is over time."""
-    base = baseline(results)
-    if base is None or len(results) < 2:
-        return {}, ""
-    its = histories(base)
+    """{directory: ({quantity: {"final", "mean"}}, the run measured against, until when)} of the runs of a case; the baseline of
+    a problem is measured against itself, with no quantities, and a run that is alone is not among them. Relative to the
+    greatest value of the baseline, over the time that both have run; the mean is over time. Until when: the end of that time
+    [s] where one of them went on, else None."""
     found = {}
-    for result in results:
-        own = histories(result)
-        if result is base or "time" not in own or "time" not in its:
+    for group in problems([r for r in results if histories(r)]):
+        base = baseline(group)
+        if base is None or len(group) < 2:
             continue
-        begin, end = max(own["time"][0], its["time"][0]), min(own["time"][-1], its["time"][-1])
-        times = np.linspace(begin, end, 401)
-        found[result.directory] = {}
-        for name in QUANTITIES:
-            if name not in own or name not in its or not np.nanmax(np.abs(its[name])) > 0.:
-                continue
-            apart = np.abs(np.interp(times, own["time"], own[name]) - np.interp(times, its["time"], its[name]))
-            apart /= np.nanmax(np.abs(its[name]))
-            found[result.directory][name] = {"final": apart[-1], "mean": np.nanmean(apart)}
-    return found, base.label
+        its = histories(base)
+        found[base.directory] = ({}, base, None)
+        for result in group:
+            own = histories(result)
+            if result is not base and "time" in own and "time" in its:
+                found[result.directory] = apart(own, its, base)
+    return found
+
+
+def apart(own, its, base):
+    begin, end = max(own["time"][0], its["time"][0]), min(own["time"][-1], its["time"][-1])
+    last = max(own["time"][-1], its["time"][-1])
+    times = np.linspace(begin, end, 401)
+    found = {}
+    for name in QUANTITIES:
+        if name not in own or name not in its or not np.nanmax(np.abs(its[name])) > 0.:
+            continue
+        distance = np.abs(np.interp(times, own["time"], own[name]) - np.interp(times, its["time"], its[name]))
+        distance /= np.nanmax(np.abs(its[name]))
+        found[name] = {"final": distance[-1], "mean": np.nanmean(distance)}
+    return found, base, end if end < last - 1e-6 * abs(last) else None

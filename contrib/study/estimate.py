@@ -4,6 +4,7 @@ import statistics
 import subprocess
 
 from study.fingerprint import fingerprint
+from study.runner import said
 
 SECONDS = {"ms": 1e-3, "s": 1., "min": 60., "h": 3600., "days": 86400.}
 START = 0.5    # seconds until a program has loaded its libraries
@@ -11,21 +12,24 @@ AT_MOST = "if none were longer than the first"    # what the program says of ste
 
 
 def check(program, job, record):
-    """{"audit": what --check prints, "fingerprint", "seconds": or None}. The record of an earlier run saves asking, if
-    the deck is still the same."""
+    """{"audit": what --check prints, "fingerprint", "seconds": or None, "refused": why the program will not run it, or
+    nothing}. The record of an earlier run saves asking, if the deck is still the same."""
     mark = fingerprint(job)
     if not job.deck:
-        return {"audit": "", "fingerprint": mark, "seconds": START}
+        return {"audit": "", "fingerprint": mark, "seconds": START, "refused": ""}
     if record and record["fingerprint"] == mark:
-        return {"audit": record["audit"], "fingerprint": mark, "seconds": record["estimate"]}
+        return {"audit": record["audit"], "fingerprint": mark, "seconds": record["estimate"],
+                "refused": record.get("refused", "")}
     command = [program, job.deck, "--check"]
     for setting in job.settings():
         command += ["--set", setting]
-    audit = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                           check=False, text=True, errors="replace").stdout
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                          check=False, text=True, errors="replace")
+    audit = done.stdout
     found = re.search(r"would take (\S+) (ms|s|min|h|days) on one core", audit)
     seconds = max(START, float(found[1]) * SECONDS[found[2]]) if found else None
-    return {"audit": audit, "fingerprint": mark, "seconds": seconds}
+    return {"audit": audit, "fingerprint": mark, "seconds": seconds,
+            "refused": (said(audit) or f"exit status {done.returncode}, without a word") if done.returncode else ""}
 
 
 def guess(job, checked, records):

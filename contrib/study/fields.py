@@ -47,12 +47,20 @@ def side_by_side(results, name, component):
     for collection in drawn:
         collection.set_cmap("viridis" if middle is None else "RdBu_r")
         collection.set_clim(low, high)
-    for ax in axes[:, 0]:
-        ax.set_ylabel("y [m]")
+    numbers_outside(axes)
     unit = drawing.UNITS.get(name, ("-", 1.))[0]
     figure.colorbar(drawn[0], ax=[ax for ax in axes.flat if ax.figure], shrink=0.85, pad=0.02,
                     label=f"{title} [{unit}]", extend=ends)
     return title, figure
+
+
+def numbers_outside(axes):
+    """Panels that share their axes have names and numbers on the left and at the bottom only, below the last of a column."""
+    for (line, column), ax in np.ndenumerate(axes):
+        last = all(below.figure is None for below in axes[line + 1:, column])
+        ax.tick_params(labelbottom=last, labelleft=column == 0)
+        ax.set_xlabel("x [m]" if last else "")
+        ax.set_ylabel("y [m]" if column == 0 else "")
 
 
 def series_with(result, name):

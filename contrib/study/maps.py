@@ -1,5 +1,6 @@
 """Stability maps: where runs end, and with what number, over two entries that were varied."""
 import math
+import os
 import re
 
 import numpy as np
@@ -9,6 +10,7 @@ from measures import with_measures
 from results import ResultError, lookup
 from study.look import plt
 from study.matrix import describe
+from study.place import folder
 
 LEAST = 3      # values of an entry that make it an axis
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
@@ -16,7 +18,7 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
 
 def settings_of(result):
     """{entry: value} of a run of a study, its case among them."""
-    return {"case": result.case, **dict(s.split("=", 1) for s in result.record.get("settings", []))}
+    return {"case": result.case, **result.settings}
 
 
 def varied(results):
@@ -68,6 +70,7 @@ def chosen_map(results, chosen, file=None):
                   (chosen.get("least", -math.inf), chosen.get("limit", math.inf)), chosen.get("x_names"),
                   chosen.get("x_label"))
     if file:
+        folder(os.path.dirname(file))
         figure.savefig(file, dpi=100, bbox_inches="tight", metadata={"Software": None})
     return figure
 

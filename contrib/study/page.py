@@ -23,9 +23,8 @@ pre { background: #f6f6f6; padding: .6rem; overflow-x: auto; font-size: .8rem; }
 
 class Page:
     def __init__(self, title, folder):
-        """Pictures are embedded, and written into the folder as PNG and SVG."""
+        """Pictures are embedded, and written into the folder, which is there, as PNG and SVG."""
         self.title, self.folder, self.parts, self.sections = title, folder, [], []
-        os.makedirs(folder, exist_ok=True)
 
     def section(self, name, heading):
         self.sections.append((name, heading))

@@ -2,7 +2,8 @@
 import os
 import re
 
-from study import audit, charts, verdict
+from study import audit, charts, place, verdict
+from study.collect import NOT_RUN
 from study.cost import WANTED, cheapest, orders, worst_of
 from study.fields import fields
 from study.look import styles
@@ -19,11 +20,12 @@ def write(results, folder, title, text="", wanted=(), chosen=None, map_file=None
     """(path of the page, table of all runs). CSV, Markdown and pictures stand beside the page; chosen: what the study's
     map shows, which is written into a file of its own besides if one is named."""
     rows = verdict.table(results)
-    page = Page(title, folder)
+    page = Page(title, place.folder(folder))
     if text:
         page.text(text)
-    cases = {case: [r for r in results if r.case == case] for case in dict.fromkeys(r.case for r in results)}
     look = styles(results)
+    results = [r for r in results if r.status != NOT_RUN]
+    cases = {case: [r for r in results if r.case == case] for case in dict.fromkeys(r.case for r in results)}
     if chosen:
         page.section("map", "Where it holds")
         page.picture("map", chosen_map(results, chosen, map_file), "; ".join(
@@ -36,7 +38,7 @@ def write(results, folder, title, text="", wanted=(), chosen=None, map_file=None
         curves(page, cases, look)
     assumptions(page, cases, rows, draws_maps=not chosen)
     repeat(page, results)
-    rows.drop(columns=["curve"]).to_csv(os.path.join(folder, "results.csv"), index=False)
+    rows.drop(columns=["curve", "label"]).to_csv(os.path.join(folder, "results.csv"), index=False)
     with open(os.path.join(folder, "results.md"), "w", encoding="utf-8") as file:
         file.write(verdict.by_case(rows, wanted, verdict.markdown) + "\n")
     return page.write(), rows
@@ -80,14 +82,14 @@ def problem(page, cases):
 
 def table_of_runs(page, rows, wanted):
     page.section("verdict", "The verdict")
+    if verdict.missing(rows, wanted):
+        page.text(f"Of the quantities that were asked for, {verdict.missing(rows, wanted)}.")
     for case, here in rows.groupby("case", sort=False):
         page.heading(case)
         texts = verdict.shown(here, wanted).drop(columns=["case"])
         page.table(texts.columns, texts.values)
-        against = next((a for a in here["against"] if a), "")
-        page.text(("Measured against: " + against + ". " if against else "Nothing to compare with. ")
-                  + "Errors are relative, at the end and, in brackets, on average over the history. CPU: seconds of "
-                  "the processor on all ranks. " + verdict.ALONE, note=True)
+        page.text(verdict.measured_against(here) + " Errors are relative, at the end and, in brackets, on average over the "
+                  "history. CPU: seconds of the processor on all ranks. " + verdict.ALONE, note=True)
 
 
 def charted(rows, wanted):
@@ -132,11 +134,15 @@ def cost(page, rows, wanted, look):
             page.picture(file_name(case, "cost", error[len("error_mean_"):]), figure,
                          f"{case}: mean {what} of {name} against CPU time and unknowns. " + CHART)
         error, name = columns[0]
-        page.text(f"The cheapest setting for a mean {what} of {name}:")
-        page.table(["wanted [%]", "setting", f"{what} [%]", "CPU [s]", "unknowns"],
-                   [[f"{100 * w:g}", *(setting(best) if best else ["none of these runs", "", "", ""])]
-                    for w, best in cheapest(here, error)])
-        found = [[curve, f"{a['resolution']} → {b['resolution']}", *order]
+        if here["problem"].nunique() > 1:
+            page.text(f"These runs solve {here['problem'].nunique()} physical problems: the cheapest setting is that of one, and is "
+                      "not told.")
+        else:
+            page.text(f"The cheapest setting for a mean {what} of {name}:")
+            page.table(["wanted [%]", "setting", f"{what} [%]", "CPU [s]", "unknowns"],
+                       [[f"{100 * w:g}", *(setting(best) if best else ["none of these runs", "", "", ""])]
+                        for w, best in cheapest(here, error)])
+        found = [[curve, f"{a['asked']} → {b['asked']}", *order]
                  for curve, pairs in orders(here, error).items()
                  for (a, b, _), order in zip(pairs, zip(*(orders_of(here, e, curve) for e, _ in columns)))]
         if found:
@@ -146,7 +152,7 @@ def cost(page, rows, wanted, look):
 
 def setting(best):
     cpu, error, row = best
-    return [", ".join(filter(None, (row["curve"], row["resolution"]))), verdict.per_cent(error), f"{cpu:.3g}",
+    return [row["label"], verdict.per_cent(error), f"{cpu:.3g}",
             f"{row['unknowns']:.0f}"]
 
 

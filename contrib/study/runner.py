@@ -17,6 +17,8 @@ from study.cores import busy_seconds
 MPIRUN = "mpirun --allow-run-as-root --oversubscribe --bind-to none -np"
 THREADS = dict(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", DEAL_II_NUM_THREADS="1")
 
+BELOW = "    "    # what begins a line that belongs to the one above
+
 
 class Runner:
     def __init__(self, program, output, cores, progress):
@@ -50,10 +52,10 @@ class Runner:
 
     def run(self, job, checked):
         directory = os.path.join(self.output, job.name)
-        record = {"case": job.case, "model": job.model, "variant": job.variant, "resolution": job.resolution,
-                  "ranks": job.ranks, "deck": job.deck, "settings": job.settings(),
+        record = {**job.about(),
                   "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
-                  "estimate": checked["seconds"], "fingerprint": checked["fingerprint"], "audit": checked["audit"]}
+                  "estimate": checked["seconds"], "fingerprint": checked["fingerprint"], "audit": checked["audit"],
+                  "refused": checked["refused"]}
         if os.path.isdir(directory):  # what an earlier run has left must not be taken for that of this one
             shutil.rmtree(directory)
         os.makedirs(directory)
@@ -124,8 +126,14 @@ def why(directory, status):
         if summary.get("status") == "failed" and summary.get("reason"):
             return summary["reason"]
     with open(os.path.join(directory, "log"), encoding="utf-8", errors="replace") as log:
-        lines = [line.strip() for line in log if line.strip()]
-    first = next((i for i, line in enumerate(lines) if line.startswith("Error")), len(lines) - 1)
-    text = " ".join(lines[first:][:6])
+        text = said(log.read())
     return text or (f"Killed by signal {-status}, without a word." if status < 0 else
                     f"Exit status {status}, without a word.")
+
+
+def said(text):
+    """What the program has said last: its error, or the last line, with the line that it belongs to if it stands below one."""
+    lines = [line.rstrip() for line in text.splitlines() if line.strip()]
+    last = next((i for i in range(len(lines) - 1, 0, -1) if not lines[i].startswith(BELOW)), 0)
+    first = next((i for i, line in enumerate(lines) if line.startswith("Error")), last)
+    return " ".join(line.strip() for line in lines[first:][:6])

@@ -7,7 +7,7 @@
 
     [[runs]]                               # as many as wanted; each is a product
     cases  = ["mandel", "column/rod"]      # prm/<case>/<model>.prm, or decks of one's own
-    models = ["none"]                      # none named: all that the case has a deck for
+    models = ["none"]                      # not given: all that the case has a deck for; not with decks of one's own
     ranks  = [1, 2]
     [runs.set]                             # --set, each entry with its values
     "Coupling/Scheme" = ["monolithic", "fixed stress"]
@@ -38,6 +38,9 @@ SHIPPED = os.path.join(DECKS, "studies")
 LISTS = ("cases", "models", "resolutions", "ranks")
 OF_RUNS = (*LISTS, "set", "time_limit")
 OF_STUDY = ("title", "text", "quantities", "runs", "map", *OF_RUNS)
+# What is taken where a list is not given.
+EMPTY = {"cases": "those above [[runs]]", "models": "all that a case has a deck for", "resolutions": "what the decks say",
+         "ranks": "one"}
 OF_MAP = ("x", "y", "measure", "label", "limit", "least", "x_names", "x_label")
 
 
@@ -145,7 +148,9 @@ def block(path, shared, own):
             continue
         good = texts(data[key]) if key != "ranks" else (
             isinstance(data[key], list) and all(type(r) is int and r > 0 for r in data[key]))
-        if not good or not data[key]:
+        if data[key] == []:
+            raise ResultError(f"{path}: {key} = [], but the list may not be empty; leave '{key}' out for {EMPTY[key]}")
+        if not good:
             what = "a list of whole numbers from 1" if key == "ranks" else "a list of texts"
             raise ResultError(f"{path}: {key} = {data[key]!r}, but it is {what}")
         if len(set(data[key])) < len(data[key]):

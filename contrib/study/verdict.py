@@ -3,7 +3,9 @@ import re
 
 import pandas
 
+from study.collect import NOT_RUN
 from study.difference import differences
+from study.problem import problems
 
 # An error below this is that of the arithmetic, or of a quantity that is imposed.
 IMPOSED = 1e-9
@@ -18,27 +20,42 @@ ALONE_BELOW = 0.05
 LENGTHS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1., "km": 1e3, "ft": 0.3048, "in": 0.0254, "": 1.}
 
 
+# What `against` says of the run itself that others are measured against, and of one without any other.
+STANDS_IN = "stands in"
+NO_OTHER = "no other finished run of this problem"
+
+
 def table(results):
-    """One row per run. error_end_X and error_mean_X are fractions: errors, or differences where `against` names
-    another run instead of a reference."""
+    """One row per run. error_end_X and error_mean_X are fractions: errors, or, where no run of the case has a reference,
+    differences to the run that `against` names."""
     rows = []
     for case in dict.fromkeys(r.case for r in results):
         here = [r for r in results if r.case == case]
+        number = {r.directory: i for i, group in enumerate(problems([r for r in here if r.status == "finished"]))
+                  for r in group}
         errors = {r.directory: r.summary.get("errors") or {} for r in here}
-        against = next((e["reference"] for of_run in errors.values() for e in of_run.values() if e.get("reference")), "")
-        differs = not any(errors.values())
-        if differs:
-            errors, other = differences(here)
-            against = f"{other} (no reference: differences)" if other else ""
-        rows += [row(r, errors.get(r.directory, {}), against, differs) for r in here]
+        if any(errors.values()):
+            rows += [row(r, errors[r.directory], reference(errors[r.directory]), number) for r in here]
+            continue
+        found = differences(here)
+        for r in here:
+            its, base, until = found.get(r.directory, ({}, None, None))
+            alone = NO_OTHER if r.status == "finished" else ""
+            rows.append(row(r, its, alone if base is None else STANDS_IN if base is r else base.label, number,
+                            True, until))
     return pandas.DataFrame(rows)
 
 
-def row(result, errors, against, differs):
+def reference(errors):
+    return next((e["reference"] for e in errors.values() if e.get("reference")), "")
+
+
+def row(result, errors, against, number, differs=False, until=None):
     summary, record = result.summary, result.record
     cells = {"case": result.case, "model": result.model, "variant": result.variant, "resolution": result.resolution,
-             "ranks": result.ranks, "status": result.status, "reason": result.reason, "curve": result.curve,
-             "against": against, "differs": differs,
+             "asked": result.asked, "ranks": result.ranks, "status": result.status, "reason": result.reason,
+             "curve": result.curve, "label": result.label, "against": against, "differs": differs, "until": until,
+             "problem": number.get(result.directory),
              "unknowns": summary.get("unknowns"), "cells": summary.get("cells"), "cell_size": cell_size(result),
              "reached": (summary.get("final") or {}).get("time"), "steps": summary.get("steps"), "rejected": summary.get("rejected_steps"),
              "nonlinear": summary.get("nonlinear_iterations"), "linear": summary.get("linear_iterations"),
@@ -70,6 +87,13 @@ def quantities(rows, wanted=()):
     return chosen or [name for name in there if rows["error_mean_" + name].max() > IMPOSED]
 
 
+def missing(rows, wanted):
+    """What is wrong with the quantities that are wanted, in a sentence; nothing where they are there, or no run has any."""
+    there = [c[len("error_end_"):] for c in rows.columns if c.startswith("error_end_")]
+    absent = [name for name in wanted if name not in there]
+    return f"no run has an error of '{absent[0]}'; there is: {', '.join(there)}" if absent and there else ""
+
+
 def per_cent(value):
     return "" if value is None or value != value else f"{100 * value:.2g}"
 
@@ -84,6 +108,8 @@ def at(time):
 
 def alone(row):
     """Whether the times of a run can be compared with others'; ALONE says what is meant."""
+    if row["status"] == NOT_RUN:
+        return ""
     if row["others_share"] is None or row["others_share"] != row["others_share"]:
         return "?"
     if row["others_share"] > ALONE_BELOW:
@@ -98,15 +124,17 @@ def shown(rows, wanted=()):
     texts["model"] = rows["model"]
     if (rows["variant"] != "").any():
         texts["variant"] = rows["variant"]
-    texts["resolution"] = rows["resolution"]
+    texts["resolution"] = rows["asked"]
     if (rows["ranks"] != 1).any():
         texts["ranks"] = rows["ranks"].astype(str)
-    texts["status"] = [s if s == "finished" else f"FAILED{at(t)}: {r}"
+    texts["status"] = [s if s != "failed" else f"FAILED{at(t)}: {r}"
                        for s, t, r in zip(rows["status"], rows["reached"], rows["reason"])]
     for name in quantities(rows, wanted):
         texts[name.replace("_", " ") + " end (mean) [%]"] = [
-            f"{per_cent(end)} ({per_cent(mean)})" if per_cent(end) or per_cent(mean) else ""
-            for end, mean in zip(rows["error_end_" + name], rows["error_mean_" + name])]
+            f"{per_cent(end)}{at(until)} ({per_cent(mean)})" if per_cent(end) or per_cent(mean) else ""
+            for end, mean, until in zip(rows["error_end_" + name], rows["error_mean_" + name], rows["until"])]
+    if rows["differs"].any() or rows.loc[rows["against"] != "", "against"].nunique() > 1:
+        texts["measured against"] = rows["against"]
     for name, heading in (("unknowns", "unknowns"), ("steps", "steps"), ("rejected", "rejected"),
                           ("nonlinear", "nonlinear it."), ("linear", "linear it.")):
         if name in ("unknowns", "steps") or (rows[name].fillna(0) != 0).any():
@@ -116,6 +144,19 @@ def shown(rows, wanted=()):
     texts["balance"] = ["" if v is None or v != v else f"{v:.0e}" for v in rows["balance"]]
     texts["alone"] = [alone(row) for _, row in rows.iterrows()]
     return texts
+
+
+def measured_against(rows):
+    """What the errors of a case's rows are measured against, in a sentence."""
+    if not rows["differs"].any():
+        references = list(dict.fromkeys(a for a in rows["against"] if a))
+        return f"Measured against: {'; '.join(references)}." if references else "Nothing to compare with."
+    if not (rows["against"] == STANDS_IN).any():
+        return "Nothing to compare with: no reference, and no two runs of the same physical problem of which one has finished."
+    alone = list(rows.loc[rows["against"] == NO_OTHER, "label"])
+    return ("No reference: what is shown are differences to the run that is named, the one with the most unknowns that has "
+            "finished of the same physical problem."
+            + (f" Nothing is shown of {'; '.join(alone)}: no other run of the same problem has finished." if alone else ""))
 
 
 def markdown(texts):

@@ -25,18 +25,21 @@ sys.path[:0] = [CONTRIB]
 import pandas  # noqa: E402
 
 from results import ResultError  # noqa: E402
-from study import cost, difference, estimate, matrix, study_file  # noqa: E402
+from study import charts, collect, cost, difference, estimate, fields, look, matrix, names, problem, study_file  # noqa: E402
 from study.command import main  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.exists(sys.argv[1]) else None
 TOOL = os.path.join(CONTRIB, "stockwork-study")
 
-# y = t with an error h^2/100 of the model "good"; "bad" fails on its way, "slow" does not end.
+# y = t with an error h^2/100 of the model "good"; "bad" fails on its way, "slow" does not end. Young's modulus is a factor.
 STAND_IN = """#!/usr/bin/python3
 import json, os, sys, time
 deck = open(sys.argv[1]).read().split()[0]
 settings = dict(a.split("=", 1) for a in sys.argv if "=" in a)
-h = {"coarse": 1., "medium": 0.5}[settings.get("Resolution", "coarse")]
+h = {"coarse": 1., "medium": 0.5, "auto": 0.5}[settings.get("Resolution", "coarse")]
+if "Rock/Yung modulus" in settings:
+    print("  an audit\\ncommand line: there is no entry 'Rock/Yung modulus'\\n    there is: 'Young modulus'")
+    sys.exit(1)
 if "--check" in sys.argv:
     print("Scene audit\\n  a number  7  decides\\n about 5 steps would take 2 s on one core")
 else:
@@ -55,9 +58,21 @@ else:
     json.dump(text, open(output + "/summary.json", "w"))
     with open(output + "/statistics.csv", "w") as file:
         file.write("time,inlet_aperture\\n")
-        file.writelines(f"{t},{t * (1 + h / 10)}\\n" for t in range(1, 6))
+        factor = (1 + h / 10) * float(settings.get("Rock/Young modulus", "1 GPa").split()[0])
+        file.writelines(f"{t},{t * factor}\\n" for t in range(1, 4 if failed else 6))
+    with open(output + "/effective.prm", "w") as file:
+        for entry, value in settings.items():
+            *sections, name = entry.split("/")
+            file.writelines(f"subsection {s}\\n" for s in sections)
+            file.write(f"set {name} = {'medium' if value == 'auto' else value} # default:\\n" + "end\\n" * len(sections))
     sys.exit(2 if failed else 0)
 """
+
+
+def toml(value):
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(k)} = {toml(v)}" for k, v in value.items()) + "}"
+    return "[" + ", ".join(map(toml, value)) + "]" if isinstance(value, list) else json.dumps(value)
 
 
 class Elements(html.parser.HTMLParser):
@@ -123,7 +138,7 @@ class InADirectory(unittest.TestCase):
         return text, found
 
 
-class StandIn(InADirectory):
+class WithStandIn(InADirectory):
     def setUp(self):
         super().setUp()
         self.program = self.file("program", STAND_IN, 0o755)
@@ -132,12 +147,24 @@ class StandIn(InADirectory):
 
     def study(self, *decks, **entries):
         entries = {"cases": list(decks), **entries}
-        return self.file("study.toml", "".join(f"{k} = {json.dumps(v)}\n" for k, v in entries.items()))
+        return self.file("study.toml", "".join(f"{k} = {toml(v)}\n" for k, v in entries.items()))
 
     def started(self):
         with open("started", encoding="utf-8") as file:
             return file.read().split()
 
+    def directory(self, name, deck="good.prm", *settings, status=0):
+        """A run that no study has made."""
+        os.makedirs(name)
+        sets = [a for setting in ("No reference=true", *settings) for a in ("--set", setting)]
+        done = subprocess.run([self.program, deck, "--output", name, *sets], check=False)
+        self.assertEqual(done.returncode, status)
+
+    def table(self, folder):
+        return pandas.read_csv(folder + "/results.csv").fillna("").set_index(["variant", "asked"])
+
+
+class Drawn(WithStandIn):
     def test_run_resumed_and_reported(self):
         study = self.study("good.prm", "bad.prm", resolutions=["coarse", "medium"])
         command = ("run", study, "--program", self.program, "--output", "out", "--cores", "1")
@@ -220,8 +247,8 @@ class StandIn(InADirectory):
             subprocess.run([self.program, "good.prm", "--output", name, "--set", "Resolution=" + resolution,
                             "--set", "No reference=true"], check=True)
         text = self.call("report", "one", "two", "--output", "page", status=0)
-        self.assertRegex(text, r"case\n\nmodel .*\ngood +one +.* 4.8 \(2.9\)")  # 0.05 t of 5.25; the mean of t is 3
-        self.assertIn("no reference: differences", self.page("page")[0])
+        self.assertRegex(text, r"case\n\nmodel .*\ngood +coarse +finished +4.8 \(2.9\)")  # 0.05 t of 5.25; the mean of t is 3
+        self.assertIn("No reference: what is shown are differences to the run that is named", self.page("page")[0])
         self.call("run", self.study("good.prm", title="A title", quantities=["inlet_aperture"]), "--program", self.program,
                   "--output", "out", status=0)
         self.call("report", "out", "--output", "titled", status=0)
@@ -253,7 +280,10 @@ class StandIn(InADirectory):
                            ("cases = ['good.prm']\nranks = [0]", "a list of whole numbers from 1"),
                            ("cases = ['good.prm', 'good.prm']", "names something twice"),
                            ("cases = ['good.prm']\ntime_limit = 'x'", "a number of seconds"),
-                           ("cases = ['good.prm']\nmodels = ['damage']", "none of the cases good.prm has a deck for"),
+                           ("cases = ['good.prm']\nmodels = ['damage']",
+                            "'good.prm' is a deck of one's own, which names its model itself: leave 'models' out, or"),
+                           ("cases = ['mandel']\nmodels = []", "models = [], but the list may not be empty; leave 'models'"),
+                           ("cases = []", "the list may not be empty"),
                            ("cases = ['nothing']", "there is no case 'nothing'"),
                            ("cases = ['good.prm']\n[map]\nx = 'case'", "[map] has no 'y'"),
                            ("cases = ['good.prm']\n[map]\nx = 'case'\ny = 'A/B'\nmeasure = 'steps'",
@@ -278,8 +308,210 @@ class StandIn(InADirectory):
         self.call("run", "nowhere", "--program", "nothing", status=2)
         self.call("run", "nowhere", "--cores", "0", status=2)
 
+    def test_rows_are_told_apart(self):
+        """A setting with one value in each product of runs is what differs."""
+        text = "".join(f'[[runs]]\ncases = ["good.prm"]\nset = {{ "Time/End time" = "{t} s", X = 1 }}\n' for t in (5, 20))
+        study = self.file("study.toml", text)
+        said = self.call("run", study, "--program", self.program, "--output", "out", status=0)
+        for variant in ("End time 5 s", "End time 20 s"):
+            self.assertRegex(said, rf"\ngood +{variant} +finished")
+            with open("out/report/good_history.svg", encoding="utf-8") as file:
+                self.assertIn(f"<!-- good, {variant} -->", file.read())
+        page = self.page("out/report")[0]
+        for time in ("5 s", "20 s"):  # what differs between the decks
+            self.assertIn(f"<tr><td>good, End time {time}</td><td>{time}</td></tr>", page)
+        study = self.study("good.prm", set={"Rock/Young modulus": "1 GPa", "Rock/Region 1/Young modulus": ["1 GPa", "2 GPa"]},
+                           runs=[{}, {"set": {"Rock/Young modulus": "2 GPa"}}])
+        self.call("run", study, "--program", self.program, "--output", "two", status=0)
+        self.assertEqual(self.table("two/report").index.nunique(), 4)
+
+
+class Undrawn(WithStandIn):
+    """Pages without their pictures, which are what takes time."""
+    def setUp(self):
+        super().setUp()
+        names = ("error_against_cost", "all_cases", "history", "profiles", "paths")
+        patched = unittest.mock.patch.multiple(charts, **{name: lambda *_: None for name in names})
+        patched.start()
+        self.addCleanup(patched.stop)
+
+    def test_one_stand_in_for_each_problem(self):
+        """Young's modulus makes another problem, the end time too, the resolution and the solver do not."""
+        study = self.study("good.prm", resolutions=["coarse", "medium"], set={
+            "Rock/Young modulus": ["10 GPa", "20 GPa"], "No reference": "true", "Linear solver/Type": "direct"})
+        text = self.call("run", study, "--program", self.program, "--output", "out", status=0)
+        self.assertRegex(text, r"Young modulus 10 GPa +coarse +finished +4.8 \(2.9\) +good, Young modulus 10 GPa, medium")
+        self.assertRegex(text, r"Young modulus 10 GPa +medium +finished +stands in")
+        self.assertIn("These runs solve 2 physical problems", self.page("out/report")[0])
+        self.assertRegex(text, r"Young modulus 20 GPa +coarse +finished +4.8 \(2.9\) +good, Young modulus 20 GPa, medium")
+        study = self.study("good.prm", set={"Rock/Young modulus": ["10 GPa", "20 GPa"], "No reference": "true"})
+        self.call("run", study, "--program", self.program, "--output", "alone", status=0)
+        self.assertIn("no reference, and no two runs of the same physical problem", self.page("alone/report")[0])
+        self.assertNotIn("error_end_inlet_aperture", pandas.read_csv("alone/report/results.csv").columns)
+
+    def test_problems_of_finished_directories(self):
+        self.directory("a", "good.prm", "Wells/Well 1/Rate=2e-4 m^2/s", "Mesh/Box/X spacing=1 m")
+        self.directory("b", "good.prm", "Wells/Well 1/Rate=0.0002 m^2/s", "Time/Initial step=1 s", "Resolution=medium")
+        self.directory("c", "good.prm", "Wells/Well 1/Rate=4e-4 m^2/s", "Resolution=medium", "Fracture/Model=good")
+        text = self.call("report", "a", "b", "c", "--output", "page", status=0)
+        self.assertEqual(self.table("page")["against"].to_dict(), {
+            ("a", ""): "good, b, medium", ("b", "medium"): "stands in", ("c", "medium"): "no other finished run of this problem"},
+            text)
+        self.assertIn("Nothing is shown of good, c, medium: no other run of the same problem has finished", self.page("page")[0])
+
+    def test_the_time_of_an_error_at_the_end(self):
+        """A run that stopped at 3 s is measured there, and this is said."""
+        self.directory("good_one")
+        self.directory("bad_one", "bad.prm", "Resolution=medium", status=2)
+        text = self.call("report", "good_one", "bad_one", "--output", "page", status=0)
+        self.assertRegex(text, r"bad .* 2.7 at 3 s \(\S+\) +good")
+
+    def test_values_are_no_paths(self):
+        values = ["x/../../../../../../esc1", "../../../../../../esc2", "x_.._.._.._.._.._.._esc1", "a/b", "a b", "a_b", ".."]
+        study = self.study("good.prm", set={"Title": values})
+        before = set(os.listdir(self.top))
+        self.call("run", study, "--program", self.program, "--output", "1/2/3/out", status=0)
+        self.assertEqual(set(os.listdir(self.top)) - before, {"1", "started"})
+        self.assertEqual(os.listdir("1/2/3"), ["out"])
+        self.assertEqual(len(os.listdir("1/2/3/out/good/deck")), len(values))
+        self.assertEqual(self.table("1/2/3/out/report").index.nunique(), len(values))
+        # What an older tool has made of 'a/b' is taken up.
+        found = names.part("a/b")
+        os.makedirs("1/2/3/out/good/deck/a")
+        os.rename(f"1/2/3/out/good/deck/{found}", "1/2/3/out/good/deck/a/b")
+        self.assertIn("0 of them to do", self.call("run", study, "--program", self.program, "--output", "1/2/3/out", status=0))
+        self.assertTrue(os.path.exists(f"1/2/3/out/good/deck/{found}/default/run.json"))
+
+    def test_one_study_at_a_time(self):
+        command = ("run", self.study("good.prm"), "--program", self.program, "--output", "out")
+        holder = f"import sys; sys.path.insert(0, {CONTRIB!r}); from study.place import held\n" \
+                 "with held('out'):\n    print('held', flush=True); input()"
+        with subprocess.Popen([sys.executable, "-c", holder], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as other:
+            self.assertEqual(other.stdout.readline(), "held\n")
+            self.assertIn("another study is running in", self.call(*command, status=1))
+            self.assertFalse(os.path.exists("started"))
+            other.kill()
+        self.call(*command, status=0)  # the lock of the dead does not count
+
+    def test_decks_of_one_name(self):
+        for folder in ("a", "b"):
+            os.makedirs(folder)
+            self.file(folder + "/good.prm", "good")
+        self.call("run", self.study("a/good.prm", "b/good.prm"), "--program", self.program, "--output", "out", status=0)
+        self.assertEqual(self.table("out/report")["case"].tolist(), ["a/good", "b/good"])
+        self.assertTrue(os.path.exists("out/b/good/deck/as_in_the_deck/default/run.json"))
+
+    def test_what_the_program_refuses(self):
+        wrong = self.study("good.prm", set={"Rock/Yung modulus": ["1 GPa", "2 GPa"]})
+        for more in ((), ("--estimate",)):
+            text = self.call("run", wrong, "--program", self.program, "--output", "out", *more, status=1)
+            self.assertIn("the program refuses all 2 runs:\n  command line: there is no entry 'Rock/Yung modulus' there is: "
+                          "'Young modulus' (", text)
+            self.assertFalse(os.path.exists("started"))
+        some = self.study("good.prm", runs=[{}, {"set": {"Rock/Yung modulus": 1}}])
+        self.assertIn("refuses 1 of 2 runs", self.call("run", some, "--program", self.program, "--output", "out", "--estimate",
+                                                       status=1))
+        self.assertIn("FAILED: command line: there is no entry", self.call("run", some, "--program", self.program, "--output",
+                                                                         "out", status=1))
+
+    def test_quantities_that_no_run_has(self):
+        command = ("run", self.study("good.prm", quantities=["inlet_aperture", "lenght"]), "--program", self.program,
+                   "--output", "out")
+        self.assertIn("no run has an error of 'lenght'; there is: inlet_aperture", self.call(*command, status=1))
+        self.assertIn("no run has an error of &#x27;lenght&#x27;; there is: inlet_aperture", self.page("out/report")[0])
+        self.assertIn("'lenght'", self.call(*command, "--again", "all", status=1))  # now it is known before
+        self.assertEqual(self.started(), ["good"])
+        # A model that has not run yet may have it.
+        self.study("good.prm", "bad.prm", quantities=["lenght"])
+        self.call(*command, status=1)
+        self.assertEqual(self.started(), ["good", "bad"])
+
+    def test_what_has_not_run_is_listed(self):
+        self.call("run", self.study("good.prm", resolutions=["coarse", "medium"]), "--program", self.program, "--output", "out",
+                  status=0)
+        os.remove("out/good/deck/as_in_the_deck/medium/run.json")  # as if it had been interrupted
+        text = self.call("report", "out", "--into", "page", status=0)
+        self.assertRegex(text, r"medium +not run\n")
+        with open("page.md", encoding="utf-8") as file:
+            self.assertIn("2 runs (coarse, medium), 0 of them failed, 1 not run; ", file.read())
+        self.assertEqual(pandas.read_csv("out/report/results.csv")["status"].tolist(), ["finished", "not run"])
+        self.page("out/report")
+
+    def test_outputs_that_cannot_be(self):
+        study = self.study("good.prm")
+        self.file("afile", "")
+        for output in ("afile", "afile/below", "/proc/nothing"):
+            self.assertIn(f"nothing can be written into '{os.path.abspath(output)}': ",
+                          self.call("run", study, "--program", self.program, "--output", output, status=1))
+        self.call("run", study, "--program", self.program, "--output", "out", status=0)
+        for option in ("--output", "--into"):
+            self.assertIn("nothing can be written into 'afile", self.call("report", "out", option, "afile/x", status=1))
+
+    def test_a_resolution_that_was_chosen(self):
+        text = self.call("run", self.study("good.prm", resolutions=["coarse", "auto"]), "--program", self.program, "--output",
+                         "out", status=0)
+        self.assertRegex(text, r"good +auto: medium +finished")
+
 
 class Parts(unittest.TestCase):
+    def test_what_makes_a_problem(self):
+        def run(settings, deck, model="damage", case="", resolution="coarse"):
+            record = {"settings": settings, "deck": case and f"prm/{case}/{model}.prm", "model": case and model}
+            return collect.Result("", case, model, resolution, 1, "finished", "", {}, record, deck)
+
+        def number(*runs):
+            return len(problem.problems(list(runs)))
+        for entry in ("Rock/Young modulus", "Rock/Region 1/Porosity", "Fluid/Viscosity", "In situ/Stress", "Cracks/Open",
+                      "Wells/Well 1/Rate", "Boundary conditions/Drained", "Fracture flow/Leak-off", "Time/End time"):
+            self.assertEqual(number(run([], {entry: "1"}), run([], {entry: "2"}, "peridynamics")), 2, entry)
+        for entry in ("Mesh/Box/X spacing", "Resolution", "Discretisation/Elements", "Linear solver/Type", "Coupling/Scheme",
+                      "Time/Scheme", "Time/Initial step", "Fracture/Model", "Fracture/damage/Cell size", "Title"):
+            self.assertEqual(number(run([], {entry: "1"}), run([], {entry: "2"})), 1, entry)
+        # Written in another way; the decks of a case, and what a study has set in them.
+        self.assertEqual(number(run([], {"Fluid/Viscosity": "1e-3 Pa s"}), run([], {"Fluid/Viscosity": "0.001  Pa s"})), 1)
+        soft, hard = {"Rock/Young modulus": "1 GPa"}, {"Rock/Young modulus": "2 GPa"}
+        self.assertEqual(number(run([], soft, case="rod"), run([], hard, "peridynamics", "rod")), 1)
+        self.assertEqual(number(run([], soft, case="rod"), run(["Rock/Young modulus=2 GPa"], hard, case="rod")), 2)
+        self.assertEqual(number(run([], soft, case="rod"), run([], hard, case="beam")), 2)
+        # Strength that decks choose by their cells, and strength that differs.
+        weak, strong = {"Rock/Tensile strength": "1 MPa"}, {"Rock/Tensile strength": "2 MPa"}
+        self.assertEqual(number(run([], weak), run([], strong, resolution="fine"), run([], {}, "peridynamics")), 1)
+        self.assertEqual(number(run([], weak), run([], strong)), 2)
+        self.assertEqual(number(run(["Rock/Tensile strength={1|2} MPa"], weak, case="a"), run(
+            ["Rock/Tensile strength={1|2} MPa"], strong, case="a", resolution="medium")), 1)
+
+    def test_names(self):
+        self.assertEqual(names.part("Young modulus 10 GPa, x"), "Young_modulus_10_GPa_x")
+        texts = ["..", ".", "", "/", "a/b", "a/../b", "../b", "x" * 400, "x" * 401, "é" * 200]
+        for name in map(names.part, texts):
+            self.assertRegex(name, r"^[^/]*[^./][^/]*$")
+            self.assertLess(len(name.encode()), 200)
+        self.assertEqual(len(set(map(names.part, texts))), len(texts))
+        self.assertEqual(names.of_decks(["/p/a/x.prm", "/p/b/x.prm", "/p/y.prm", "/q/b/x.prm"]),
+                         {"/p/a/x.prm": "a/x", "/p/b/x.prm": "p/b/x", "/p/y.prm": "y", "/q/b/x.prm": "q/b/x"})
+
+    def test_axes_that_are_shared(self):
+        """Both panels of error against cost have one scale, though the right one has more points; numbers are outside."""
+        rows = pandas.DataFrame({"status": ["finished"] * 3, "curve": ["a"] * 3, "resolution": ["coarse"] * 3, "problem": [0] * 3,
+                                 "cpu_seconds": [1., 8., None], "unknowns": [1e3, 1e4, 1e5], "error": [0.08, 0.02, 1e-5]})
+        figure = charts.error_against_cost(rows, "error", "error [%]", {"a": {"marker": "o", "linestyle": "-", "color": "k"}})
+        left, right = figure.axes
+        self.assertEqual(left.get_ylim(), right.get_ylim())
+        self.assertLessEqual(left.get_ylim()[0], 1e-3)
+        self.assertGreaterEqual(left.get_ylim()[1], 8.)
+        look.plt.close(figure)
+        figure, axes = look.plt.subplots(2, 3, sharex=True, sharey=True)
+        axes[1, 2].remove()
+        fields.numbers_outside(axes)
+        figure.canvas.draw()
+        for (line, column), ax in [((i, j), axes[i, j]) for i in (0, 1) for j in (0, 1, 2) if (i, j) != (1, 2)]:
+            last = line == 1 or column == 2
+            self.assertEqual([bool(ax.get_xlabel()), any(t.get_visible() and t.get_text() for t in ax.get_xticklabels())],
+                             [last, last])
+            self.assertEqual([bool(ax.get_ylabel()), any(t.get_visible() and t.get_text() for t in ax.get_yticklabels())],
+                             [column == 0, column == 0])
+        look.plt.close(figure)
+
     def test_matrix(self):
         block = study_file.Block(["mandel", "column/rod"], ["none", "peridynamics"], ["coarse", "fine"], [1, 2],
                                  {"Coupling/Scheme": ["monolithic", "undrained"], "Time/Initial step": ["1"]})
@@ -287,7 +519,6 @@ class Parts(unittest.TestCase):
         self.assertEqual(len(jobs), 2 * 2 * 2 * 2 * 2)
         self.assertEqual([j.case for j in jobs if not j.deck], ["mandel"] * 8)  # a hole that is said
         self.assertEqual(jobs[0].name, "mandel/none/monolithic_Initial_step_1/coarse")
-        self.assertEqual(jobs[0].variant, "monolithic")
         self.assertEqual(len({j.name for j in jobs}), len(jobs))
 
     def test_studies_that_ship(self):
@@ -307,8 +538,8 @@ class Parts(unittest.TestCase):
         self.assertAlmostEqual(orders["b"][0][2], 0.)
 
     def test_estimate(self):
-        job = matrix.Job("c", "m", "d", "fine", 2, (), (), 0.)
-        checked = {"seconds": 100., "fingerprint": "new", "audit": "about 5 steps"}
+        job = matrix.Job("c", "m", "d", "fine", 2, (), 0.)
+        checked = {"seconds": 100., "fingerprint": "new", "audit": "about 5 steps", "refused": ""}
         record = {"case": "c", "model": "m", "ranks": 1, "wall_seconds": 5., "estimate": 50., "fingerprint": "old"}
         self.assertEqual(estimate.guess(job, checked, []), (50., "--check"))
         self.assertEqual(estimate.guess(job, {**checked, "audit": "5 steps if none were longer than the first"}, []),
