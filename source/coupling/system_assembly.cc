@@ -359,6 +359,13 @@ typename SystemAssembly<dim>::PoreFluid SystemAssembly<dim>::pore_fluid(const St
   const auto role = [this](const auto &cell) { return model.role(cell); };
   fluid.stored = bulk->stored_fluid(context, state, role);
   fluid.volume = bulk->pore_volume(state.current, role);
+  for (const Segment<dim> &segment : model.segments())
+  {
+    const double taken = segment.taken_from_pores * segment.area;
+    const double now = value(segment.opening, state.current);
+    fluid.stored -= taken * (now - value(segment.opening, state.rate_reference));
+    fluid.volume -= taken * now;
+  }
   const auto at_boundary = bulk->outflow(context, state);
   fluid.outflow = at_boundary.out;
   fluid.through = unknowns.communication.sum(at_boundary.through);

@@ -74,6 +74,12 @@ struct Segment
   /// CellRole::fracture_normal), zero where it is a jump.
   double share_of_pores = 0.;
 
+  /// Share of the opening that the model takes from the balance of the pores around: Biot's
+  /// coefficient, where the opening is strain of the rock's own elements, too, which make room in
+  /// pores of it; zero where it is none, or where they do not (CellRole::fracture_normal). The
+  /// pores hold less by that than the elements say.
+  double taken_from_pores = 0.;
+
   /// What the segment's own fluid pressure adds to the opening [m/Pa], where a crack in a cell is a
   /// spring between its faces. Same rank.
   double opening_by_pressure = 0.;

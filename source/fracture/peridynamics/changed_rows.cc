@@ -57,7 +57,7 @@ void Peridynamics<dim>::find_changed_rows(const std::vector<double> &damage_befo
             changed.push_back(site);
         }
   };
-  if (scene.has_pore_pressure)
+  if (scene.has_pore_pressure && !parameters.in_bonds)
   {
     add_corners(cells_before, cells);
     add_corners(cells, cells_before);

@@ -243,13 +243,10 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
     assemble_tensor_fluid(context, state, sink);
   if (parameters.tensor_fluid && parameters.as_published)
     assemble_published_closure(context, state, sink);
-  if (in_situ_is_zero)
+  for (const Faces &own : faces)
+    own.assemble(state, sink);
+  if (in_situ_is_zero || parameters.in_bonds)
     return;
-  if (parameters.in_bonds)
-  {
-    assemble_released_stress(sink);
-    return;
-  }
   LocalSystem local;
   for (const unsigned int i : owned_cells)
   {

@@ -27,7 +27,7 @@ namespace
 /// Of the stretch at which bonds soften, up to which the surface correction may make them stiffer.
 constexpr double relaxed = 0.5;
 
-std::string text(const double number)
+std::string as_text(const double number)
 {
   std::ostringstream stream;
   stream << number;
@@ -49,7 +49,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
                      "direction as in another");
   const double nu = bond_based_poisson_ratio(rock.plane_stress);
   if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
-    throw EntryError("Rock/Poisson ratio", text(rock.poisson_ratio),
+    throw EntryError("Rock/Poisson ratio", as_text(rock.poisson_ratio),
                      (rock.plane_stress ? std::string("1/3") : std::string("0.25")) +
                        " with bond-based peridynamics" +
                        (rock.plane_stress ? " in plane stress" : "") +
@@ -61,9 +61,6 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
     throw EntryError("Fracture/peridynamics/Closure", "as published",
                      "'conserving' in porous rock (Rock/Bulk model), or 'Fluid = permeability "
                      "tensor'");
-  if (parameters.in_bonds && scene.rock.bulk_model() == "poroelastic")
-    throw EntryError("Fracture/peridynamics/Closure", "in bonds",
-                     "'conserving' in porous rock (Rock/Bulk model)");
   if (parameters.boxes.empty())
     needs::initial_crack(scene, "peridynamics", "or the box of its 'Zone'");
   refuse_what_bonds_do_not_know();
@@ -221,7 +218,7 @@ void Peridynamics<dim>::refresh_segments()
     if (zone.owns(cells[i].place))
     {
       owned_cells.push_back(i);
-      if (scene.has_pore_pressure && !parameters.as_published)
+      if (scene.has_pore_pressure && !parameters.as_published && !parameters.in_bonds)
         normals[zone.active_cell_index(cells[i].place)] = cells[i].normal;
       owned_segments.push_back(segment);
       if (parameters.tensor_fluid)

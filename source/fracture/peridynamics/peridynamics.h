@@ -2,6 +2,7 @@
 
 #include "fracture/peridynamics/bond_set.h"
 #include "fracture/peridynamics/crossed_cells.h"
+#include "fracture/peridynamics/faces.h"
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
 #include "fracture/peridynamics/published_load.h"
@@ -183,9 +184,19 @@ private:
   /// and is the same in all directions along this plane and across it, but for shear.
   dealii::SymmetricTensor<2, dim> released_strain(unsigned int cell) const;
 
-  /// Of each cell, the stretch that the pressure of its fluid gives bonds in rock that is free to
-  /// expand.
+  /// Of each cell, the stretch that the pressure on its faces, the fluid's over the pores', gives
+  /// bonds in rock that is free to expand.
   std::vector<double> fluid_stretch(const State &state) const;
+
+  /// Number of a cell's aperture among the extra unknowns; that of what presses its faces apart is
+  /// the next one. See Faces.
+  unsigned int aperture_unknown(const unsigned int cell) const
+  {
+    return softening_bonds.size() + 2 * cell;
+  }
+
+  /// The unknowns of all cells.
+  std::vector<ExtraUnknown> unknowns_of_faces() const;
 
   /// Of a bond that holds, the stretch that it would have by the net pressure of the cells that it
   /// belongs to.
@@ -239,12 +250,8 @@ private:
   /// Segments open by what bonds have lost of their elongation.
   void open_by_bonds();
 
-  /// Volume per elongation without any force that a bond gives the fluid, adjoint to its push
-  /// [m; m^2 in 3-D].
-  double pushed_volume(const BondView &view) const;
-
-  /// Forces on the ends of broken bonds by the in-situ stress that a fracture does not carry.
-  void assemble_released_stress(Sink &sink) const;
+  /// Stiffness times length, as far as it lies in the domain [N/m^2 times m^dim].
+  double push(const BondView &view) const;
 
   /// The sites that bonds across a fracture cell of this rank may lead to, and some more.
   std::vector<unsigned int> sites_of_crossing_bonds() const;
@@ -397,7 +404,7 @@ private:
   std::vector<PublishedLoad<dim>> published; ///< of owned segments
   CrossedCells<dim> crossed;
   std::vector<dealii::SymmetricTensor<2, dim>> released; ///< strain of each cell, if not all zero
-  std::vector<LinearFunctional> released_forces;         ///< of owned segments [N/m]
+  std::vector<Faces> faces;                              ///< of owned segments
   std::vector<CellShares> softening_shares;              ///< of the softening bonds
   TrackedPaths paths, committed_paths;
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross

@@ -12,6 +12,7 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include "fracture/peridynamics/lattice_moduli.h"
+#include "stockwork/mesh/key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,10 +45,27 @@ SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int ce
 template <int dim>
 std::vector<double> Peridynamics<dim>::fluid_stretch(const State &state) const
 {
-  std::vector<double> stretch(cells.size(), 0.);
-  for (unsigned int i = 0; i < cells.size() && state.segment_pressure; ++i)
-    stretch[i] = strain_of_pressure * state.segment_pressure(all_segments[i].key);
+  std::vector<double> stretch;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    stretch.push_back(state.current.extra[aperture_unknown(i) + 1] / zone.spacing());
   return stretch;
+}
+
+
+template <int dim>
+std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const
+{
+  std::vector<ExtraUnknown> unknowns;
+  for (const Segment<dim> &segment : all_segments)
+  {
+    // As the pressure of its fluid starts.
+    const double closing =
+      -(segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
+    unknowns.push_back({Key().add(segment.key).add(0)});
+    unknowns.push_back(
+      {Key().add(segment.key).add(1), strain_of_pressure * zone.spacing() * std::max(0., closing)});
+  }
+  return unknowns;
 }
 
 
@@ -82,7 +100,6 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
 template <int dim>
 void Peridynamics<dim>::open_by_bonds()
 {
-  const double unit = strain_of_pressure;
   released.clear();
   if (!in_situ_is_zero)
     for (unsigned int i = 0; i < cells.size(); ++i)
@@ -90,14 +107,31 @@ void Peridynamics<dim>::open_by_bonds()
   if (!parameters.tracked)
     crossed.reinit(zone, stencil, cells, parameters.horizon);
 
-  std::vector<unsigned int> owned(cells.size(), dealii::numbers::invalid_unsigned_int);
+  const double alpha = scene.rock.main().biot_coefficient;
+  std::vector<Faces *> faces_of(cells.size(), nullptr);
+  faces.assign(owned_cells.size(), Faces());
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
-    owned[owned_cells[k]] = k;
-  // Volume that a displacement gives the fluid, and force of the stress in situ, by dof.
-  std::vector<std::map<dealii::types::global_dof_index, std::array<double, 2>>> by_dof(
-    owned_segments.size());
-  for (Segment<dim> &segment : owned_segments)
+  {
+    Segment<dim> &segment = owned_segments[k];
+    Faces &own = faces[k];
+    faces_of[owned_cells[k]] = &own;
+    own.aperture = aperture_unknown(owned_cells[k]);
+    own.push = own.aperture + 1;
+    own.area = segment.area;
+    own.gamma = strain_of_pressure;
+    own.spacing = zone.spacing();
     segment.opening = LinearFunctional();
+    segment.opening.extra.push_back(own.aperture);
+    segment.opening.extra_coefficients.push_back(1.);
+    segment.share_of_pores = 0.;
+    if (!scene.has_pore_pressure)
+      continue;
+    segment.taken_from_pores = own.biot_coefficient = alpha;
+    own.pores = &segment.pore_pressure;
+  }
+  // Force by the stretch of the cell, and by the stress in situ, of each dof.
+  std::vector<std::map<dealii::types::global_dof_index, std::array<double, 2>>> by_dof(
+    cells.size());
 
   for (const unsigned int i : zone.peridynamic_sites())
     for (unsigned int b = 0; b < stencil.size(); ++b)
@@ -111,14 +145,13 @@ void Peridynamics<dim>::open_by_bonds()
       const FarEnd end = zone.far_end(i, b);
       for (const auto &[cell, share] : shares_of(i, b, true))
       {
-        if (owned[cell] == dealii::numbers::invalid_unsigned_int)
+        if (faces_of[cell] == nullptr)
           continue;
-        auto &sums = by_dof[owned[cell]];
-        Segment<dim> &segment = owned_segments[owned[cell]];
+        auto &sums = by_dof[cell];
         const double in_situ = in_situ_is_zero ? 0. : e * (released[cell] * e);
         const auto add = [&](const dealii::types::global_dof_index dof, const double direction)
         {
-          sums[dof][0] += share * force * unit * direction;
+          sums[dof][0] += share * force * direction;
           sums[dof][1] += share * force * in_situ * direction;
         };
         for (unsigned int d = 0; d < dim; ++d)
@@ -126,10 +159,16 @@ void Peridynamics<dim>::open_by_bonds()
           add(zone.sites()[i].dofs[d], -e[d]);
           add(zone.sites()[end.site].dofs[d], end.mirrored >> d & 1 ? -e[d] : e[d]);
         }
-        const double volume = share * force * unit * coefficients[b].length / segment.area;
-        segment.opening_by_pressure += volume * unit;
-        segment.opening.constant += volume * in_situ;
+        faces_of[cell]->by_stretch += share * force * coefficients[b].length;
+        faces_of[cell]->constant += share * force * coefficients[b].length * in_situ;
       }
+    }
+  for (unsigned int k = 0; k < owned_cells.size(); ++k)
+    for (const auto &[dof, sums] : by_dof[owned_cells[k]])
+    {
+      faces[k].ends.push_back(dof);
+      faces[k].of_ends.push_back(sums[0]);
+      faces[k].in_situ.push_back(sums[1]);
     }
 
   softening_shares.clear();
@@ -138,51 +177,29 @@ void Peridynamics<dim>::open_by_bonds()
     const auto &[site, bond] = softening_bonds[n].view;
     softening_shares.push_back(shares_of(site, bond, false));
     for (const auto &[cell, share] : softening_shares.back())
-      if (const unsigned int k = owned[cell]; k != dealii::numbers::invalid_unsigned_int)
+      if (Faces *own = faces_of[cell])
       {
-        owned_segments[k].opening.extra.push_back(n);
-        owned_segments[k].opening.extra_coefficients.push_back(
-          share * pushed_volume(softening_bonds[n].view) / owned_segments[k].area);
+        own->bonds.push_back(n);
+        own->of_bonds.push_back(share * push(softening_bonds[n].view));
       }
-  }
-
-  released_forces.clear();
-  for (unsigned int k = 0; k < owned_segments.size(); ++k)
-  {
-    Segment<dim> &segment = owned_segments[k];
-    LinearFunctional force;
-    for (const auto &[dof, sums] : by_dof[k])
-    {
-      segment.opening.bulk.push_back(dof);
-      segment.opening.bulk_coefficients.push_back(sums[0] / segment.area);
-      if (in_situ_is_zero)
-        continue;
-      force.bulk.push_back(dof);
-      force.bulk_coefficients.push_back(sums[1]);
-    }
-    released_forces.push_back(force);
   }
 }
 
 
 template <int dim>
-double Peridynamics<dim>::pushed_volume(const BondView &view) const
+double Peridynamics<dim>::push(const BondView &view) const
 {
   double sum = 0.;
   for (const auto &[s, b] : views_of(view.first, view.second))
     sum += 0.5 * zone.sites()[s].share * coefficients[b].stiffness * coefficients[b].length;
-  return sum * strain_of_pressure;
+  return sum;
 }
 
 
 template <int dim>
 double Peridynamics<dim>::aperture(const unsigned int owned, const State &state) const
 {
-  const Segment<dim> &segment = owned_segments[owned];
-  double w = value(segment.opening, state.current);
-  if (segment.opening_by_pressure != 0. && state.segment_pressure)
-    w += segment.opening_by_pressure * state.segment_pressure(segment.key);
-  return w;
+  return value(owned_segments[owned].opening, state.current);
 }
 
 
@@ -214,21 +231,6 @@ std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const
 }
 
 
-template <int dim>
-void Peridynamics<dim>::assemble_released_stress(Sink &sink) const
-{
-  LocalSystem local;
-  for (const LinearFunctional &force : released_forces)
-  {
-    local.bulk = force.bulk;
-    local.reinit();
-    for (unsigned int i = 0; i < force.bulk.size(); ++i)
-      local.residual(i) = -force.bulk_coefficients[i];
-    sink.add(local);
-  }
-}
-
-
 #define INSTANTIATE(dim)                                                                    \
   template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const;  \
   template std::vector<double> Peridynamics<dim>::fluid_stretch(const State &) const;       \
@@ -236,10 +238,10 @@ void Peridynamics<dim>::assemble_released_stress(Sink &sink) const
     unsigned int, unsigned int, const CellShares &, const std::vector<double> &) const;     \
   template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const; \
   template void Peridynamics<dim>::open_by_bonds();                                         \
-  template double Peridynamics<dim>::pushed_volume(const BondView &) const;                 \
+  template double Peridynamics<dim>::push(const BondView &) const;                          \
   template double Peridynamics<dim>::aperture(unsigned int, const State &) const;           \
-  template std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const;    \
-  template void Peridynamics<dim>::assemble_released_stress(Sink &) const;
+  template std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const;          \
+  template std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const;
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

@@ -86,6 +86,9 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
                           .add(zone.position(from), 1e-4 * zone.spacing())
                           .add(zone.position(to), 1e-4 * zone.spacing())});
   }
+  if (parameters.in_bonds)
+    for (const ExtraUnknown &unknown : unknowns_of_faces())
+      unknowns.push_back(unknown);
   return unknowns;
 }
 
@@ -162,28 +165,17 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
                                         stretch / kappa * carried / total
                            : damage;
     law_of_bond.extra.resize(1);
-    if (parameters.in_bonds && state.segment_unknown)
+    if (parameters.in_bonds)
       for (const auto &[cell, share] : softening_shares[n])
-        if (const auto unknown = state.segment_unknown(all_segments[cell].key))
-          law_of_bond.extra.push_back(*unknown);
+        law_of_bond.extra.push_back(aperture_unknown(cell) + 1);
     law_of_bond.reinit();
     law_of_bond.residual(2 * dim) = k * (x - damage * carried);
-    if (parameters.in_bonds && state.segment_pressure)
-    {
-      // The network loads this row as it loads what opens a segment.
-      const double of_network = pushed_volume(softening_bonds[n].view),
-                   of_law =
-                     coefficients[bond].stiffness * coefficients[bond].length * strain_of_pressure;
-      unsigned int column = 2 * dim;
-      for (const auto &[cell, share] : softening_shares[n])
-      {
-        const auto key = all_segments[cell].key;
-        law_of_bond.residual(2 * dim) += share * of_network * state.segment_pressure(key);
-        if (state.segment_unknown && state.segment_unknown(key))
-          law_of_bond.matrix(2 * dim, ++column) = share * (of_network - slope * of_law);
-      }
-    }
     law_of_bond.matrix(2 * dim, 2 * dim) = k;
+    if (parameters.in_bonds)
+      for (unsigned int i = 0; i < softening_shares[n].size(); ++i)
+        law_of_bond.matrix(2 * dim, 2 * dim + 1 + i) = -slope * softening_shares[n][i].second *
+                                                       coefficients[bond].stiffness *
+                                                       coefficients[bond].length / zone.spacing();
     for (unsigned int d = 0; d < dim; ++d)
     {
       law_of_bond.matrix(2 * dim, d) = k * slope * e[d];
