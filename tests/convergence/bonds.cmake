@@ -117,6 +117,43 @@ foreach(tracking none path)
            "errors/net_inlet_pressure/mean < 0.01" "fluid_balance/relative_error < 1e-8")
 endforeach()
 
+# In porous rock pores and fracture at one pressure open nothing; with half of it in the fracture, its faces touch. At once, it
+# is a crack in the undrained rock, see above.
+foreach(tracking none path)
+  set(in_bonds "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=${tracking}")
+  stockwork_case_test(NAME convergence/sneddon/in_bonds/clamped/${tracking} LABELS quick
+    DECK prm/sneddon/peridynamics.prm SET ${steady} ${in_bonds}
+    EXPECT "final/fracture_volume < 5e-9" "final/fracture_volume > -5e-9")
+  stockwork_case_test(NAME convergence/sneddon/in_bonds/touching/${tracking} LABELS quick
+    DECK prm/sneddon/peridynamics.prm SET ${steady} ${in_bonds} "Cracks/Fluid pressure=0.5 MPa"
+    WARNS "Faces of a crack touch" EXPECT "final/fracture_volume < 1e-12" "final/fracture_volume > -1e-12")
+  stockwork_case_test(NAME convergence/sneddon/in_bonds/undrained/${tracking} LABELS quick
+    DECK prm/sneddon/box/peridynamics.prm
+    SET ${porous} ${in_bonds} "Resolution=medium" "Rock/Permeability=1e-32 m^2"
+    EXPECT "final/fracture_volume = 4.633e-4 within 0.01" "final/fluid_volume_defect < 1e-12"
+           "final/fluid_volume_defect > -1e-12")
+endforeach()
+# A growing one, beside cut cells of half the size (cohesive_xfem, medium: 0.959 MPa, 0.2456 mm). Stress along it, at equal
+# effective stress across it, makes no difference.
+set(in_bonds "Resolution=coarse" "Output/Fields=false" "Fracture/peridynamics/Closure=in bonds")
+stockwork_case_test(NAME convergence/kgd/sun/permeable/in_bonds
+  DECK prm/kgd/sun/permeable/peridynamics.prm SET ${in_bonds} "Fracture/peridynamics/Tracking=path" "Time/End time=5 s"
+  EXPECT "final/net_inlet_pressure = 9.59e5 within 0.03" "final/inlet_aperture = 2.456e-4 within 0.02"
+         "fluid_balance/relative_error < 1e-8" "final/fluid_volume_defect < 1e-12" "final/fluid_volume_defect > -1e-12")
+stockwork_same_test(NAME convergence/kgd/sun/permeable/in_bonds/stress
+  DECK prm/kgd/sun/permeable/peridynamics.prm SET ${in_bonds} "Time/End time=2 s"
+  SECOND_SET "In situ/Stress=-23 MPa, -17 MPa" "In situ/Pore pressure=17 MPa" TOLERANCE 1e-7
+  IGNORE "error|^inlet_pressure|^minimum_pressure|^maximum_pressure|borehole_pressure|energy|load")
+
+# A closed crack of bonds rubs: the work of friction is that of the exact solution, and no faces overlap. With a great coefficient
+# it sticks.
+stockwork_case_test(NAME convergence/closed/20/in_bonds DECK tests/data/closed_bonds.prm LABELS quick
+  SET "Resolution=medium" "Output/Fields=false" WARNS "Faces of a crack touch"
+  EXPECT "final/dissipated_energy = 40396 within 0.03" "minimum/minimum_aperture > -1e-12") # 0.028; fine 0.01
+stockwork_case_test(NAME convergence/closed/20/in_bonds/sticks DECK tests/data/closed_bonds.prm LABELS quick
+  SET "Resolution=coarse" "Output/Fields=false" "Fracture/peridynamics/Friction coefficient=3"
+  EXPECT "final/dissipated_energy < 1e-3" "minimum/minimum_aperture > -1e-12" "nonlinear_iterations < 5")
+
 # A slot of constant aperture conducts as the cubic law says, however it is turned.
 foreach(slot "0|11 m, 0|10 m, 0|-11 m, 0|-10 m, 0"
     "15|10.625184 m, 2.847009 m|9.659258 m, 2.58819 m|-10.625184 m, -2.847009 m|-9.659258 m, -2.58819 m"

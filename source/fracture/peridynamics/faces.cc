@@ -1,47 +1,135 @@
 #include "fracture/peridynamics/faces.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace stockwork::peridynamics
 {
+/// Their share in the system of equations while it is being assembled.
+struct Faces::Rows
+{
+  LocalSystem local;
+  unsigned int n_ends, n_pores, n_modes;
+
+  unsigned int pore(const unsigned int i) const
+  {
+    return n_ends + i;
+  }
+  unsigned int jump(const unsigned int mode) const
+  {
+    return n_ends + n_pores + 2 * mode;
+  }
+  unsigned int traction(const unsigned int mode) const
+  {
+    return jump(mode) + 1;
+  }
+  unsigned int bond(const unsigned int i) const
+  {
+    return jump(n_modes) + i;
+  }
+};
+
+
 void Faces::assemble(const State &state, Sink &sink) const
 {
   const auto &now = state.current;
-  const unsigned int n_ends = ends.size(), n_pores = pores != nullptr ? pores->bulk.size() : 0;
-  LocalSystem local;
+  Rows rows;
+  rows.n_ends = ends.size();
+  rows.n_pores = pores != nullptr ? pores->bulk.size() : 0;
+  rows.n_modes = modes.size();
+  LocalSystem &local = rows.local;
   local.bulk = ends;
   if (pores != nullptr)
     local.bulk.insert(local.bulk.end(), pores->bulk.begin(), pores->bulk.end());
-  local.extra = {aperture, push};
+  for (const Mode &mode : modes)
+    local.extra.insert(local.extra.end(), {mode.jump, mode.traction});
   local.extra.insert(local.extra.end(), bonds.begin(), bonds.end());
+  const auto pressure = state.segment_unknown ? state.segment_unknown(segment) : std::nullopt;
+  if (pressure)
+    local.extra.push_back(*pressure);
   local.reinit();
-  const unsigned int row_w = local.bulk.size(), row_y = row_w + 1;
-  const double h = spacing, unit = area / (gamma * h), w = now.extra[aperture],
-               stretch = now.extra[push] / h;
 
-  local.residual(row_w) = unit * now.extra[push];
-  local.matrix(row_w, row_y) = local.matrix(row_y, row_w) = unit;
-  double volume = constant + by_stretch * stretch; // over gamma
-  for (unsigned int i = 0; i < n_ends; ++i)
+  for (unsigned int i = 0; i < ends.size(); ++i)
+    local.residual(i) = -in_situ[i];
+  for (unsigned int m = 0; m < modes.size(); ++m)
   {
-    volume += of_ends[i] * now.bulk(ends[i]);
-    local.residual(i) = -of_ends[i] * stretch - in_situ[i];
-    local.matrix(i, row_y) = local.matrix(row_y, i) = -of_ends[i] / h;
+    const Mode &mode = modes[m];
+    const unsigned int w = rows.jump(m), y = rows.traction(m);
+    const double lost = unit * now.extra[mode.traction];
+    local.residual(w) = area * lost;
+    local.matrix(w, y) = local.matrix(y, w) = area * unit;
+    double volume = mode.constant;
+    for (unsigned int i = 0; i < ends.size(); ++i)
+    {
+      volume += mode.of_ends[i] * now.bulk(ends[i]);
+      local.residual(i) -= mode.of_ends[i] * lost;
+      local.matrix(i, y) = local.matrix(y, i) = -mode.of_ends[i] * unit;
+    }
+    for (unsigned int i = 0; i < bonds.size(); ++i)
+    {
+      volume += mode.of_bonds[i] * now.extra[bonds[i]];
+      local.matrix(y, rows.bond(i)) = -mode.of_bonds[i] * unit;
+    }
+    for (unsigned int k = 0; k < modes.size(); ++k)
+    {
+      volume += mode.of_tractions[k] * unit * now.extra[modes[k].traction];
+      local.matrix(y, rows.traction(k)) = -mode.of_tractions[k] * unit * unit;
+    }
+    local.residual(y) = unit * (area * now.extra[mode.jump] - volume);
   }
-  for (unsigned int i = 0; i < bonds.size(); ++i)
-  {
-    volume += of_bonds[i] * now.extra[bonds[i]];
-    local.matrix(row_y, row_y + 1 + i) = -of_bonds[i] / h;
-  }
-  local.residual(row_y) = unit * w - volume / h;
-  local.matrix(row_y, row_y) = -by_stretch / (h * h);
 
-  for (unsigned int i = 0; i < n_pores; ++i)
+  const unsigned int w = rows.jump(0);
+  for (unsigned int i = 0; i < rows.n_pores; ++i)
   {
-    const unsigned int row = n_ends + i;
+    const unsigned int p = rows.pore(i);
     const double taken = biot_coefficient * area * pores->bulk_coefficients[i];
-    local.residual(row_w) += taken * now.bulk(pores->bulk[i]);
-    local.residual(row) = taken * (w - state.rate_reference.extra[aperture]);
-    local.matrix(row_w, row) = local.matrix(row, row_w) = taken;
+    local.residual(w) += taken * now.bulk(pores->bulk[i]);
+    local.residual(p) =
+      taken * (now.extra[modes[0].jump] - state.rate_reference.extra[modes[0].jump]);
+    local.matrix(w, p) = local.matrix(p, w) = taken;
   }
+  if (modes[0].of_tractions[0] > 0.)
+    add_contact(state, rows);
   sink.add(local);
+}
+
+
+void Faces::add_contact(const State &state, Rows &rows) const
+{
+  const auto &now = state.current;
+  LocalSystem &local = rows.local;
+  const unsigned int w = rows.jump(0);
+  const double c = unit, fluid = state.segment_pressure ? state.segment_pressure(segment) : 0.;
+  // The traction by the balance of forces, and that of the law.
+  const double balanced = fluid - local.residual(w) / area;
+  const double normal = balanced + c * now.extra[modes[0].jump];
+  if (normal >= 0.)
+    return;
+  // By each unknown.
+  std::vector<std::pair<unsigned int, double>> slope{{w, c}, {rows.traction(0), -unit}};
+  for (unsigned int i = 0; i < rows.n_pores; ++i)
+    slope.emplace_back(rows.pore(i), -biot_coefficient * pores->bulk_coefficients[i]);
+  if (state.segment_unknown && state.segment_unknown(segment))
+    slope.emplace_back(local.residual.size() - 1, 1.);
+  local.residual(w) += area * normal;
+  for (const auto &[column, value] : slope)
+    local.matrix(w, column) += area * value;
+  if (modes.size() == 1)
+    return;
+
+  const unsigned int s = rows.jump(1);
+  const double trial = -unit * now.extra[modes[1].traction] +
+                       c * (now.extra[modes[1].jump] - state.committed.extra[modes[1].jump]);
+  if (std::abs(trial) < -friction * normal)
+  {
+    local.residual(s) += area * trial;
+    local.matrix(s, s) += area * c;
+    local.matrix(s, rows.traction(1)) -= area * unit;
+    return;
+  }
+  const double signed_friction = trial > 0. ? -friction : friction;
+  local.residual(s) += area * signed_friction * normal;
+  for (const auto &[column, value] : slope)
+    local.matrix(s, column) += area * signed_friction * value;
 }
 } // namespace stockwork::peridynamics

@@ -6,35 +6,54 @@
 
 namespace stockwork::peridynamics
 {
-/// The faces of a segment with the pressure in the law of bonds. It has two unknowns of the model's
-/// own: the aperture w, which is its opening; and what presses the faces apart, the net pressure
-/// p_f - alpha dp_m, as a length y = gamma h (p_f - alpha dp_m), with the stretch gamma of free
-/// rock under unit pressure and the spacing h. With the area A and the volume V that the bonds
-/// across the fracture say,
+/// The faces of a segment with the pressure in the law of bonds. A traction that they have lost
+/// strains the bonds across the fracture as a uniform stress of this traction strains the lattice;
+/// by the transpose of that these bonds say what the faces have moved by. So there are two unknowns
+/// of the model's own for each mode, across the fracture and, with friction, along it: the jump w,
+/// and the lost traction q as a length y = gamma h q, with the strain gamma of the lattice under
+/// unit pressure and the spacing h. Jumps are those over the face of a cell, A = h^(d-1): then w is
+/// a volume, whatever becomes of the segment's area when it turns. With what the bonds say, V,
 ///
-///   A/(gamma h) (y - gamma h (p_f - alpha dp_m)) = 0,   1/(gamma h) (A w - V) = 0,
+///   A (q - p_f + alpha dp_m + t_n) = 0,   (A w - V)/(gamma h) = 0
 ///
-/// the forces of y on the ends of bonds are the transpose of what they add to V, and those of w on
-/// the pores, which lose alpha A w of what the strain of the elements makes room for, are that of
-/// what the pores take from y. The network adds the fluid's pressure, which loads the opening.
+/// across it; along it there is no pressure. Stress in situ is lost besides. The jump across the
+/// fracture, over the area of the segment, is its opening, so the network adds p_f; and of what the
+/// strain of the elements makes room for, the pores lose alpha A w.
+///
+/// Faces whose bonds have broken do not pass through one another, and rub (Coulomb): the tractions
+/// t that they exert on one another are
+///
+///   t_n = min(0, t_n + c w),   t_s = t_s + c (s - s_0), where |t_s| <= - mu t_n, else at that
+///   bound,
+///
+/// any c > 0, with the slip s_0 of the last step: Newton's method for the complementarity, with the
+/// t on the right from the balance of forces (an active set; Hueber and Wohlmuth 2005).
 struct Faces
 {
-  unsigned int aperture = 0, push = 0; ///< numbers of w and y among the extra unknowns
-  double area = 0.;                    ///< [m^2]
-  double gamma = 0.;                   ///< [1/Pa]
-  double spacing = 0.;                 ///< [m]
+  struct Mode
+  {
+    unsigned int jump = 0, traction = 0; ///< numbers of w and y among the extra unknowns
+    std::vector<double> of_ends;         ///< V by displacements of `ends` [m^(d-1)]
+    std::vector<double> of_bonds;        ///< V by the elongation of `bonds` without force
+    std::vector<double> of_tractions;    ///< V by q of each mode [m^d/Pa]
+    double constant = 0.;                ///< V by the stress in situ [m^d]
+  };
 
-  /// V/gamma by the displacement of ends of broken bonds, and so their force by y/h [N].
-  std::vector<dealii::types::global_dof_index> ends;
-  std::vector<double> of_ends;
-  std::vector<double> in_situ;             ///< force of the stress in situ on them [N]
-  std::vector<unsigned int> bonds;         ///< that soften
-  std::vector<double> of_bonds;            ///< V/gamma by their elongation without force [N]
-  double by_stretch = 0.;                  ///< by y/h [N m]
-  double constant = 0.;                    ///< [N m]
+  std::uint64_t segment = 0; ///< key
+  double area = 0.;          ///< A [m^2]
+  double unit = 0.;          ///< 1/(gamma h) [Pa/m]
+  double friction = 0.;      ///< mu
+  std::vector<Mode> modes;
+  std::vector<dealii::types::global_dof_index> ends; ///< displacements of ends of broken bonds
+  std::vector<double> in_situ;                       ///< force of the stress in situ on them [N]
+  std::vector<unsigned int> bonds;                   ///< that soften
   const LinearFunctional *pores = nullptr; ///< pressure at the segment; null: there are none
   double biot_coefficient = 0.;
 
   void assemble(const State &state, Sink &sink) const;
+
+private:
+  struct Rows;
+  void add_contact(const State &state, Rows &rows) const;
 };
 } // namespace stockwork::peridynamics

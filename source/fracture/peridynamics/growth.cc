@@ -62,12 +62,12 @@ double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigne
 
 
 template <int dim>
-std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
-                                                        const Collectives &collectives) const
+typename Peridynamics<dim>::OfCells
+Peridynamics<dim>::pressure_stretch(const State &state, const Collectives &collectives) const
 {
-  std::vector<double> result(cells.size(), 0.);
   if (parameters.in_bonds)
-    return fluid_stretch(state);
+    return {{}, strain_of_faces(state)};
+  std::vector<double> result(cells.size(), 0.);
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
   const double by_fluid = state.segment_pressure ? relief_by_fluid : 0.;
@@ -86,7 +86,7 @@ std::vector<double> Peridynamics<dim>::pressure_stretch(const State &state,
     if (by_fluid > 0.)
       result[i] += by_fluid * (state.segment_pressure(all_segments[i].key) + in_situ);
   }
-  return result;
+  return {result, {}};
 }
 
 
@@ -124,22 +124,24 @@ double Peridynamics<dim>::relief_at(const unsigned int site,
 template <int dim>
 double Peridynamics<dim>::added_stretch(const unsigned int site,
                                         const unsigned int bond,
-                                        const std::vector<double> &of_cells) const
+                                        const OfCells &of_cells) const
 {
-  return parameters.in_bonds ? fractured_stretch(site, bond, shares_of(site, bond, false), of_cells)
-                             : in_situ_stretch(site, bond) + relief_at(site, bond, of_cells);
+  return parameters.in_bonds
+           ? fractured_stretch(site, bond, shares_of(site, bond, false), of_cells.strain)
+           : in_situ_stretch(site, bond) + relief_at(site, bond, of_cells.relief);
 }
 
 
 template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
-  const std::vector<double> &u, const std::vector<double> &of_cells, Rim &rim) const
+  const std::vector<double> &u, const OfCells &of_cells, Rim &rim) const
 {
   const double least = softening.brittle() ? 1. : soon_to_soften;
   double most_of_cells = 0.;
-  for (unsigned int i = 0; i < of_cells.size(); ++i)
-    most_of_cells =
-      std::max(most_of_cells, of_cells[i] + (i < released.size() ? released[i].norm() : 0.));
+  for (const double relief : of_cells.relief)
+    most_of_cells = std::max(most_of_cells, relief);
+  for (const SymmetricTensor<2, dim> &strain : of_cells.strain)
+    most_of_cells = std::max(most_of_cells, strain.norm());
   std::vector<Candidate> candidates;
   const unsigned int half = stencil.size() / 2;
   for (const unsigned int i : zone.peridynamic_sites())
@@ -210,7 +212,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (!parameters.growth)
     return verdict_on(context, state, collectives);
   Rim rim = Rim::away;
-  const std::vector<double> of_cells = pressure_stretch(state, collectives);
+  const OfCells of_cells = pressure_stretch(state, collectives);
   if (parameters.tracked)
     track(state, of_cells);
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
@@ -279,20 +281,20 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   return verdict;
 }
 
-#define INSTANTIATE(dim)                                                                       \
-  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                    \
-                                                const std::vector<double> &) const;            \
-  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const;        \
-  template std::vector<double> Peridynamics<dim>::pressure_stretch(const State &,              \
-                                                                   const Collectives &) const; \
-  template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                     \
-                                               const std::vector<double> &) const;             \
-  template double Peridynamics<dim>::added_stretch(unsigned int, unsigned int,                 \
-                                                   const std::vector<double> &) const;         \
-  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(         \
-    const std::vector<double> &, const std::vector<double> &, Rim &) const;                    \
-  template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                \
-  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,              \
+#define INSTANTIATE(dim)                                                                        \
+  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                     \
+                                                const std::vector<double> &) const;             \
+  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const;         \
+  template Peridynamics<dim>::OfCells Peridynamics<dim>::pressure_stretch(                      \
+    const State &, const Collectives &) const;                                                  \
+  template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                      \
+                                               const std::vector<double> &) const;              \
+  template double Peridynamics<dim>::added_stretch(unsigned int, unsigned int, const OfCells &) \
+    const;                                                                                      \
+  template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(          \
+    const std::vector<double> &, const OfCells &, Rim &) const;                                 \
+  template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                 \
+  template Verdict Peridynamics<dim>::advance(const StepContext &, const State &,               \
                                               const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace stockwork::peridynamics
@@ -258,7 +259,7 @@ Verdict Peridynamics<dim>::verdict_on(const StepContext &context,
   for (const Segment<dim> &segment : all_segments)
     area += segment.area;
   const double volume = fracture_volume(state, collectives), reach = extent();
-  if (volume < -overlap * area * reach)
+  if (!parameters.in_bonds && volume < -overlap * area * reach)
   {
     verdict.kind = Verdict::Kind::stop;
     verdict.reason =
@@ -288,12 +289,18 @@ Verdict Peridynamics<dim>::verdict_on(const StepContext &context,
 template <int dim>
 std::string Peridynamics<dim>::wanted_zone() const
 {
-  // The boxes that joined while the step was tried, with room for what it wants next.
+  // The zone, the boxes that joined while the step was tried, and room for what it wants next.
   Point<dim> lower, upper;
   for (unsigned int d = 0; d < dim; ++d)
   {
-    lower[d] = shape.boxes.back().lower_bound(d);
-    upper[d] = shape.boxes.back().upper_bound(d);
+    lower[d] = std::numeric_limits<double>::infinity();
+    upper[d] = -lower[d];
+    for (const unsigned int i : zone.peridynamic_sites())
+    {
+      const double place = zone.position(zone.sites()[i].place)[d];
+      lower[d] = std::min(lower[d], place);
+      upper[d] = std::max(upper[d], place);
+    }
     for (const auto &box : shape.boxes)
     {
       lower[d] = std::min(lower[d], box.lower_bound(d));

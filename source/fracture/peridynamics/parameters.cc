@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/parameters.h"
 
+#include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
 #include "mesh/box_list.h"
 #include "stockwork/base/error.h"
@@ -85,6 +86,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "only, and with the balance of fluid that is printed: fracture cells conduct by w^2/12 over "
     "all "
     "of their height, store 1/K_f, and their change of volume does not count.");
+  declare_friction(prm);
   permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry(
@@ -171,6 +173,10 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   // A fracture that enters a cell then asks for more than a step can give.
   if (p.in_bonds && p.horizon < 3)
     throw bad("Horizon", "3 and more with 'Closure = in bonds'");
+  p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
+  if (p.friction > 0. && (dim != 2 || !p.in_bonds))
+    throw bad("Friction coefficient",
+              dim != 2 ? "0 in three dimensions" : "0, or 'Closure = in bonds'");
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   if (p.softening > 1. && prm.get("Bonds per pass") != default_bonds_per_pass)

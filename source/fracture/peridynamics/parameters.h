@@ -29,6 +29,7 @@ struct Parameters
   bool as_published;      ///< the pressure's load on bonds, as printed
   bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
   double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
+  double friction = 0.;         ///< coefficient, of faces that touch
   bool growth;
   bool tracked; ///< bonds soften across the ways of cracks only
   enum class Bonds

@@ -191,6 +191,8 @@ void Peridynamics<dim>::refresh_segments()
       if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
         for (unsigned int d = 0; d < dim; ++d)
           cell.normal[d] = old->second[d];
+    if (parameters.in_bonds)
+      keep_committed_cells();
     all_segments = make_segments(zone, cells);
   }
   at_front.clear();
@@ -270,7 +272,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
 
 
 template <int dim>
-bool Peridynamics<dim>::commit(const StepContext &, const State &)
+bool Peridynamics<dim>::commit(const StepContext &, const State &state)
 {
   if (passes > 0)
   {
@@ -290,6 +292,15 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &)
     bond.committed = bond.trial;
     committed_softening.push_back(
       {bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
+  }
+  if (parameters.in_bonds)
+  {
+    commit_contact(state);
+    committed_cells.clear();
+    for (const FractureCell<dim> &cell : cells)
+      if (!parameters.tracked)
+        committed_cells.emplace_back(
+          cell.place, std::vector<double>(cell.normal.begin_raw(), cell.normal.end_raw()));
   }
   committed_energy = dissipated;
   committed_damage_relaxation = damage_relaxation;
@@ -398,7 +409,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_correction << committed_energy
           << committed_damage_relaxation << told_of_rim << told_of_pressure << committed_paths
-          << committed_way_energy << told_off_paths;
+          << committed_way_energy << told_off_paths << committed_cells << told_of_contact;
 }
 
 
@@ -409,7 +420,8 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths;
+    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths >>
+    committed_cells >> told_of_contact;
   paths = committed_paths;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)

@@ -105,6 +105,9 @@ private:
   /// left behind does not change any more.
   void refresh_segments();
 
+  /// With the pressure in the bonds, cells of accepted steps stay: their fluid would be lost.
+  void keep_committed_cells();
+
   /// Find the sites whose rows are not what they were before the segments were refreshed: where
   /// bonds have broken or are whole again, where the surface correction is another, and in porous
   /// rock at the corners of cells that have become fracture cells or turned.
@@ -123,6 +126,14 @@ private:
 
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
   double in_situ_stretch(unsigned int site, unsigned int bond) const;
+
+  /// What cells do to the bonds around them besides elongating them.
+  struct OfCells
+  {
+    std::vector<double> relief; ///< stretch, see pressure_stretch()
+    /// With the pressure in the bonds: of the lattice, by the tractions that the faces have lost.
+    std::vector<dealii::SymmetricTensor<2, dim>> strain;
+  };
 
   /// A bond that is stretched too far.
   struct Candidate
@@ -167,7 +178,7 @@ private:
   /// Follow the softening bonds, and let candidates soften.
   /// @return whether unknowns or segments have changed
   bool soften_bonds(const std::vector<double> &displacement,
-                    const std::vector<double> &of_cells,
+                    const OfCells &of_cells,
                     const std::vector<Candidate> &candidates);
 
   /// Elastic energy of a bond, all of its views, at stretch one [J/m].
@@ -180,31 +191,46 @@ private:
 
   // With the pressure in the bonds (pressure_in_bonds.cc).
 
-  /// Strain of the lattice under a stress that has the in-situ traction of a fracture cell's plane,
-  /// and is the same in all directions along this plane and across it, but for shear.
+  /// Strain of the lattice under a stress that has this traction on a fracture cell's plane, and is
+  /// the same in all directions along this plane and across it, but for shear.
+  dealii::SymmetricTensor<2, dim> strain_of_traction(unsigned int cell,
+                                                     const dealii::Tensor<1, dim> &traction) const;
+
+  /// The same by the in-situ stress.
   dealii::SymmetricTensor<2, dim> released_strain(unsigned int cell) const;
 
-  /// Of each cell, the stretch that the pressure on its faces, the fluid's over the pores', gives
-  /// bonds in rock that is free to expand.
-  std::vector<double> fluid_stretch(const State &state) const;
+  /// The same of a unit traction of a mode [1/Pa].
+  dealii::SymmetricTensor<2, dim> strain_of_mode(unsigned int cell, unsigned int mode) const;
 
-  /// Number of a cell's aperture among the extra unknowns; that of what presses its faces apart is
-  /// the next one. See Faces.
-  unsigned int aperture_unknown(const unsigned int cell) const
+  /// Of all cells.
+  std::vector<dealii::SymmetricTensor<2, dim>> strain_of_faces(const State &state) const;
+
+  /// What a step has brought: faces that touch, and the work of their friction.
+  void commit_contact(const State &state);
+
+  /// Modes in which faces have unknowns: across the fracture, and along it if they rub.
+  unsigned int n_modes() const
   {
-    return softening_bonds.size() + 2 * cell;
+    return parameters.friction > 0. ? 2 : 1;
+  }
+
+  /// Number of the jump of a cell's faces among the extra unknowns; that of the traction is the
+  /// next one. See Faces.
+  unsigned int unknown_of_faces(const unsigned int cell, const unsigned int mode) const
+  {
+    return softening_bonds.size() + 2 * (cell * n_modes() + mode);
   }
 
   /// The unknowns of all cells.
   std::vector<ExtraUnknown> unknowns_of_faces() const;
 
-  /// Of a bond that holds, the stretch that it would have by the net pressure of the cells that it
-  /// belongs to.
-  /// @param of_pressure fluid_stretch()
+  /// Of a bond that holds, the stretch that it would have by the tractions that the faces have lost
+  /// of the cells that it belongs to.
+  /// @param strain strain_of_faces()
   double fractured_stretch(unsigned int site,
                            unsigned int bond,
                            const CellShares &shares,
-                           const std::vector<double> &of_pressure) const;
+                           const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
 
   /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
   CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
@@ -218,7 +244,7 @@ private:
   void follow_paths();
 
   /// Paths go on ahead of tips that have come near to their ends.
-  void track(const State &state, const std::vector<double> &of_cells);
+  void track(const State &state, const OfCells &of_cells);
 
   /// How far tips have come by the energy that softening bonds have dissipated.
   /// @return whether fluid has reached another piece
@@ -235,7 +261,7 @@ private:
   /// @param softened what has become of the elongation of bonds without any force [m]
   dealii::SymmetricTensor<2, dim> stress_of_bonds(unsigned int site,
                                                   const std::map<BondView, double> &softened,
-                                                  const std::vector<double> &of_cells) const;
+                                                  const OfCells &of_cells) const;
 
   /// Of a site among elements of the size of the lattice's cells; nothing at the rim of these.
   std::optional<dealii::SymmetricTensor<2, dim>> stress_of_elements(unsigned int site) const;
@@ -245,7 +271,10 @@ private:
   dealii::SymmetricTensor<2, dim> stress_ahead(const dealii::Point<dim> &tip,
                                                const dealii::Tensor<1, dim> &ahead,
                                                const State &state,
-                                               const std::vector<double> &of_cells) const;
+                                               const OfCells &of_cells) const;
+
+  /// Of all cells, the opening that their bonds would read of a slip of one.
+  void find_lifts();
 
   /// Segments open by what bonds have lost of their elongation.
   void open_by_bonds();
@@ -277,25 +306,23 @@ private:
   };
 
   /// The most stretched first.
-  std::vector<Candidate> overstretched(const std::vector<double> &displacement,
-                                       const std::vector<double> &of_cells,
-                                       Rim &rim) const;
+  std::vector<Candidate>
+  overstretched(const std::vector<double> &displacement, const OfCells &of_cells, Rim &rim) const;
 
   /// What counts for softening and breaking besides a bond's elongation: in-situ stress and fluid.
   /// @param of_cells see pressure_stretch()
-  double
-  added_stretch(unsigned int site, unsigned int bond, const std::vector<double> &of_cells) const;
+  double added_stretch(unsigned int site, unsigned int bond, const OfCells &of_cells) const;
 
   /// The same of a bond that softens.
-  double added_stretch(const SofteningBond &bond, const std::vector<double> &of_cells) const;
+  double added_stretch(const SofteningBond &bond, const OfCells &of_cells) const;
 
-  /// With the pressure in the bonds, fluid_stretch(). Else, of each fracture cell, the stretch that
-  /// bonds ahead of it are relieved of: by the in-situ stress normal to the fracture, which its
-  /// faces release; and by the fluid. For a cell that fluid enters is open already, by its rock's
-  /// stretch w_0 / h. The fluid fills this volume, but its work, p w_0 per area, does not reach the
-  /// rock; so that it is not lost, the bonds take so much less to break. What pressure the pores
-  /// carry, the rock has seen already.
-  std::vector<double> pressure_stretch(const State &state, const Collectives &collectives) const;
+  /// With the pressure in the bonds, strain_of_faces(). Else, of each fracture cell, the stretch
+  /// that bonds ahead of it are relieved of: by the in-situ stress normal to the fracture, which
+  /// its faces release; and by the fluid. For a cell that fluid enters is open already, by its
+  /// rock's stretch w_0 / h. The fluid fills this volume, but its work, p w_0 per area, does not
+  /// reach the rock; so that it is not lost, the bonds take so much less to break. What pressure
+  /// the pores carry, the rock has seen already.
+  OfCells pressure_stretch(const State &state, const Collectives &collectives) const;
 
   /// That of the nearest cell whose plane crosses a bond, if one is within a horizon.
   double relief_at(unsigned int site, unsigned int bond, const std::vector<double> &relief) const;
@@ -405,6 +432,7 @@ private:
   CrossedCells<dim> crossed;
   std::vector<dealii::SymmetricTensor<2, dim>> released; ///< strain of each cell, if not all zero
   std::vector<Faces> faces;                              ///< of owned segments
+  std::vector<double> lifts;                             ///< see find_lifts()
   std::vector<CellShares> softening_shares;              ///< of the softening bonds
   TrackedPaths paths, committed_paths;
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
@@ -420,10 +448,12 @@ private:
   /// Greatest stretch and offset.
   std::vector<std::pair<BondPlaces<dim>, std::array<double, 2>>> committed_softening;
   std::map<Place<dim>, std::vector<double>> committed_normals;
+  std::vector<std::pair<Place<dim>, std::vector<double>>> committed_cells; ///< and their normals
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
   bool told_of_rim = false, told_of_pressure = false, told_off_paths = false;
+  bool told_of_contact = false;
 
   // Of the current step.
   std::size_t n_messages_before = 0;

@@ -11,6 +11,7 @@
 // shear does, is a uniform field of its own.
 #include "fracture/peridynamics/peridynamics.h"
 
+#include "discontinuity/contact.h"
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "stockwork/mesh/key.h"
 
@@ -23,13 +24,19 @@ namespace stockwork::peridynamics
 using dealii::SymmetricTensor;
 using dealii::Tensor;
 
+namespace
+{
+/// Faces that are nearer to one another touch [m].
+constexpr double closed = 1e-12;
+} // namespace
+
 
 template <int dim>
-SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int cell) const
+SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_traction(const unsigned int cell,
+                                                              const Tensor<1, dim> &traction) const
 {
   const LatticeModuli moduli = lattice_moduli<dim>(stencil, law, zone.spacing());
   const Tensor<1, dim> &n = cells[cell].normal;
-  const Tensor<1, dim> traction = scene.in_situ_stress(all_segments[cell].centre) * n;
   const double normal = traction * n;
   const Tensor<1, dim> shear = traction - normal * n;
   SymmetricTensor<2, dim> strain =
@@ -43,12 +50,41 @@ SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int ce
 
 
 template <int dim>
-std::vector<double> Peridynamics<dim>::fluid_stretch(const State &state) const
+SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int cell) const
 {
-  std::vector<double> stretch;
+  return strain_of_traction(cell,
+                            scene.in_situ_stress(all_segments[cell].centre) * cells[cell].normal);
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_mode(const unsigned int cell,
+                                                          const unsigned int mode) const
+{
+  const Tensor<1, dim> &n = cells[cell].normal;
+  if constexpr (dim == 2)
+    if (n_modes() > 1)
+    {
+      const SymmetricTensor<2, dim> of_shear = strain_of_traction(cell, cross_product_2d(n));
+      return mode == 1 ? of_shear : strain_of_traction(cell, n) - lifts[cell] * of_shear;
+    }
+  return strain_of_traction(cell, n);
+}
+
+
+template <int dim>
+std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const State &state) const
+{
+  std::vector<SymmetricTensor<2, dim>> strain;
+  const double unit = 1. / (strain_of_pressure * zone.spacing());
   for (unsigned int i = 0; i < cells.size(); ++i)
-    stretch.push_back(state.current.extra[aperture_unknown(i) + 1] / zone.spacing());
-  return stretch;
+  {
+    strain.push_back(in_situ_is_zero ? SymmetricTensor<2, dim>() : released[i]);
+    for (unsigned int m = 0; m < n_modes(); ++m)
+      strain.back() +=
+        unit * state.current.extra[unknown_of_faces(i, m) + 1] * strain_of_mode(i, m);
+  }
+  return strain;
 }
 
 
@@ -57,28 +93,30 @@ std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const
 {
   std::vector<ExtraUnknown> unknowns;
   for (const Segment<dim> &segment : all_segments)
-  {
-    // As the pressure of its fluid starts.
-    const double closing =
-      -(segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
-    unknowns.push_back({Key().add(segment.key).add(0)});
-    unknowns.push_back(
-      {Key().add(segment.key).add(1), strain_of_pressure * zone.spacing() * std::max(0., closing)});
-  }
+    for (unsigned int m = 0; m < n_modes(); ++m)
+    {
+      // As the pressure of the fluid starts.
+      const double closing =
+        m == 0 ? -(segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal)) : 0.;
+      unknowns.push_back({Key().add(segment.key).add(2 * m)});
+      unknowns.push_back({Key().add(segment.key).add(2 * m + 1),
+                          strain_of_pressure * zone.spacing() * std::max(0., closing)});
+    }
   return unknowns;
 }
 
 
 template <int dim>
-double Peridynamics<dim>::fractured_stretch(const unsigned int site,
-                                            const unsigned int bond,
-                                            const CellShares &shares,
-                                            const std::vector<double> &of_pressure) const
+double
+Peridynamics<dim>::fractured_stretch(const unsigned int site,
+                                     const unsigned int bond,
+                                     const CellShares &shares,
+                                     const std::vector<SymmetricTensor<2, dim>> &strain) const
 {
   const Tensor<1, dim> &e = coefficients[bond].direction;
   double stretch = 0.;
   for (const auto &[cell, share] : shares)
-    stretch += share * (of_pressure[cell] + (in_situ_is_zero ? 0. : e * (released[cell] * e)));
+    stretch += share * (e * (strain[cell] * e));
   // The field is that of the intact lattice; bonds beside a crack are stiffer.
   return stretch * coefficients[bond].stiffness / stiffness(site, bond);
 }
@@ -97,6 +135,43 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
 }
 
 
+/// The few bonds of a piece of a fracture, when it slips, are not stretched alike on the two sides
+/// of its normal. What they would read of it as opening is taken off.
+template <int dim>
+void Peridynamics<dim>::find_lifts()
+{
+  lifts.assign(cells.size(), 0.);
+  if constexpr (dim == 2)
+  {
+    if (n_modes() == 1)
+      return;
+    std::vector<std::array<double, 2>> of_slip(cells.size(), {{0., 0.}});
+    std::vector<std::array<SymmetricTensor<2, dim>, 2>> strain;
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      strain.push_back({{strain_of_mode(i, 0), strain_of_mode(i, 1)}});
+    for (const unsigned int i : zone.peridynamic_sites())
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+      {
+        if (!bonds.is_broken(i, b))
+          continue;
+        const Tensor<1, dim> &e = coefficients[b].direction;
+        const double force =
+          zone.sites()[i].share * coefficients[b].stiffness * coefficients[b].length;
+        for (const auto &[cell, share] : shares_of(i, b, true))
+        {
+          const Tensor<1, dim> &n = cells[cell].normal;
+          const double stretched = (e * cross_product_2d(n)) * (e * n > 0. ? 1. : -1.);
+          for (unsigned int m = 0; m < 2; ++m)
+            of_slip[cell][m] += share * force * stretched * (e * (strain[cell][m] * e));
+        }
+      }
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      if (of_slip[i][1] > 0.)
+        lifts[i] = of_slip[i][0] / of_slip[i][1];
+  }
+}
+
+
 template <int dim>
 void Peridynamics<dim>::open_by_bonds()
 {
@@ -106,31 +181,43 @@ void Peridynamics<dim>::open_by_bonds()
       released.push_back(released_strain(i));
   if (!parameters.tracked)
     crossed.reinit(zone, stencil, cells, parameters.horizon);
+  find_lifts();
 
-  const double alpha = scene.rock.main().biot_coefficient;
+  const unsigned int n = n_modes();
+  std::vector<std::vector<SymmetricTensor<2, dim>>> of_mode(cells.size());
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    for (unsigned int m = 0; m < n; ++m)
+      of_mode[i].push_back(strain_of_mode(i, m));
   std::vector<Faces *> faces_of(cells.size(), nullptr);
   faces.assign(owned_cells.size(), Faces());
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
   {
+    const unsigned int i = owned_cells[k];
     Segment<dim> &segment = owned_segments[k];
     Faces &own = faces[k];
-    faces_of[owned_cells[k]] = &own;
-    own.aperture = aperture_unknown(owned_cells[k]);
-    own.push = own.aperture + 1;
-    own.area = segment.area;
-    own.gamma = strain_of_pressure;
-    own.spacing = zone.spacing();
+    faces_of[i] = &own;
+    own.area = std::pow(zone.spacing(), dim - 1);
+    own.unit = 1. / (strain_of_pressure * zone.spacing());
+    own.segment = segment.key;
+    own.friction = parameters.friction;
+    for (unsigned int m = 0; m < n; ++m)
+    {
+      own.modes.emplace_back();
+      own.modes[m].jump = unknown_of_faces(i, m);
+      own.modes[m].traction = own.modes[m].jump + 1;
+      own.modes[m].of_tractions.assign(n, 0.);
+    }
     segment.opening = LinearFunctional();
-    segment.opening.extra.push_back(own.aperture);
-    segment.opening.extra_coefficients.push_back(1.);
+    segment.opening.extra.push_back(own.modes[0].jump);
+    segment.opening.extra_coefficients.push_back(own.area / segment.area);
     segment.share_of_pores = 0.;
     if (!scene.has_pore_pressure)
       continue;
-    segment.taken_from_pores = own.biot_coefficient = alpha;
+    segment.taken_from_pores = own.biot_coefficient = scene.rock.main().biot_coefficient;
     own.pores = &segment.pore_pressure;
   }
-  // Force by the stretch of the cell, and by the stress in situ, of each dof.
-  std::vector<std::map<dealii::types::global_dof_index, std::array<double, 2>>> by_dof(
+  // Of each dof, what it adds to the jumps, and the force of the stress in situ.
+  std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>> by_dof(
     cells.size());
 
   for (const unsigned int i : zone.peridynamic_sites())
@@ -140,47 +227,58 @@ void Peridynamics<dim>::open_by_bonds()
         continue;
       // Half of a bond belongs to each end.
       const Tensor<1, dim> &e = coefficients[b].direction;
-      const double force =
-        0.5 * zone.sites()[i].share * coefficients[b].stiffness * coefficients[b].length;
+      const double length = coefficients[b].length,
+                   force = 0.5 * zone.sites()[i].share * coefficients[b].stiffness * length;
       const FarEnd end = zone.far_end(i, b);
       for (const auto &[cell, share] : shares_of(i, b, true))
       {
         if (faces_of[cell] == nullptr)
           continue;
-        auto &sums = by_dof[cell];
         const double in_situ = in_situ_is_zero ? 0. : e * (released[cell] * e);
+        std::array<double, 3> sums{{0., 0., share * force * in_situ}};
+        for (unsigned int m = 0; m < n; ++m)
+        {
+          Faces::Mode &mode = faces_of[cell]->modes[m];
+          sums[m] = share * force * (e * (of_mode[cell][m] * e));
+          mode.constant += sums[m] * length * in_situ;
+          for (unsigned int k = 0; k < n; ++k)
+            mode.of_tractions[k] += sums[m] * length * (e * (of_mode[cell][k] * e));
+        }
         const auto add = [&](const dealii::types::global_dof_index dof, const double direction)
         {
-          sums[dof][0] += share * force * direction;
-          sums[dof][1] += share * force * in_situ * direction;
+          auto &of_dof = by_dof[cell][dof];
+          for (unsigned int k = 0; k < sums.size(); ++k)
+            of_dof[k] += direction * sums[k];
         };
         for (unsigned int d = 0; d < dim; ++d)
         {
           add(zone.sites()[i].dofs[d], -e[d]);
           add(zone.sites()[end.site].dofs[d], end.mirrored >> d & 1 ? -e[d] : e[d]);
         }
-        faces_of[cell]->by_stretch += share * force * coefficients[b].length;
-        faces_of[cell]->constant += share * force * coefficients[b].length * in_situ;
       }
     }
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
     for (const auto &[dof, sums] : by_dof[owned_cells[k]])
     {
       faces[k].ends.push_back(dof);
-      faces[k].of_ends.push_back(sums[0]);
-      faces[k].in_situ.push_back(sums[1]);
+      faces[k].in_situ.push_back(sums[2]);
+      for (unsigned int m = 0; m < n; ++m)
+        faces[k].modes[m].of_ends.push_back(sums[m]);
     }
 
   softening_shares.clear();
-  for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+  for (unsigned int number = 0; number < softening_bonds.size(); ++number)
   {
-    const auto &[site, bond] = softening_bonds[n].view;
+    const auto &[site, bond] = softening_bonds[number].view;
+    const Tensor<1, dim> &e = coefficients[bond].direction;
     softening_shares.push_back(shares_of(site, bond, false));
     for (const auto &[cell, share] : softening_shares.back())
       if (Faces *own = faces_of[cell])
       {
-        own->bonds.push_back(n);
-        own->of_bonds.push_back(share * push(softening_bonds[n].view));
+        own->bonds.push_back(number);
+        for (unsigned int m = 0; m < n; ++m)
+          own->modes[m].of_bonds.push_back(share * push(softening_bonds[number].view) *
+                                           (e * (of_mode[cell][m] * e)));
       }
   }
 }
@@ -193,6 +291,44 @@ double Peridynamics<dim>::push(const BondView &view) const
   for (const auto &[s, b] : views_of(view.first, view.second))
     sum += 0.5 * zone.sites()[s].share * coefficients[b].stiffness * coefficients[b].length;
   return sum;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::commit_contact(const State &state)
+{
+  const double force =
+    std::pow(zone.spacing(), dim - 1) / (strain_of_pressure * zone.spacing()); // by y
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    if (std::abs(state.current.extra[unknown_of_faces(i, 0)]) < closed && !told_of_contact)
+    {
+      messages.push_back(faces_touch(parameters.friction));
+      told_of_contact = true;
+    }
+    if (n_modes() == 1)
+      continue;
+    const unsigned int slip = unknown_of_faces(i, 1);
+    dissipated -= force * state.current.extra[slip + 1] *
+                  (state.current.extra[slip] - state.committed.extra[slip]);
+  }
+}
+
+
+template <int dim>
+void Peridynamics<dim>::keep_committed_cells()
+{
+  for (const auto &[place, normal] : committed_cells)
+    if (std::none_of(cells.begin(), cells.end(),
+                     [&place = place](const auto &cell) { return cell.place == place; }))
+    {
+      FractureCell<dim> kept{place, {}};
+      for (unsigned int d = 0; d < dim; ++d)
+        kept.normal[d] = normal[d];
+      cells.push_back(kept);
+    }
+  std::sort(cells.begin(), cells.end(),
+            [](const auto &a, const auto &b) { return a.place < b.place; });
 }
 
 
@@ -231,16 +367,23 @@ std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const
 }
 
 
-#define INSTANTIATE(dim)                                                                    \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const;  \
-  template std::vector<double> Peridynamics<dim>::fluid_stretch(const State &) const;       \
-  template double Peridynamics<dim>::fractured_stretch(                                     \
-    unsigned int, unsigned int, const CellShares &, const std::vector<double> &) const;     \
-  template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const; \
-  template void Peridynamics<dim>::open_by_bonds();                                         \
-  template double Peridynamics<dim>::push(const BondView &) const;                          \
-  template double Peridynamics<dim>::aperture(unsigned int, const State &) const;           \
-  template std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const;          \
+#define INSTANTIATE(dim)                                                                          \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const;        \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_mode(unsigned int, unsigned int)  \
+    const;                                                                                        \
+  template std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const State &) \
+    const;                                                                                        \
+  template double Peridynamics<dim>::fractured_stretch(                                           \
+    unsigned int, unsigned int, const CellShares &, const std::vector<SymmetricTensor<2, dim>> &) \
+    const;                                                                                        \
+  template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const;       \
+  template void Peridynamics<dim>::find_lifts();                                                  \
+  template void Peridynamics<dim>::open_by_bonds();                                               \
+  template double Peridynamics<dim>::push(const BondView &) const;                                \
+  template void Peridynamics<dim>::commit_contact(const State &);                                 \
+  template void Peridynamics<dim>::keep_committed_cells();                                        \
+  template double Peridynamics<dim>::aperture(unsigned int, const State &) const;                 \
+  template std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const;                \
   template std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const;
 INSTANTIATE(2)
 INSTANTIATE(3)

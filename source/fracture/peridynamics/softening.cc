@@ -110,9 +110,9 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
   force.bulk.resize(dim);
   law_of_bond.extra.resize(1);
   law_of_bond.bulk.resize(2 * dim);
-  std::vector<double> of_pressure;
+  std::vector<dealii::SymmetricTensor<2, dim>> strain;
   if (parameters.in_bonds && !softening_bonds.empty())
-    of_pressure = fluid_stretch(state);
+    strain = strain_of_faces(state);
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
     const auto &[site, bond] = softening_bonds[n].view;
@@ -150,7 +150,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     double added = softening_bonds[n].offset * coefficients[bond].length;
     if (parameters.in_bonds)
       added =
-        coefficients[bond].length * fractured_stretch(site, bond, softening_shares[n], of_pressure);
+        coefficients[bond].length * fractured_stretch(site, bond, softening_shares[n], strain);
     const double total = elongation + added;
     const double stretch = equivalent_stretch(site, bond, total);
     const double committed = softening_bonds[n].committed;
@@ -167,15 +167,18 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     law_of_bond.extra.resize(1);
     if (parameters.in_bonds)
       for (const auto &[cell, share] : softening_shares[n])
-        law_of_bond.extra.push_back(aperture_unknown(cell) + 1);
+        for (unsigned int m = 0; m < n_modes(); ++m)
+          law_of_bond.extra.push_back(unknown_of_faces(cell, m) + 1);
     law_of_bond.reinit();
     law_of_bond.residual(2 * dim) = k * (x - damage * carried);
     law_of_bond.matrix(2 * dim, 2 * dim) = k;
+    unsigned int column = 2 * dim;
     if (parameters.in_bonds)
-      for (unsigned int i = 0; i < softening_shares[n].size(); ++i)
-        law_of_bond.matrix(2 * dim, 2 * dim + 1 + i) = -slope * softening_shares[n][i].second *
-                                                       coefficients[bond].stiffness *
-                                                       coefficients[bond].length / zone.spacing();
+      for (const auto &[cell, share] : softening_shares[n])
+        for (unsigned int m = 0; m < n_modes(); ++m)
+          law_of_bond.matrix(2 * dim, ++column) =
+            -slope * share * coefficients[bond].stiffness * coefficients[bond].length *
+            (e * (strain_of_mode(cell, m) * e)) / (strain_of_pressure * zone.spacing());
     for (unsigned int d = 0; d < dim; ++d)
     {
       law_of_bond.matrix(2 * dim, d) = k * slope * e[d];
@@ -208,8 +211,7 @@ bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
 
 
 template <int dim>
-double Peridynamics<dim>::added_stretch(const SofteningBond &bond,
-                                        const std::vector<double> &of_cells) const
+double Peridynamics<dim>::added_stretch(const SofteningBond &bond, const OfCells &of_cells) const
 {
   return parameters.in_bonds ? added_stretch(bond.view.first, bond.view.second, of_cells)
                              : bond.offset;
@@ -218,7 +220,7 @@ double Peridynamics<dim>::added_stretch(const SofteningBond &bond,
 
 template <int dim>
 bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
-                                     const std::vector<double> &of_cells,
+                                     const OfCells &of_cells,
                                      const std::vector<Candidate> &candidates)
 {
   bool changed = false;
@@ -310,10 +312,9 @@ void Peridynamics<dim>::restore_softening()
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \
   template double Peridynamics<dim>::maximum_stretch(const SofteningBond &, double) const;         \
   template void Peridynamics<dim>::assemble_softening(const State &, Sink &) const;                \
-  template double Peridynamics<dim>::added_stretch(const SofteningBond &,                          \
-                                                   const std::vector<double> &) const;             \
-  template bool Peridynamics<dim>::soften_bonds(                                                   \
-    const std::vector<double> &, const std::vector<double> &, const std::vector<Candidate> &);     \
+  template double Peridynamics<dim>::added_stretch(const SofteningBond &, const OfCells &) const;  \
+  template bool Peridynamics<dim>::soften_bonds(const std::vector<double> &, const OfCells &,      \
+                                                const std::vector<Candidate> &);                   \
   template bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &) const;                     \
   template void Peridynamics<dim>::restore_softening();
 INSTANTIATE(2)

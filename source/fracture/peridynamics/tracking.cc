@@ -198,7 +198,7 @@ template <int dim>
 SymmetricTensor<2, dim>
 Peridynamics<dim>::stress_of_bonds(const unsigned int site,
                                    const std::map<BondView, double> &softened,
-                                   const std::vector<double> &of_cells) const
+                                   const OfCells &of_cells) const
 {
   SymmetricTensor<2, dim> stress;
   for (unsigned int b = 0; b < stencil.size(); ++b)
@@ -208,7 +208,7 @@ Peridynamics<dim>::stress_of_bonds(const unsigned int site,
     if (bonds.is_broken(site, b))
       for (const auto &[cell, share] : shares_of(site, b, false))
         force -= coefficients[b].stiffness * coefficients[b].length * share *
-                 (of_cells[cell] + (in_situ_is_zero ? 0. : e * (released[cell] * e)));
+                 (e * (of_cells.strain[cell] * e));
     else
     {
       const auto found = softened.find({site, b});
@@ -252,7 +252,7 @@ template <int dim>
 SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
                                                         const Tensor<1, dim> &ahead,
                                                         const State &state,
-                                                        const std::vector<double> &of_cells) const
+                                                        const OfCells &of_cells) const
 {
   SymmetricTensor<2, dim> sum;
   if constexpr (dim == 2)
@@ -290,7 +290,7 @@ SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
 
 
 template <int dim>
-void Peridynamics<dim>::track(const State &state, const std::vector<double> &of_cells)
+void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
 {
   if constexpr (dim == 2)
   {
@@ -321,20 +321,20 @@ void Peridynamics<dim>::track(const State &state, const std::vector<double> &of_
   }
 }
 
-#define INSTANTIATE(dim)                                                                           \
-  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(                   \
-    unsigned int, unsigned int) const;                                                             \
-  template void Peridynamics<dim>::follow_paths();                                                 \
-  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const;       \
-  template double Peridynamics<dim>::half_process_zones() const;                                   \
-  template bool Peridynamics<dim>::advance_tips();                                                 \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                             \
-    unsigned int, const std::map<BondView, double> &, const std::vector<double> &) const;          \
-  template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(           \
-    unsigned int) const;                                                                           \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                                \
-    const Point<dim> &, const Tensor<1, dim> &, const State &, const std::vector<double> &) const; \
-  template void Peridynamics<dim>::track(const State &, const std::vector<double> &);
+#define INSTANTIATE(dim)                                                                     \
+  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
+    unsigned int, unsigned int) const;                                                       \
+  template void Peridynamics<dim>::follow_paths();                                           \
+  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
+  template double Peridynamics<dim>::half_process_zones() const;                             \
+  template bool Peridynamics<dim>::advance_tips();                                           \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                       \
+    unsigned int, const std::map<BondView, double> &, const OfCells &) const;                \
+  template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(     \
+    unsigned int) const;                                                                     \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                          \
+    const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;       \
+  template void Peridynamics<dim>::track(const State &, const OfCells &);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE
