@@ -253,7 +253,7 @@ private:
       ParameterHandler prm;
       declare_all_parameters(prm, plug_ins);
       its.parse_into(prm);
-      if (const std::string own = own_setting(prm, model) + own_elements(prm, model); !own.empty())
+      if (const std::string own = own_setting(prm, model); !own.empty())
       {
         remark(resolution + " has '" + own + "', which is in no chart");
         return std::nullopt;
@@ -284,24 +284,20 @@ private:
     return std::nullopt;
   }
 
-  /// An entry of a model that the deck changes, but for the cells, which are counted.
+  /// What the deck changes of that with which the charts were made: an entry of the model, but for
+  /// the cells, which are counted; or the elements, which are those of the model's part.
   static std::string own_setting(const ParameterHandler &prm, const std::string &model)
   {
+    const std::string elements = "Discretisation/Elements";
+    const auto charted = Deck::read(part_of(model).string()).peek(elements);
     for (const DeclaredEntry &entry : declared_entries(prm))
-      if (entry.section == "Fracture/" + model && entry.name != "Cell size" &&
-          entry.value != entry.default_value)
+    {
+      const bool is_models = entry.section == "Fracture/" + model && entry.name != "Cell size";
+      if ((is_models && entry.value != entry.default_value) ||
+          (entry.path() == elements && entry.value != charted.value_or(entry.default_value)))
         return entry.path() + " = " + entry.value;
+    }
     return "";
-  }
-
-  /// Other elements than the charts', which are those of the model's part or the program's.
-  static std::string own_elements(ParameterHandler &prm, const std::string &model)
-  {
-    const std::string elements = value_of(prm, {"Discretisation"}, "Elements"),
-                      charted = Deck::read(part_of(model).string())
-                                  .peek("Discretisation/Elements")
-                                  .value_or("Q2-Q1");
-    return elements == charted ? "" : "Discretisation/Elements = " + elements;
   }
 
   /// A message from "; allowed is ..." on, for entry and value are known here.
