@@ -166,7 +166,8 @@ void Peridynamics<dim>::find_lifts()
         }
       }
     for (unsigned int i = 0; i < cells.size(); ++i)
-      if (of_slip[i][1] > 0.)
+      // The whole of a piece, from both ends of bonds, would be twice its area.
+      if (of_slip[i][1] > all_segments[i].area)
         lifts[i] = of_slip[i][0] / of_slip[i][1];
   }
 }
