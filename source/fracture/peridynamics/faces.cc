@@ -5,6 +5,13 @@
 
 namespace stockwork::peridynamics
 {
+namespace
+{
+/// Of the stiffness of a cell of rock, over that of faces that touch.
+constexpr double softness = 1e-3;
+} // namespace
+
+
 /// Their share in the system of equations while it is being assembled.
 struct Faces::Rows
 {
@@ -102,15 +109,15 @@ void Faces::add_contact(const State &state, Rows &rows) const
   const double c = unit, fluid = state.segment_pressure ? state.segment_pressure(segment) : 0.;
   // The traction by the balance of forces, and that of the law.
   const double balanced = fluid - local.residual(w) / area;
-  const double normal = balanced + c * now.extra[modes[0].jump];
+  const double kept = 1. - softness, normal = kept * balanced + c * now.extra[modes[0].jump];
   if (normal >= 0.)
     return;
   // By each unknown.
-  std::vector<std::pair<unsigned int, double>> slope{{w, c}, {rows.traction(0), -unit}};
+  std::vector<std::pair<unsigned int, double>> slope{{w, c}, {rows.traction(0), -kept * unit}};
   for (unsigned int i = 0; i < rows.n_pores; ++i)
-    slope.emplace_back(rows.pore(i), -biot_coefficient * pores->bulk_coefficients[i]);
+    slope.emplace_back(rows.pore(i), -kept * biot_coefficient * pores->bulk_coefficients[i]);
   if (state.segment_unknown && state.segment_unknown(segment))
-    slope.emplace_back(local.residual.size() - 1, 1.);
+    slope.emplace_back(local.residual.size() - 1, kept);
   local.residual(w) += area * normal;
   for (const auto &[column, value] : slope)
     local.matrix(w, column) += area * value;

@@ -23,11 +23,13 @@ namespace stockwork::peridynamics
 /// Faces whose bonds have broken do not pass through one another, and rub (Coulomb): the tractions
 /// t that they exert on one another are
 ///
-///   t_n = min(0, t_n + c w),   t_s = t_s + c (s - s_0), where |t_s| <= - mu t_n, else at that
-///   bound,
+///   t_n = min(0, t_n + c (w - e t_n)),   t_s = t_s + c (s - s_0), where |t_s| <= - mu t_n, else at
+///   that bound,
 ///
-/// any c > 0, with the slip s_0 of the last step: Newton's method for the complementarity, with the
-/// t on the right from the balance of forces (an active set; Hueber and Wohlmuth 2005).
+/// any c > 0, with the slip s_0 of the last step and a little compliance e, or the pressure of
+/// fluid that a closed fracture holds would hang on nothing: Newton's method for the
+/// complementarity, with the t on the right from the balance of forces (an active set; Hueber and
+/// Wohlmuth 2005).
 struct Faces
 {
   struct Mode
@@ -47,7 +49,7 @@ struct Faces
   std::vector<dealii::types::global_dof_index> ends; ///< displacements of ends of broken bonds
   std::vector<double> in_situ;                       ///< force of the stress in situ on them [N]
   std::vector<unsigned int> bonds;                   ///< that soften
-  const LinearFunctional *pores = nullptr; ///< pressure at the segment; null: there are none
+  const LinearFunctional *pores = nullptr; ///< their pressure on the faces; null: there are none
   double biot_coefficient = 0.;
 
   void assemble(const State &state, Sink &sink) const;

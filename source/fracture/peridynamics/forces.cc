@@ -59,7 +59,13 @@ void Peridynamics<dim>::add_couplings(const Coupling &couple) const
       }
   if (parameters.in_bonds)
     for (const unsigned int i : sites_of_crossing_bonds())
-      couple({zone.sites()[i].dofs.begin(), zone.sites()[i].dofs.end()});
+    {
+      const Site<dim> &site = zone.sites()[i];
+      dofs.assign(site.dofs.begin(), site.dofs.end());
+      if (site.pressure_dof != dealii::numbers::invalid_dof_index)
+        dofs.push_back(site.pressure_dof);
+      couple(dofs);
+    }
   for_each_dilatation(
     [&](const std::vector<unsigned int> &family, const std::vector<Tensor<1, dim>> &, const double)
     {

@@ -170,9 +170,10 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   if (p.in_bonds && (p.state_based || p.tensor_fluid))
     throw bad("Closure", p.state_based ? "conserving with 'Bond law = state-based'"
                                        : "conserving with 'Fluid = permeability tensor'");
-  // A fracture that enters a cell then asks for more than a step can give.
-  if (p.in_bonds && p.horizon < 3)
-    throw bad("Horizon", "3 and more with 'Closure = in bonds'");
+  // A step that does not converge where the fracture enters a cell is then tried with bonds that
+  // soften by less.
+  if (p.in_bonds && !p.tracked && p.horizon < 3)
+    throw bad("Horizon", "3 and more with 'Closure = in bonds', or 2 with 'Tracking = path'");
   p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
   if (p.friction > 0. && (dim != 2 || !p.in_bonds))
     throw bad("Friction coefficient",

@@ -243,6 +243,10 @@ private:
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
 
+  /// The pressure of the pores on the faces of a piece. Elements spread the jump across it over the
+  /// cells that it crosses, and their pressure acts on that, not the one on the line.
+  LinearFunctional pores_across(const Segment<dim> &piece) const;
+
   /// Paths go on ahead of tips that have come near to their ends.
   void track(const State &state, const OfCells &of_cells);
 
@@ -432,6 +436,7 @@ private:
   CrossedCells<dim> crossed;
   std::vector<dealii::SymmetricTensor<2, dim>> released; ///< strain of each cell, if not all zero
   std::vector<Faces> faces;                              ///< of owned segments
+  std::vector<LinearFunctional> pores_of_pieces;         ///< of all ranks, see pores_across()
   std::vector<double> lifts;                             ///< see find_lifts()
   std::vector<CellShares> softening_shares;              ///< of the softening bonds
   TrackedPaths paths, committed_paths;

@@ -166,7 +166,8 @@ void Peridynamics<dim>::find_lifts()
         }
       }
     for (unsigned int i = 0; i < cells.size(); ++i)
-      if (of_slip[i][1] > 0.)
+      // The whole of a piece, from both ends of bonds, would be twice its area.
+      if (of_slip[i][1] > all_segments[i].area)
         lifts[i] = of_slip[i][0] / of_slip[i][1];
   }
 }
@@ -214,7 +215,7 @@ void Peridynamics<dim>::open_by_bonds()
     if (!scene.has_pore_pressure)
       continue;
     segment.taken_from_pores = own.biot_coefficient = scene.rock.main().biot_coefficient;
-    own.pores = &segment.pore_pressure;
+    own.pores = parameters.tracked ? &pores_of_pieces[i] : &segment.pore_pressure;
   }
   // Of each dof, what it adds to the jumps, and the force of the stress in situ.
   std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>> by_dof(
@@ -301,7 +302,7 @@ void Peridynamics<dim>::commit_contact(const State &state)
     std::pow(zone.spacing(), dim - 1) / (strain_of_pressure * zone.spacing()); // by y
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    if (std::abs(state.current.extra[unknown_of_faces(i, 0)]) < closed && !told_of_contact)
+    if (state.current.extra[unknown_of_faces(i, 0)] < closed && !told_of_contact)
     {
       messages.push_back(faces_touch(parameters.friction));
       told_of_contact = true;

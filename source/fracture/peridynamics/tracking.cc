@@ -139,12 +139,86 @@ void Peridynamics<dim>::follow_paths()
         all_segments[i].neighbours.push_back(
           {all_segments[other].key, 0.5 * all_segments[i].area, 1.});
   }
+  pores_of_pieces.clear();
+  if (scene.has_pore_pressure)
+    for (const Segment<dim> &segment : all_segments)
+      pores_of_pieces.push_back(pores_across(segment));
   softening_ends.clear();
   for (const SofteningBond &bond : softening_bonds)
   {
     const auto crossing = crossing_of(bond.view.first, bond.view.second);
     softening_ends.push_back(crossing ? paths.end_at(*crossing) : std::nullopt);
   }
+}
+
+
+template <int dim>
+LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &piece) const
+{
+  LinearFunctional result;
+  if constexpr (dim == 2)
+  {
+    constexpr double reach = 0.5; // of the piece; all lengths in spacings
+    const Tensor<1, dim> &n = piece.normal, along = cross_product_2d(n);
+    const Tensor<1, dim> centre = (piece.centre - zone.position(Place<dim>{})) / zone.spacing();
+    std::map<unsigned int, double> weights; // by site
+    double sum = 0.;
+    const auto add_cell = [&](const Place<dim> &cell)
+    {
+      // What of the line lies in the cell.
+      double begin = -10., end = 10.;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double low = cell[d] - centre[d], high = low + 1.;
+        if (std::abs(along[d]) < same_place)
+        {
+          if (low > same_place || high < -same_place)
+            return;
+          continue;
+        }
+        begin = std::max(begin, std::min(low / along[d], high / along[d]));
+        end = std::min(end, std::max(low / along[d], high / along[d]));
+      }
+      const double counted = std::min(end, reach) - std::max(begin, -reach);
+      if (end - begin < same_place || counted <= 0.)
+        return;
+      for (unsigned int a = 0; a < 4; ++a)
+      {
+        Place<dim> corner = cell;
+        for (unsigned int d = 0; d < dim; ++d)
+          corner[d] += a >> d & 1;
+        const unsigned int site = zone.find(corner);
+        if (site == dealii::numbers::invalid_unsigned_int ||
+            zone.sites()[site].pressure_dof == dealii::numbers::invalid_dof_index)
+          continue;
+        // int N_a n.grad(the jump), which is one on the side that the normal points to.
+        double integral = 0.;
+        for (unsigned int b = 0; b < 4; ++b)
+        {
+          double above = same_place;
+          for (unsigned int d = 0; d < dim; ++d)
+            above += n[d] * (cell[d] + static_cast<int>(b >> d & 1) - centre[d]);
+          for (unsigned int d = 0; d < dim && above >= 0.; ++d)
+            integral += n[d] * (b >> d & 1 ? 0.5 : -0.5) *
+                        (((a ^ b) >> (1 - d) & 1) == 0 ? 1. / 3. : 1. / 6.);
+        }
+        weights[site] += counted / (end - begin) * integral;
+        sum += counted / (end - begin) * integral;
+      }
+    };
+    const int x = static_cast<int>(std::floor(centre[0])),
+              y = static_cast<int>(std::floor(centre[1]));
+    for (int i = -2; i <= 2; ++i)
+      for (int j = -2; j <= 2; ++j)
+        add_cell({{x + i, y + j}});
+    for (const auto &[site, weight] : weights)
+      if (weight != 0.)
+      {
+        result.bulk.push_back(zone.sites()[site].pressure_dof);
+        result.bulk_coefficients.push_back(weight / sum);
+      }
+  }
+  return result;
 }
 
 
@@ -325,6 +399,7 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
     unsigned int, unsigned int) const;                                                       \
   template void Peridynamics<dim>::follow_paths();                                           \
+  template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;     \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
   template double Peridynamics<dim>::half_process_zones() const;                             \
   template bool Peridynamics<dim>::advance_tips();                                           \
