@@ -270,11 +270,9 @@ void check_random_rock(ParameterHandler &prm,
         the_case.model->requirements().may_grow && is_cracked(the_case))
       warnings.push_back(
         "The rock varies from place to place, but its strength is the model's, and hangs on the "
-        "size of the cells: with a deviation of a third the pressure of a fracture differed by 17 "
-        "% "
-        "between cells of 0.2 and 0.1 m, with a strength that the deck gives by 3 %. Give "
-        "'Rock/Tensile "
-        "strength' for an answer that does not hang on the mesh.");
+        "size of the cells: with a deviation of a third the pressure of a fracture differed by "
+        "17 % between cells of 0.2 and 0.1 m, with a strength that the deck gives by 3 %. Give "
+        "'Rock/Tensile strength' for an answer that does not hang on the mesh.");
     if (rock.random->varies(RandomField::permeability) &&
         (leak_off == "resolved" || leak_off == "filter cake"))
       refuse("a list without 'permeability' with 'Fracture flow/Leak-off = " + leak_off +

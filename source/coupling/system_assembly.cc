@@ -361,6 +361,8 @@ typename SystemAssembly<dim>::PoreFluid SystemAssembly<dim>::pore_fluid(const St
   fluid.volume = bulk->pore_volume(state.current, role);
   for (const Segment<dim> &segment : model.segments())
   {
+    if (segment.taken_from_pores == 0.)
+      continue;
     const double taken = segment.taken_from_pores * segment.area;
     const double now = value(segment.opening, state.current);
     fluid.stored -= taken * (now - value(segment.opening, state.rate_reference));
