@@ -68,7 +68,7 @@ case "${1:-}" in
     begin "tests, Release" "One of them again, with what it says: ctest --test-dir build -R NAME -V"
     ctest --test-dir build --output-on-failure -j "$cores" -LE nightly
     # What deal.II's assertions can find something in; decks and scripts are as good as they were.
-    build build-debug Debug ON stockwork_program unit_tests contract_tests contract_mpi_tests taking_over springs rejecting_model
+    build build-debug Debug ON stockwork_program loaded_once unit_tests contract_tests contract_mpi_tests taking_over springs rejecting_model
     begin "quick tests, Debug" "One of them again, with what it says: ctest --test-dir build-debug -R NAME -V"
     # Those with more than ten seconds of it there whose assertions others reach as well are left to Release.
     ctest --test-dir build-debug --output-on-failure -j "$cores" -L quick -LE "smoke|house|nightly" \

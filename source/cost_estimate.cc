@@ -22,7 +22,7 @@ estimate_cost(const unsigned int dim, const double n_unknowns, const CostlyPhysi
   const bool lasting = !physics.pore_pressure && !physics.inertia && !physics.yields;
   if (dim == 3 && lasting && n <= largest_lasting_factor)
     return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.),
-            1e-6 * n * (physics.fracture ? 3. : 1.)};
+            physics.fracture ? 2e-7 * std::pow(n, 4. / 3.) : 1e-6 * n};
   if (dim == 3)
     return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.),
             4e-5 * n * (physics.fracture ? 4. : 1.) * looking};

@@ -48,4 +48,9 @@ sizes_of_path(const Case<dim> &the_case, const MeshSizes<dim> &mesh, double half
 /// end; NaN where nothing tells how long it will be.
 template <int dim>
 double cells_in_half_length(const Case<dim> &the_case, const MeshSizes<dim> &mesh);
+
+/// Unknowns at the end of a run that has so many at its start: where cells are refined ahead of the
+/// front of a disc, they become more. As many where nothing tells.
+template <int dim>
+double unknowns_at_end(const Case<dim> &the_case, const MeshSizes<dim> &mesh, double n_unknowns);
 } // namespace stockwork

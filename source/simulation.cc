@@ -386,7 +386,8 @@ void Simulation<dim>::announce()
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   const bool cracked = is_cracked(the_case);
-  const CostEstimate cost = estimate_cost(dim, system.n_unknowns(), costly_physics(the_case));
+  const double at_end = unknowns_at_end(the_case, mesh, system.n_unknowns());
+  const CostEstimate cost = estimate_cost(dim, at_end, costly_physics(the_case));
   const double cells =
     !cracked   ? 0.
     : dim == 3 ? std::numeric_limits<double>::quiet_NaN() // not all of a front comes on at once

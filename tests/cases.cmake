@@ -24,7 +24,8 @@ function(stockwork_run_test mode)
   # Side by side: a test empties its directory, and must not empty that of another below it.
   string(REPLACE "/" "." scratch ${T_NAME})
   add_test(NAME ${T_NAME} COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/run_case.py
-    --program $<TARGET_FILE:stockwork_program> --scratch ${CMAKE_BINARY_DIR}/tests/runs/${scratch}
+    --program $<TARGET_FILE:stockwork_program>
+    --loaded-once $<TARGET_FILE:loaded_once> --scratch ${CMAKE_BINARY_DIR}/tests/runs/${scratch}
     --timeout ${timeout} ${mode} --deck ${CMAKE_SOURCE_DIR}/${T_DECK} --ranks ${ranks}
     ${settings} ${T_ARGS})
   string(REGEX REPLACE "/.*" "" kind ${T_NAME})
@@ -122,6 +123,26 @@ function(stockwork_no_restart_test)
     list(APPEND arguments --damage ${C_DAMAGE})
   endif()
   stockwork_run_test(no_restart ${C_UNPARSED_ARGUMENTS} ARGS ${arguments})
+endfunction()
+
+# What `--check` prints: SAYS, a regular expression, and not WITHOUT.
+function(stockwork_check_test)
+  cmake_parse_arguments(C "" "NAME;DECK;SAYS;WITHOUT" "SET;LABELS" ${ARGN})
+  if(NOT TARGET stockwork_program)
+    return()
+  endif()
+  set(settings)
+  foreach(setting IN LISTS C_SET)
+    list(APPEND settings --set ${setting})
+  endforeach()
+  add_test(NAME ${C_NAME} COMMAND ${stockwork_loaded_once} $<TARGET_FILE:stockwork_program>
+    ${CMAKE_SOURCE_DIR}/${C_DECK} --check ${settings})
+  string(REGEX REPLACE "/.*" "" kind ${C_NAME})
+  set_tests_properties(${C_NAME} PROPERTIES LABELS "${kind};${C_LABELS}" TIMEOUT 120
+    PASS_REGULAR_EXPRESSION "${C_SAYS}")
+  if(C_WITHOUT)
+    set_tests_properties(${C_NAME} PROPERTIES FAIL_REGULAR_EXPRESSION "${C_WITHOUT}")
+  endif()
 endfunction()
 
 # The run takes two steps and is then interrupted.

@@ -33,7 +33,9 @@ import sys
 import threading
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "contrib"))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.join(HERE, "..", "contrib"), os.path.join(HERE, "loaded_once")]
+from loaded_once import Program  # noqa: E402
 from measures import with_measures  # noqa: E402
 from results import ResultError, lookup, read_statistics, read_summary  # noqa: E402
 
@@ -118,6 +120,7 @@ class Runner:
 
     def __init__(self, options):
         self.program = os.path.abspath(options.program)
+        self.loaded = Program(options.program, options.loaded_once) if options.loaded_once else None
         self.scratch = os.path.abspath(options.scratch)
         self.mpirun = options.mpirun.split()
         self.timeout = options.timeout
@@ -140,6 +143,8 @@ class Runner:
                            OMPI_MCA_pml="ob1")
         with open(self.output(name + ".stdout"), "w") as out, \
                 open(self.output(name + ".stderr"), "w") as err:
+            if self.loaded and command[0] == self.program:
+                return self.loaded.start(command[1:], out, err, self.scratch, environment)
             return subprocess.Popen(command, stdout=out, stderr=err, cwd=self.scratch,
                                     env=environment)
 
@@ -457,6 +462,7 @@ def parse(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True, help="the stockwork executable")
     parser.add_argument("--scratch", required=True, help="directory of this test; emptied first")
+    parser.add_argument("--loaded-once", metavar="LIBRARY", help="of tests/loaded_once: runs on one rank start sooner")
     parser.add_argument("--mpirun", default=MPIRUN, help="how to start several ranks")
     parser.add_argument("--timeout", type=float, default=1500., help="seconds per run")
     parser.add_argument("mode", choices=MODES)

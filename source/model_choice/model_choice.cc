@@ -154,7 +154,11 @@ public:
     {
       std::ostringstream allowed;
       allowed << "cells and an 'Accuracy' for which a chart promises something, which these and "
-              << 100. * accuracy << " % are not, or " << or_by_name() << remarks_by_model();
+              << 100. * accuracy << " % are not";
+      if (nearest)
+        allowed << std::setprecision(2) << " (" << 100. * nearest->promise.row.error
+                << " % is: " << nearest->model << ", " << nearest->resolution << ")";
+      allowed << ", or " << or_by_name() << remarks_by_model();
       refuse(allowed.str());
     }
     std::sort(candidates.begin(), candidates.end(),
@@ -268,7 +272,11 @@ private:
         text << " has " << std::setprecision(3) << tried.cells
              << " cells in the half length, fewer than any chart";
       else if (!(promise->row.error <= accuracy))
+      {
         text << " promises " << 100. * promise->row.error << " %";
+        if (tried.warnings.empty() && !(nearest && nearest->promise.row.error < promise->row.error))
+          nearest = Candidate{model, resolution, *promise, tried.cells};
+      }
       else if (!tried.warnings.empty())
         text << " would be warned of: " << tried.warnings[0];
       else
@@ -361,8 +369,9 @@ private:
   const Charts charts;
   mutable double accuracy = 0.;
   std::map<std::string, std::vector<std::string>> remarks; ///< by model: why it is no candidate
-  std::set<std::string> is_refused;                        ///< models that --check would refuse
-  std::set<std::string> failures;                          ///< models that charts show failing
+  std::optional<Candidate> nearest; ///< of those that promise less than is wanted
+  std::set<std::string> is_refused; ///< models that --check would refuse
+  std::set<std::string> failures;   ///< models that charts show failing
 };
 } // namespace
 

@@ -55,7 +55,7 @@ def check(program, scratch, name, text):
     with open(deck, "w", encoding="utf-8") as file:
         file.write(text)
     output = os.path.join(scratch, "output")
-    status, _, complained = program.run([deck, "--check", "--output", output])
+    status, _, complained = program.run([deck, "--check", "--output", output], scratch)
     if os.path.exists(output):
         return status, "an output directory was made"
     return status, " ".join(complained.split())
@@ -85,8 +85,8 @@ def main():
     name, library, table, scratch = (os.path.abspath(name) for name in sys.argv[1:5])
     families = [family for family in read_table(table) if len(sys.argv) < 6 or family[0] == sys.argv[5]]
     shutil.rmtree(scratch, ignore_errors=True)
-    with Program(name, library, scratch) as program:
-        n, failures = check_families(program, scratch, families)
+    os.makedirs(scratch)
+    n, failures = check_families(Program(name, library), scratch, families)
     print(f"{n} bad decks")
     if failures or n == 0:
         sys.exit("\n".join(failures) or "no such family")

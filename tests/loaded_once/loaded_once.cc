@@ -1,18 +1,27 @@
-// Preloaded into a program, this lets it be loaded once and run many times. To find the symbols of
-// two hundred libraries takes a third of a second, which is most of what a `--check` takes; a copy
-// of the process that has found them (fork) takes nothing. The program itself is as it ships.
+// Preloaded into a program, this lets it be loaded once and run many times. To load two hundred
+// libraries takes nearly half a second, which is most of what a short test takes; a copy of the
+// process that has loaded them (fork) takes nothing. The program itself is as it ships.
 //
-// On standard input come the runs: for each its number of arguments, then the arguments, the
-// directory, and the files for standard output and standard error, each ended by a zero byte. For
-// each run a line with its wait status goes to standard output. loaded_once.py speaks to this.
+// The server listens at the Unix socket whose name (an abstract one) is in LOADED_ONCE. A client
+// sends the files for standard output and standard error, then words that are each ended by a zero
+// byte: the number of arguments and the arguments, the directory, and the environment; then it ends
+// its side. It is sent the process's number and, when that has ended, its wait status, a line each.
+// A client that goes away takes its run with it. loaded_once.py speaks to this.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <link.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <array>
+#include <csignal>
+#include <cstddef>
 #include <cstdlib>
-#include <iostream>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -21,58 +30,176 @@ namespace
 using Main = int (*)(int, char **, char **);
 Main real_main = nullptr;
 
+constexpr int patience = 60000; // without a client for so long [ms], the server ends
 
-std::string next_word()
+
+/** What tells whether the program and its libraries are still those that were loaded. */
+std::string state_of_files()
 {
-  std::string word;
-  std::getline(std::cin, word, '\0');
-  return word;
+  std::string state;
+  const auto append = [](dl_phdr_info *library, std::size_t, void *all)
+  {
+    struct stat file;
+    if (stat(library->dlpi_name[0] == 0 ? "/proc/self/exe" : library->dlpi_name, &file) == 0)
+      *static_cast<std::string *>(all) += std::to_string(file.st_ino) + ' ' +
+                                          std::to_string(file.st_mtim.tv_sec) + ' ' +
+                                          std::to_string(file.st_nlink) + '\n';
+    return 0;
+  };
+  dl_iterate_phdr(append, &state);
+  return state;
 }
 
 
-void redirect(const int descriptor, const std::string &file, const int flags)
+int listen_at(const std::string &name)
 {
-  const int opened = open(file.c_str(), flags, 0666);
-  if (opened < 0 || dup2(opened, descriptor) < 0)
+  const int listener = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path + 1, name.data(), name.size());
+  const socklen_t length = offsetof(sockaddr_un, sun_path) + 1 + name.size();
+  const bool bound = name.size() < sizeof(address.sun_path) - 1 &&
+                     bind(listener, reinterpret_cast<sockaddr *>(&address), length) == 0 &&
+                     listen(listener, 64) == 0;
+  return bound ? listener : -1;
+}
+
+
+/** A socket in an abstract place is open to everyone on the machine. */
+bool is_of_this_user(const int client)
+{
+  ucred peer{};
+  socklen_t length = sizeof(peer);
+  return getsockopt(client, SOL_SOCKET, SO_PEERCRED, &peer, &length) == 0 && peer.uid == geteuid();
+}
+
+
+struct Request
+{
+  std::array<int, 2> files{{-1, -1}};
+  std::vector<std::string> arguments, environment;
+  std::string directory;
+};
+
+
+Request read_request(const int client, const std::string &program)
+{
+  std::array<char, 65536> buffer;
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Request::files))> control;
+  iovec part{buffer.data(), buffer.size()};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+
+  Request request;
+  ssize_t n = recvmsg(client, &message, MSG_CMSG_CLOEXEC);
+  if (const cmsghdr *head = CMSG_FIRSTHDR(&message);
+      n > 0 && head != nullptr && head->cmsg_len == CMSG_LEN(sizeof(request.files)))
+    std::memcpy(request.files.data(), CMSG_DATA(head), sizeof(request.files));
+  std::vector<std::string> words(1);
+  for (; n > 0; n = read(client, buffer.data(), buffer.size()))
+    for (ssize_t i = 0; i < n; ++i)
+      if (buffer[i] == 0)
+        words.emplace_back();
+      else
+        words.back() += buffer[i];
+  words.pop_back();
+  if (words.empty() || request.files[0] < 0)
     _exit(127);
-  close(opened);
+
+  const std::size_t n_arguments = std::stoul(words[0]);
+  request.arguments = {program};
+  request.arguments.insert(request.arguments.end(), words.begin() + 1,
+                           words.begin() + 1 + n_arguments);
+  request.directory = words[1 + n_arguments];
+  request.environment.assign(words.begin() + 2 + n_arguments, words.end());
+  return request;
 }
 
 
-int run_one(const std::string &program, const int n_arguments, char **environment)
+std::vector<char *> pointers_to(std::vector<std::string> &words)
 {
-  std::vector<std::string> words{program};
-  for (int i = 0; i < n_arguments; ++i)
-    words.push_back(next_word());
-  const std::string directory = next_word(), out = next_word(), err = next_word();
+  std::vector<char *> pointers;
+  for (std::string &word : words)
+    pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
 
+
+[[noreturn]] void run(Request &request)
+{
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (chdir(request.directory.c_str()) != 0 || dup2(nothing, 0) < 0 ||
+      dup2(request.files[0], 1) < 0 || dup2(request.files[1], 2) < 0)
+    _exit(127);
+  auto arguments = pointers_to(request.arguments);
+  auto environment = pointers_to(request.environment);
+  environ = environment.data();
+  std::exit(real_main(arguments.size() - 1, arguments.data(), environ));
+}
+
+
+void send_line(const int client, const int number)
+{
+  const std::string line = std::to_string(number) + '\n';
+  send(client, line.data(), line.size(), MSG_NOSIGNAL);
+}
+
+
+/** In a process of its own: starts the run, waits for its end, or for that of the client. */
+[[noreturn]] void attend(const int client, const std::string &program)
+{
+  std::signal(SIGCHLD, [](int) {});
+  sigset_t children, none;
+  sigemptyset(&none);
+  sigemptyset(&children);
+  sigaddset(&children, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &children, nullptr); // but while it waits
+
+  Request request = read_request(client, program);
   const pid_t child = fork();
   if (child == 0)
   {
-    if (chdir(directory.c_str()) != 0)
-      _exit(127);
-    redirect(0, "/dev/null", O_RDONLY);
-    redirect(1, out, O_WRONLY | O_CREAT | O_TRUNC);
-    redirect(2, err, O_WRONLY | O_CREAT | O_TRUNC);
-    std::vector<char *> arguments;
-    for (std::string &word : words)
-      arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    std::exit(real_main(n_arguments + 1, arguments.data(), environment));
+    std::signal(SIGCHLD, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    close(client);
+    run(request);
   }
+  send_line(client, child);
   int status = 0;
-  waitpid(child, &status, 0);
-  return status;
+  while (waitpid(child, &status, WNOHANG) == 0)
+  {
+    pollfd gone{client, 0, 0};
+    if (ppoll(&gone, 1, nullptr, &none) > 0)
+      kill(child, SIGKILL);
+  }
+  send_line(client, status);
+  _exit(0);
 }
 
 
-int serve(int, char **arguments, char **environment)
+int serve(int, char **arguments, char **)
 {
-  unsetenv("LD_PRELOAD"); // programs that a run starts are not meant
-  for (std::string number = next_word(); !number.empty(); number = next_word())
+  const char *name = std::getenv("LOADED_ONCE");
+  const int listener = listen_at(name != nullptr ? name : "");
+  if (listener < 0)
+    return 0; // another one was first
+  std::signal(SIGCHLD, SIG_IGN);
+  const std::string loaded = state_of_files();
+  for (pollfd asked{listener, POLLIN, 0}; poll(&asked, 1, patience) > 0;)
   {
-    std::printf("%d\n", run_one(arguments[0], std::stoi(number), environment));
-    std::fflush(stdout);
+    const int client = accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
+    if (state_of_files() != loaded)
+      break; // the program was built anew; the client starts it
+    if (client >= 0 && is_of_this_user(client) && fork() == 0)
+    {
+      close(listener);
+      attend(client, arguments[0]);
+    }
+    close(client);
   }
   return 0;
 }

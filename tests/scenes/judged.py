@@ -13,6 +13,7 @@ def parser_of(description, timeout, *repeated):
     """A parser with a program, a scratch directory, a deck with settings, and more options that may be repeated."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
+    parser.add_argument("--loaded-once")
     parser.add_argument("--scratch", required=True)
     parser.add_argument("--timeout", type=float, default=timeout)
     parser.add_argument("--deck", required=True)

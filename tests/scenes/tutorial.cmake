@@ -1,23 +1,8 @@
 # The minifrac of doc/tutorial.
 
 # What the scene audit says of a minifrac before it runs: --check prints it and solves nothing.
-# stockwork_audit_test(NAME text that is printed [SET ...] [WITHOUT text that must not be])
 function(stockwork_audit_test name says)
-  cmake_parse_arguments(A "" "WITHOUT" "SET" ${ARGN})
-  if(NOT TARGET stockwork_program)
-    return()
-  endif()
-  set(settings)
-  foreach(setting IN LISTS A_SET)
-    list(APPEND settings --set ${setting})
-  endforeach()
-  add_test(NAME scenes/audit/${name} COMMAND stockwork_program
-    ${CMAKE_SOURCE_DIR}/prm/tutorial/cohesive_xfem.prm --check ${settings})
-  set_tests_properties(scenes/audit/${name} PROPERTIES LABELS "scenes;quick" TIMEOUT 60
-    PASS_REGULAR_EXPRESSION "${says}")
-  if(A_WITHOUT)
-    set_tests_properties(scenes/audit/${name} PROPERTIES FAIL_REGULAR_EXPRESSION "${A_WITHOUT}")
-  endif()
+  stockwork_check_test(NAME scenes/audit/${name} DECK prm/tutorial/cohesive_xfem.prm SAYS "${says}" LABELS quick ${ARGN})
 endfunction()
 
 # The run has 0.XX.

@@ -89,4 +89,23 @@ TEST_CASE("memory of factors that last")
     CHECK(expected < 1.5 * bytes);
   }
 }
+
+TEST_CASE("a step with a factor that lasts, in three dimensions")
+{
+  CostlyPhysics crack;
+  crack.fracture = true;
+  // cpu_seconds / steps of radial/small, carter and toughness with damage, coarse and medium, and
+  // the unknowns at their ends.
+  for (const auto &[unknowns, seconds] : {std::pair(29432., 0.156),
+                                          {48810., 0.267},
+                                          {41216., 0.241},
+                                          {82246., 0.675},
+                                          {42799., 0.340},
+                                          {97301., 1.90}})
+  {
+    const double expected = estimate_cost(3, unknowns, crack).step;
+    CHECK(expected > seconds / 2.5);
+    CHECK(expected < 2.5 * seconds);
+  }
+}
 } // namespace stockwork::cost_estimate_test

@@ -21,6 +21,19 @@ Point<dim> CrackCell<dim>::centre() const
 
 
 template <int dim>
+double CrackCell<dim>::angle_to_mesh() const
+{
+  double cosine = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    const Tensor<1, dim> line = face_centre(2 * d + 1) - face_centre(2 * d);
+    cosine = std::max(cosine, std::abs(normal * line) / line.norm());
+  }
+  return std::acos(std::min(cosine, 1.)) * 180. / dealii::numbers::PI;
+}
+
+
+template <int dim>
 bool CrackCell<dim>::crosses(const unsigned int face) const
 {
   unsigned int n_plus = 0;

@@ -72,6 +72,9 @@ struct CrackCell
     return 2 * n == n_vertices;
   }
 
+  /// Angle between the crack and the nearest direction of the mesh's lines [degrees].
+  double angle_to_mesh() const;
+
   /// Put the vertices on the sides of the plane through on_plane; those on it on the minus side.
   void part_by_plane();
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 
@@ -269,6 +270,8 @@ void Damage<dim>::start(const Collectives &collectives)
       "1.09 times as long as wide in viscous fluid, 1.12 to 1.22 times where toughness dominates, "
       "with up to 7 % less pressure than along the mesh. Turn the mesh, if you can, so that the "
       "crack lies along it.");
+  if (dim == 2 && parameters.growth)
+    warn_of_small_angles();
   if (parameters.cell_size > 1.5 * initial_size)
   {
     std::ostringstream text;
@@ -277,6 +280,24 @@ void Damage<dim>::start(const Collectives &collectives)
          << "along the cracks are smaller already, " << initial_size << " m.";
     messages.push_back(text.str());
   }
+}
+
+
+template <int dim>
+void Damage<dim>::warn_of_small_angles()
+{
+  for (const CrackCell<dim> &cell : committed)
+    if (const double angle = cell.angle_to_mesh(); angle > 0.5 && angle < 12.)
+    {
+      std::ostringstream text;
+      text << "A crack lies at " << std::setprecision(2) << angle
+           << " degrees to the lines of the mesh. At such small angles cells crack one at a time, "
+           << "and the pressure rides on a sawtooth: it ends up to 9 % off where it is 3 % off "
+           << "along the mesh and at 15 degrees or more ('kgd/rotated'). Turn the mesh so that the "
+           << "crack lies along it, or take smaller cells.";
+      messages.push_back(text.str());
+      return;
+    }
 }
 
 
