@@ -61,7 +61,7 @@ stockwork_same_test(NAME rock/random/porous/uniform DECK tests/contract/rock.prm
 # What is said before the run.
 stockwork_rock_audit_test(random tests/rock/random_bar.prm "random rock: mean +0\\.886 .*Young modulus: Weibull, m = 2, .*seed 3")
 stockwork_rock_audit_test(random_regions tests/rock/random_bar.prm "random rock: mean, region 1 +0\\.951 .*seed 5"
-  "Mesh/Region boxes=1: (8, 0) to (16, 2)" --set "Rock/Region 1/Random field/Weibull modulus=10"
+  "Mesh/Region boxes=1: (8, 0) to (16, 2)" "Rock/Region 1/Random field/Weibull modulus=10"
   "Rock/Region 1/Random field/Seed=5")
 
 # A bar pulled apart where one place is cracked: it takes G_c and carries the strength of that place, whose factor is
