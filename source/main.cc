@@ -89,6 +89,12 @@ int run_program(const CommandLine &command_line, RunContext &run)
       return 0;
     }
 
+    // An effective deck spells the default out.
+    if (const std::string accuracy = prm.get("Accuracy");
+        accuracy != "2 %" && options.chosen.empty() && prm.get("Physics") != "auto")
+      run.warn("'Accuracy = " + accuracy +
+               "' is without effect: none of 'Physics', 'Fracture/Model' and 'Resolution' is "
+               "'auto'.");
     options.deck = std::filesystem::absolute(command_line.deck).string();
     options.output_directory = prm.get("Output directory");
     options.check_only = command_line.action == CommandLine::Action::check;

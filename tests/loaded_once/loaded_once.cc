@@ -106,10 +106,9 @@ Request read_request(const int client, const std::string &program)
       else
         words.back() += buffer[i];
   words.pop_back();
-  if (words.empty() || request.files[0] < 0)
+  const std::size_t n_arguments = words.empty() ? 0 : std::stoul(words[0]);
+  if (words.size() < n_arguments + 2 || request.files[0] < 0)
     _exit(127);
-
-  const std::size_t n_arguments = std::stoul(words[0]);
   request.arguments = {program};
   request.arguments.insert(request.arguments.end(), words.begin() + 1,
                            words.begin() + 1 + n_arguments);

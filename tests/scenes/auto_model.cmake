@@ -101,3 +101,6 @@ stockwork_scene_test(slow_solver DECK prm/kgd/sun/damage.prm
   ARGS --checked --ends 0 --set "Linear solver/Type=direct" --says "Linear solver/Type = direct: set 'auto'")
 stockwork_scene_test(slow_solver/disc DECK prm/radial/small/damage.prm
   ARGS --checked --ends 0 --set "Linear solver/Type=iterative" --says "Linear solver/Type = iterative: set 'auto'")
+# Where nothing is left to the program.
+stockwork_check_test(NAME scenes/model/idle_accuracy DECK prm/kgd/toughness/damage.prm LABELS quick
+  SET Resolution=coarse "Accuracy=1 %" SAYS "Warning: 'Accuracy = 1 %' is without effect")
