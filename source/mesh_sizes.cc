@@ -188,8 +188,10 @@ double cells_in_half_length(const Case<dim> &the_case, const MeshSizes<dim> &mes
 
 
 template <int dim>
-double
-unknowns_at_end(const Case<dim> &the_case, const MeshSizes<dim> &mesh, const double n_unknowns)
+double unknowns_at_end(const Case<dim> &the_case,
+                       const MeshSizes<dim> &mesh,
+                       const double n_unknowns,
+                       const double n_segments)
 {
   if (dim == 2 || the_case.scene.cracks.empty() || !the_case.scene.cracks[0].disc ||
       !(half_length_at_end(the_case) > half_length_at_start(the_case)) ||
@@ -201,10 +203,11 @@ unknowns_at_end(const Case<dim> &the_case, const MeshSizes<dim> &mesh, const dou
     for (const double wall : {the_case.geometry.lower()[d], the_case.geometry.upper()[d]})
       if (std::abs(centre[d] - wall) < 0.5 * mesh.smallest)
         share *= 0.5;
-  const double cells = cells_in_half_length(the_case, mesh);
+  const double cells = cells_in_half_length(the_case, mesh),
+               cracked = share * numbers::PI * cells * cells;
   // By radial/toughness and radial/viscosity with 'damage', coarse and medium: 134 to 171.
   constexpr double per_cracked_cell = 140.;
-  return n_unknowns + per_cracked_cell * share * numbers::PI * cells * cells;
+  return n_unknowns + per_cracked_cell * std::max(cracked - n_segments, 0.);
 }
 
 
@@ -214,6 +217,6 @@ template SizesOfPath sizes_of_path<2>(const Case<2> &, const MeshSizes<2> &, dou
 template SizesOfPath sizes_of_path<3>(const Case<3> &, const MeshSizes<3> &, double);
 template double cells_in_half_length<2>(const Case<2> &, const MeshSizes<2> &);
 template double cells_in_half_length<3>(const Case<3> &, const MeshSizes<3> &);
-template double unknowns_at_end<2>(const Case<2> &, const MeshSizes<2> &, double);
-template double unknowns_at_end<3>(const Case<3> &, const MeshSizes<3> &, double);
+template double unknowns_at_end<2>(const Case<2> &, const MeshSizes<2> &, double, double);
+template double unknowns_at_end<3>(const Case<3> &, const MeshSizes<3> &, double, double);
 } // namespace stockwork

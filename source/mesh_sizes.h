@@ -49,8 +49,11 @@ sizes_of_path(const Case<dim> &the_case, const MeshSizes<dim> &mesh, double half
 template <int dim>
 double cells_in_half_length(const Case<dim> &the_case, const MeshSizes<dim> &mesh);
 
-/// Unknowns at the end of a run that has so many at its start: where cells are refined ahead of the
-/// front of a disc, they become more. As many where nothing tells.
+/// Unknowns at the end of a run that has so many now, and so many segments: where cells are refined
+/// ahead of the front of a disc, they become more. As many where nothing tells.
 template <int dim>
-double unknowns_at_end(const Case<dim> &the_case, const MeshSizes<dim> &mesh, double n_unknowns);
+double unknowns_at_end(const Case<dim> &the_case,
+                       const MeshSizes<dim> &mesh,
+                       double n_unknowns,
+                       double n_segments);
 } // namespace stockwork

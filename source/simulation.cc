@@ -386,7 +386,8 @@ void Simulation<dim>::announce()
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   const bool cracked = is_cracked(the_case);
-  const double at_end = unknowns_at_end(the_case, mesh, system.n_unknowns());
+  const double at_end =
+    unknowns_at_end(the_case, mesh, system.n_unknowns(), the_case.network.segments().size());
   const CostEstimate cost = estimate_cost(dim, at_end, costly_physics(the_case));
   const double cells =
     !cracked   ? 0.
