@@ -47,7 +47,8 @@ MODELS = ["prescribed", "damage", "cohesive_xfem", "peridynamics"]
 TOO_DEAR = [("radial/toughness", "peridynamics")]
 
 # Of the processor [s]. A run that takes longer is none, nor are finer ones; the coarsest counts as one that does not end.
-LONGEST = 150
+LONGEST = {"growing, disc": 3600}
+LONGEST_OF_OTHERS = 150
 
 
 def path_of(deck, model):
@@ -71,8 +72,8 @@ def audited(program, deck, resolution):
             "leaked": "" if efficiency is None else f"{1 - efficiency:.2g}"}
 
 
-def limited():
-    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 5))
+def longest(kind):
+    return LONGEST.get(kind, LONGEST_OF_OTHERS)
 
 
 def row(program, kind, deck, model, resolution, compared):
@@ -84,10 +85,11 @@ def row(program, kind, deck, model, resolution, compared):
     with tempfile.TemporaryDirectory() as directory:
         command = [program, path_of(deck, model), "--output", directory, "--set", f"Resolution={resolution}",
                    "--set", "Output/Fields=false"]
-        done = subprocess.run(command, capture_output=True, check=False, preexec_fn=limited,
+        done = subprocess.run(command, capture_output=True, check=False,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (longest(kind), longest(kind) + 5)),
                               env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
         if done.returncode < 0:
-            return {**one, "error": "", "seconds": LONGEST, "status": "stopped"}
+            return {**one, "error": "", "seconds": longest(kind), "status": "stopped"}
         summary = read_summary(directory)
     errors = [summary["errors"][name]["final"] for name in compared if name in summary["errors"]]
     return {**one, "error": f"{max(errors):.2g}" if errors else "", "seconds": f"{summary['cpu_seconds']:.2g}",

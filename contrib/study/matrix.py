@@ -47,11 +47,12 @@ class Job:
 
 
 def describe(pairs):
-    """A short text for `Section/Entry = value` pairs: words stand for themselves, numbers with their entry."""
+    """A short text for `Section/Entry = value` pairs: words stand for themselves, numbers with their entry. What brings a
+    model is not said beside the model."""
     def one(entry, value):
         word = re.match(r"[A-Za-z]", value) and value not in ("on", "off", "true", "false", "auto")
         return value if word else f"{entry.split('/')[-1]} {value}"
-    return ", ".join(one(*pair) for pair in pairs)
+    return ", ".join(one(*pair) for pair in pairs if pair[0] != "Additional shared libraries")
 
 
 def models_of(case):
