@@ -1,6 +1,7 @@
 #include "case.h"
 
 #include "case_checks.h"
+#include "idle_entries.h"
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -408,6 +409,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
     boundary_conditions.set_reference(reference->field());
     walls_follow_reference = true;
   }
+  for (const std::string &warning : idle_entries(prm, *this))
+    warnings.push_back(warning);
 }
 
 

@@ -318,6 +318,13 @@ void check_reference(ParameterHandler &prm,
       "solution is of linear rock");
   if (!the_case.reference)
     return;
+  if (is_driven_on(the_case) && begins_on_an_edge(the_case) &&
+      is_of_growing_fracture(*the_case.reference, the_case.control.end_time))
+    throw EntryError(
+      "Verification/Reference", value_of(prm, {"Verification"}, "Reference"),
+      "'none': the crack begins on a side that is no plane of symmetry ('Boundary "
+      "conditions/Roller'), and the solution is of a fracture in an unbounded body, of which "
+      "symmetry shows a part");
   if (!the_case.scene.cracks.empty() && !the_case.model->requirements().may_grow &&
       is_of_growing_fracture(*the_case.reference, the_case.control.end_time))
     warnings.push_back("The reference, " + the_case.reference->name() +

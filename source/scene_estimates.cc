@@ -8,6 +8,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -206,6 +207,34 @@ double half_length_at_start(const Case<dim> &the_case)
 
 
 template <int dim>
+bool begins_on_an_edge(const Case<dim> &the_case)
+{
+  if (the_case.scene.cracks.empty())
+    return false;
+  const std::vector<std::array<std::string, 2>> names =
+    dim == 2 ? std::vector<std::array<std::string, 2>>{{{"left", "right"}}, {{"bottom", "top"}}}
+             : std::vector<std::array<std::string, 2>>{
+                 {{"left", "right"}}, {{"front", "back"}}, {{"bottom", "top"}}};
+  const InitialCrack<dim> &crack = the_case.scene.cracks[0];
+  const std::vector<Point<dim>> mouths =
+    crack.disc ? std::vector<Point<dim>>{crack.disc->centre}
+               : std::vector<Point<dim>>{crack.points.front(), crack.points.back()};
+  const Point<dim> lower = the_case.geometry.lower(), upper = the_case.geometry.upper();
+  const double small = 1e-8 * lower.distance(upper);
+  const std::vector<std::string> there = the_case.geometry.side_names();
+  for (const Point<dim> &mouth : mouths)
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const unsigned int high : {0u, 1u})
+        if (std::abs(mouth[d] - (high ? upper[d] : lower[d])) < small &&
+            std::find(there.begin(), there.end(), names[d][high]) != there.end() &&
+            !the_case.boundary_conditions.is_plane_of_symmetry(
+              the_case.geometry.side(names[d][high]), d))
+          return true;
+  return false;
+}
+
+
+template <int dim>
 bool is_driven_on(const Case<dim> &the_case)
 {
   return !the_case.scene.cracks.empty() && the_case.model->requirements().may_grow &&
@@ -255,6 +284,8 @@ template bool wells_are_constant<2>(const Case<2> &);
 template bool wells_are_constant<3>(const Case<3> &);
 template double half_length_at_start<2>(const Case<2> &);
 template double half_length_at_start<3>(const Case<3> &);
+template bool begins_on_an_edge<2>(const Case<2> &);
+template bool begins_on_an_edge<3>(const Case<3> &);
 template bool is_driven_on<2>(const Case<2> &);
 template bool is_driven_on<3>(const Case<3> &);
 template double half_length_at_end<2>(const Case<2> &);

@@ -30,6 +30,11 @@ double distance_to_walls(const Case<dim> &the_case);
 template <int dim>
 double half_length_at_start(const Case<dim> &the_case);
 
+/// Whether the first crack begins on a side of the domain, or has its middle there, that is no
+/// plane of symmetry: then it is an edge crack, not half of one.
+template <int dim>
+bool begins_on_an_edge(const Case<dim> &the_case);
+
 /// Whether a well drives the first fracture on, through rock whose toughness the deck gives.
 template <int dim>
 bool is_driven_on(const Case<dim> &the_case);

@@ -111,7 +111,7 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   const double walls = distance_to_walls(the_case) / reach;
   std::ostringstream text;
   text << "the fracture grows to about " << std::setprecision(3) << reach << " m per wing; "
-       << (walls > 10. ? "the walls are far enough for 1 %"
+       << (walls > 12.5 ? "the walls are far enough for 1 %"
            : walls > nearest_walls
              ? "the walls cost some per cent"
              : "the walls govern the answer: enlarge the domain, or compare with a "

@@ -292,6 +292,22 @@ bool BoundaryConditions<dim>::is_roller(const types::boundary_id side) const
 
 
 template <int dim>
+bool BoundaryConditions<dim>::is_plane_of_symmetry(const types::boundary_id side,
+                                                   const unsigned int coordinate) const
+{
+  bool is_held = false;
+  for (const Dirichlet &condition : dirichlet)
+    if (condition.side == side)
+    {
+      if (condition.component != normal_component && condition.component != coordinate)
+        return false;
+      is_held = is_held || condition.entry == "Roller" || condition.is_zero;
+    }
+  return is_held;
+}
+
+
+template <int dim>
 void BoundaryConditions<dim>::refuse_contradictions(ParameterHandler &prm) const
 {
   const auto refuse = [&prm](const std::string &entry, const std::string &why)

@@ -95,6 +95,11 @@ public:
   /// Whether a side is a roller, or fixed.
   bool is_roller(const dealii::types::boundary_id side) const;
 
+  /// Whether a side is what a plane of symmetry across this coordinate is: it does not move across,
+  /// and is free along.
+  bool is_plane_of_symmetry(const dealii::types::boundary_id side,
+                            const unsigned int coordinate) const;
+
   /// Whether neither fluid nor a change of volume gets through any of these sides.
   bool seal(const std::vector<dealii::types::boundary_id> &sides) const;
 

@@ -143,6 +143,10 @@ typename Wells<dim>::Well Wells<dim>::read_well(dealii::ParameterHandler &prm,
     {
       throw EntryError(path + "Minimum pressure", text, allowed);
     }
+    if (well.value.minimum() >= 0.)
+      throw EntryError(path + "Minimum pressure", text,
+                       "nothing (an empty entry), for this well never takes fluid: to hold a least "
+                       "pressure it would inject more than its 'Rate'");
   }
   else if (!well.pressure_control && well.value.minimum() < 0.)
     well.minimum_pressure = std::isfinite(vapour_pressure) ? vapour_pressure : 0.;

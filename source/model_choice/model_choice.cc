@@ -67,7 +67,7 @@ std::string in_words(const Candidate &candidate)
 {
   std::ostringstream text;
   text << std::setprecision(2) << candidate.model << ", " << candidate.resolution << ": "
-       << 100. * candidate.promise.row.error << " % by " << candidate.promise.row.deck
+       << 100. * candidate.promise.row.error << " % at the end by " << candidate.promise.row.deck
        << ", which has " << std::setprecision(3) << candidate.promise.row.cells
        << " cells in its half length, and about " << std::setprecision(2)
        << candidate.promise.seconds << " s with its mesh; here are " << std::setprecision(3)

@@ -69,6 +69,8 @@ std::string beyond_charts(const Case<dim> &the_case)
     if (!the_case.boundary_conditions.loads().empty() ||
         the_case.boundary_conditions.maximum_displacement(the_case.control.end_time) != 0.)
       return "there are loads on the boundary";
+    if (begins_on_an_edge(the_case))
+      return "the crack begins on a side that is no plane of symmetry";
     const double reach = half_length_at_end(the_case);
     if (std::isnan(reach))
       return "nothing tells how long the fracture will be";

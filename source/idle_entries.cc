@@ -1,0 +1,90 @@
+#include "idle_entries.h"
+
+#include "base/parameter_tree.h"
+#include "stockwork/base/quantity.h"
+
+#include <algorithm>
+
+namespace stockwork
+{
+using dealii::ParameterHandler;
+
+namespace
+{
+/// Entries that only act together with something else.
+struct IdleGroup
+{
+  bool is_idle;
+  std::string why;
+  std::vector<std::string> entries;
+};
+
+
+template <int dim>
+std::vector<IdleGroup> groups_of(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  const auto given = [&](const std::string &path)
+  {
+    for (const DeclaredEntry &entry : declared_entries(prm))
+      if (entry.path() == path)
+        return entry.value;
+    return std::string();
+  };
+  const bool has_pores = the_case.elements.has_pore_pressure;
+  return {
+    {!has_pores && the_case.network.leak_off_law() == LeakOff::none,
+     "no pore pressure is solved for ('Rock/Bulk model = elastic', or nothing that moves fluid "
+     "through the pores)",
+     {"Rock/Permeability", "Rock/Biot coefficient", "Rock/Biot modulus", "Rock/Porosity",
+      "Rock/Solid bulk modulus"}},
+    {has_pores && !given("Rock/Biot modulus").empty(),
+     "'Rock/Biot modulus' is given, which they would make up",
+     {"Rock/Porosity", "Rock/Solid bulk modulus"}},
+    {given("Mesh/Shape") != "gmsh",
+     "'Mesh/Shape' is not 'gmsh'",
+     {"Mesh/Gmsh/File", "Mesh/Gmsh/Scale"}},
+    {dim == 2, "the case has two dimensions", {"Mesh/Box/Z spacing"}},
+    {the_case.scheme.kind() != TimeScheme::Kind::newmark,
+     "there is no inertia",
+     {"Time/Newmark beta", "Time/Newmark gamma"}},
+    {given("Rock/Random field/Properties").empty(),
+     "no property is random ('Rock/Random field/Properties')",
+     {"Rock/Random field/Weibull modulus", "Rock/Random field/Lattice spacing",
+      "Rock/Random field/Correlation length", "Rock/Random field/Seed",
+      "Rock/Random field/Independent properties"}},
+    {given("Coupling/Scheme") == "monolithic",
+     "rock and fluid are solved together ('Coupling/Scheme = monolithic')",
+     {"Coupling/Stabilisation factor", "Coupling/Maximum passes", "Coupling/Acceleration"}},
+    {given("Verification/Reference") == "none",
+     "there is no reference ('Verification/Reference')",
+     {"Verification/Wrong factors", "Verification/Load", "Verification/Footing width",
+      "Verification/Fracture height", "Verification/Elastic share"}}};
+}
+} // namespace
+
+
+template <int dim>
+std::vector<std::string> idle_entries(ParameterHandler &prm, const Case<dim> &the_case)
+{
+  std::vector<std::string> warnings;
+  if (prm.get("Physics") == "auto")
+    return warnings;
+  const std::vector<DeclaredEntry> declared = declared_entries(prm);
+  for (const IdleGroup &group : groups_of(prm, the_case))
+  {
+    std::string found;
+    for (const DeclaredEntry &entry : declared)
+      if (group.is_idle && entry.value != entry.default_value &&
+          std::find(group.entries.begin(), group.entries.end(), entry.path()) !=
+            group.entries.end())
+        found += (found.empty() ? "'" : ", '") + entry.path() + " = " + entry.value + "'";
+    if (!found.empty())
+      warnings.push_back("Without effect: " + found + ", for " + group.why + ".");
+  }
+  return warnings;
+}
+
+
+template std::vector<std::string> idle_entries<2>(ParameterHandler &, const Case<2> &);
+template std::vector<std::string> idle_entries<3>(ParameterHandler &, const Case<3> &);
+} // namespace stockwork
