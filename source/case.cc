@@ -97,6 +97,17 @@ std::vector<ChosenValue> set_flow_scales(ParameterHandler &prm, Case<dim> &the_c
 }
 
 
+/// The entries of the fracture model that are 'auto', with their sections.
+std::vector<std::string> automatic_entries(const ParameterHandler &prm, const std::string &model)
+{
+  std::vector<std::string> names;
+  for (const DeclaredEntry &entry : declared_entries(prm))
+    if (entry.section == "Fracture/" + model && entry.value == "auto")
+      names.push_back(entry.name);
+  return names;
+}
+
+
 template <int dim>
 const auto &create_function(const FractureModelEntry &entry)
 {
@@ -364,11 +375,16 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   model_name = prm.get("Model");
   prm.leave_subsection();
   const std::vector<ChosenValue> chosen_for_flow = set_flow_scales(prm, *this);
+  const std::vector<std::string> automatic = automatic_entries(prm, model_name);
   model = make_model<dim>(prm, plug_ins, scene);
+  for (const std::string &entry : automatic)
+    if (const std::string value = value_of(prm, {"Fracture", model_name}, entry); value != "auto")
+      chosen.push_back({"Fracture/" + model_name + "/" + entry, value,
+                        "what 'auto' comes to with the deck's other entries"});
   const bool has_fracture = model->requirements().has_fracture;
   const bool solves_for_flow = has_fracture && std::isnan(scene.crack_pressure);
   if (solves_for_flow)
-    chosen = chosen_for_flow;
+    chosen.insert(chosen.begin(), chosen_for_flow.begin(), chosen_for_flow.end());
   refuse_regions(prm, rock, model_name, model->requirements().regional_rock);
   refuse_absent_regions(prm, geometry);
   for (const std::string &region : regions_without_rock(prm, geometry))

@@ -70,6 +70,7 @@ TEST_CASE("a bond crosses a path where it does, and its shares add up to one")
   CHECK(shares[0].second == doctest::Approx(0.375));
   CHECK(shares[1].second == doctest::Approx(0.5));
   CHECK(shares[2].second == doctest::Approx(0.125));
+  CHECK((paths.left(*crossing) - Tensor<1, 2>({0., 1.})).norm() < 1e-12);
   // A node on a path is on its left side.
   CHECK(paths.crossing(Point<2>(1., 0.5), Point<2>(1., 0.)));
   CHECK(!paths.crossing(Point<2>(1., 0.5), Point<2>(1., 1.)));
@@ -83,7 +84,12 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
                [](const Point<2> &end) { return end[0] > 0.; });
   const TrackedPaths::End end = paths.ends().front();
   const Tensor<1, 2> up({std::sqrt(0.75), 0.5});
+  const TrackedPaths before = paths;
+  CHECK(paths.run_as(before));
   paths.extend(end, up);
+  CHECK(!paths.run_as(before));
+  CHECK(paths.boxes().size() == 3);
+  CHECK(paths.boxes().back()[1].distance(Point<2>(2., 0.) + up) < 1e-12);
   paths.extend(end, up);
   CHECK(paths.wet_pieces().size() == 2); // the way is dry
   // A bond across the way feels the fluid that is near enough.
@@ -99,6 +105,7 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
   CHECK(paths.wet_pieces().back().at_tip);
   CHECK(!paths.wet_pieces()[1].at_tip);
   CHECK(paths.lead(end) == doctest::Approx(0.75));
+  CHECK((paths.left(*ahead) - Tensor<1, 2>({-0.5, std::sqrt(0.75)})).norm() < 1e-12);
   CHECK(paths.length() == doctest::Approx(3.25));
   CHECK(paths.beyond_tip(*ahead, end) == doctest::Approx(1. / std::sqrt(0.75) - 1.25));
   CHECK(paths.distance(Point<2>(1., 2.)) == doctest::Approx(2.));

@@ -9,30 +9,33 @@ using namespace stockwork::peridynamics;
 
 TEST_CASE("a bond that softens dissipates what a brittle one does, and unloads to the origin")
 {
-  const SofteningLaw law{0.5e-4, 2e-4}; // critical stretch 1e-4
+  const SofteningLaw law{0.5, 2.}; // critical stretch 1
   CHECK_FALSE(law.brittle());
   const auto force = [&](const double kappa) { return (1. - law.damage(kappa)) * kappa; };
 
   // Work done up to a stretch, by the trapezoidal rule between the kinks.
   const unsigned int n = 3000;
-  double work = 0.;
+  double work = 0., separated = 0.;
+  const auto lost = [&](const double kappa) { return law.damage(kappa) * kappa; };
   for (unsigned int i = 0; i < n; ++i)
   {
     const double from = law.last * i / n, to = law.last * (i + 1) / n;
     work += 0.5 * (force(from) + force(to)) * (to - from);
+    separated += 0.5 * (force(from) + force(to)) * (lost(to) - lost(from));
+    CHECK(separated == doctest::Approx(0.5 * law.separation(to)).epsilon(1e-6));
     CHECK(law.damage(to) >= law.damage(from));
     const double kept = 0.5 * force(to) * to; // comes back on unloading
     CHECK(work - kept == doctest::Approx(0.5 * law.dissipated(to)).epsilon(1e-6));
   }
-  CHECK(work == doctest::Approx(0.5 * 1e-4 * 1e-4));
+  CHECK(work == doctest::Approx(0.5));
   CHECK(law.damage(law.first) == 0.);
   CHECK(law.damage(law.last) == 1.);
-  CHECK(law.dissipated(3. * law.last) == doctest::Approx(1e-8));
+  CHECK(law.dissipated(3. * law.last) == doctest::Approx(1.));
+  CHECK(law.separation(3. * law.last) == doctest::Approx(1.));
 
-  for (const double kappa : {0.4e-4, 0.7e-4, 1.5e-4, 2.5e-4})
+  for (const double kappa : {0.4, 0.7, 1.5, 2.5})
   {
     const double step = 1e-4 * kappa;
-    const auto lost = [&](const double k) { return law.damage(k) * k; };
     CHECK(law.slope(kappa) ==
           doctest::Approx((lost(kappa + step) - lost(kappa - step)) / (2. * step)));
   }

@@ -144,33 +144,39 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
     most_of_cells = std::max(most_of_cells, strain.norm());
   std::vector<Candidate> candidates;
   const unsigned int half = stencil.size() / 2;
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
+  const auto consider = [&](const unsigned int i, const unsigned int b)
+  {
+    if (bonds.is_broken(i, b))
+      return;
+    const bool breakable = bonds.can_break(i, b);
+    if (b >= half && breakable && zone.far_end(i, b).mirrored == 0)
+      return; // seen from the other end
+    const double stretch = elongation(i, b, u) / coefficients[b].length;
+    const auto ratio_with = [&](const double more)
     {
-      if (bonds.is_broken(i, b))
-        continue;
-      const bool breakable = bonds.can_break(i, b);
-      if (b >= half && breakable && zone.far_end(i, b).mirrored == 0)
-        continue; // seen from the other end
-      const double stretch = elongation(i, b, u) / coefficients[b].length;
-      const auto ratio_with = [&](const double more)
-      {
-        return rounded(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
-                       softening.first);
-      };
-      const double most = most_of_cells + (parameters.in_bonds ? 0. : in_situ_stretch(i, b));
-      if (ratio_with(most) < least || softening_bond(i, b) != nullptr)
-        continue;
-      const double ratio = ratio_with(added_stretch(i, b, of_cells));
-      if (ratio < least || (parameters.tracked && !crossing_of(i, b)))
-        continue;
-      if (breakable)
-        candidates.push_back({ratio, i, b});
-      else if (zone_may_include(i, b))
-        rim = std::max(rim, Rim::grows);
-      else
-        rim = Rim::stays;
-    }
+      return rounded(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
+                     softening.first);
+    };
+    const double most = most_of_cells + (parameters.in_bonds ? 0. : in_situ_stretch(i, b));
+    if (ratio_with(most) < least || softening_bond(i, b) != nullptr)
+      return;
+    const double ratio = ratio_with(added_stretch(i, b, of_cells));
+    if (ratio < least)
+      return;
+    if (breakable)
+      candidates.push_back({ratio, i, b});
+    else if (zone_may_include(i, b))
+      rim = std::max(rim, Rim::grows);
+    else
+      rim = Rim::stays;
+  };
+  if (parameters.tracked)
+    for (const BondAcross &bond : crossing_bonds)
+      consider(bond.view.first, bond.view.second);
+  else
+    for (const unsigned int i : zone.peridynamic_sites())
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+        consider(i, b);
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate &a, const Candidate &b)
             {

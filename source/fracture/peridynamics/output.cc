@@ -32,9 +32,19 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   }
   if (parameters.tracked)
   {
-    const double half = half_process_zones();
-    result.length = paths.length() + half;
-    result.broken_length = paths.length() - half;
+    // The tip of an elastic crack that is the same from afar: by the M-integral about the front it
+    // is int (1 - phi/G_c) ds behind it, phi the work of separation, whatever the law of the
+    // tractions. The model's tips are by the energy dissipated, which is less by what would come
+    // back.
+    double elastic = paths.length();
+    for (unsigned int n = 0; n < softening_ends.size(); ++n)
+      if (softening_ends[n])
+        elastic += energy_at_unit_stretch(softening_bonds[n].view) *
+                   (softening.separation(softening_bonds[n].trial) -
+                    softening.dissipated(softening_bonds[n].trial)) /
+                   scene.rock.main().energy_release_rate;
+    result.length = paths.length() + half_process_zones();
+    result.broken_length = 2. * elastic - result.length;
   }
   result.dissipated_energy = dissipated;
   result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));

@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/parameters.h"
 
+#include "base/parameter_tree.h"
 #include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
 #include "mesh/box_list.h"
@@ -75,8 +76,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "which makes its faces too soft. With the correction, the bonds that are left "
                     "are stiffer, in proportion.");
   prm.declare_entry(
-    "Closure", "conserving", Patterns::Selection("conserving|in bonds|as published"),
-    "What the pressure in a crack does to the rock. conserving: it loads the faces, "
+    "Closure", "conserving", Patterns::Selection("auto|conserving|in bonds|as published"),
+    "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, else "
+    "conserving. conserving: it loads the faces, "
     "and does the work of their opening. in bonds: it is part of the law of bonds, as if rock "
     "under a uniform stress had cracks without load, less the uniform stress; then toughness does "
     "not depend on the direction, nor on the in-situ stress along the crack. as published: it "
@@ -90,8 +92,11 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry(
-    "Tracking", "none", Patterns::Selection("none|path"),
-    "none: any bond softens that is stretched too far; where nothing guides it, the "
+    "Tracking", "none", Patterns::Selection("auto|none|path"),
+    "auto: path where it can be: in two dimensions, around cracks that the deck gives, with "
+    "bond-based bonds that "
+    "soften, fluid in the segments and neither 'Closure = conserving' nor inertia; "
+    "else none. none: any bond softens that is stretched too far; where nothing guides it, the "
     "way of a fracture is the mesh's. path: only those that cross a path, which "
     "runs ahead of each tip, at right angles to the greatest principal stress, "
     "averaged there over some horizons. In two dimensions, with 'Closure = in bonds'; "
@@ -111,6 +116,20 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
 
 namespace
 {
+/// Whether what the deck says elsewhere lets the way of a fracture be tracked by default. With
+/// inertia fractures may fork.
+template <int dim>
+bool may_be_tracked(dealii::ParameterHandler &prm, const Scene<dim> &scene)
+{
+  prm.leave_subsection();
+  prm.leave_subsection();
+  const bool inertia = value_of(prm, {"Time"}, "Inertia") == "on";
+  prm.enter_subsection("Fracture");
+  prm.enter_subsection("peridynamics");
+  return dim == 2 && !scene.cracks.empty() && !inertia;
+}
+
+
 void refuse_quadratic_elements(dealii::ParameterHandler &prm)
 {
   prm.enter_subsection("Discretisation");
@@ -124,7 +143,7 @@ void refuse_quadratic_elements(dealii::ParameterHandler &prm)
 
 
 template <int dim>
-Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
+Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scene<dim> &scene)
 {
   const auto number = [&](const char *entry, const double otherwise)
   {
@@ -142,7 +161,6 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
               : volumes == "full"    ? VolumeRule::full
               : volumes == "ramp"    ? VolumeRule::ramp
                                      : VolumeRule::exact;
-  p.tracked = prm.get("Tracking") == "path";
   p.margin = number("Margin", p.horizon + 2.);
   if (!(p.margin >= p.horizon + 1.))
     throw bad("Margin", "at least " + std::to_string(p.horizon + 1) +
@@ -160,9 +178,19 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm)
   if (p.softening > 1. && p.softening < 3.)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";
+  p.tensor_fluid = permeability_tensor::is_chosen(prm);
+  const std::string closure = prm.get("Closure");
+  if (prm.get("Tracking") == "auto")
+    prm.set("Tracking", !p.state_based && p.softening > 1. && !p.tensor_fluid &&
+                            p.effective_stretch && (closure == "auto" || closure == "in bonds") &&
+                            may_be_tracked(prm, scene)
+                          ? "path"
+                          : "none");
+  p.tracked = prm.get("Tracking") == "path";
+  if (closure == "auto")
+    prm.set("Closure", p.tracked ? "in bonds" : "conserving");
   p.as_published = prm.get("Closure") == "as published";
   p.in_bonds = prm.get("Closure") == "in bonds";
-  p.tensor_fluid = permeability_tensor::is_chosen(prm);
   if (p.tracked && (dim != 2 || !p.in_bonds || p.softening == 1.))
     throw bad("Tracking", dim != 2      ? "none in three dimensions"
                           : !p.in_bonds ? "none, or 'Closure = in bonds'"

@@ -4,6 +4,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include "fracture/peridynamics/stencil.h"
+#include "stockwork/exchange/scene.h"
 
 #include <vector>
 
@@ -43,8 +44,8 @@ struct Parameters
 
   static void declare(dealii::ParameterHandler &prm);
 
-  /// Called inside the subsection.
+  /// Called inside the subsection. What is 'auto' there becomes what it comes to.
   /// @throws InputError
-  static Parameters parse(dealii::ParameterHandler &prm);
+  static Parameters parse(dealii::ParameterHandler &prm, const Scene<dim> &scene);
 };
 } // namespace stockwork::peridynamics

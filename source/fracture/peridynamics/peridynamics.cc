@@ -162,6 +162,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     started = true;
   }
   row_versions.restart(zone.sites().size());
+  paths_crossed = TrackedPaths(); // by other sites
   refresh_segments();
 }
 
@@ -355,6 +356,7 @@ void Peridynamics<dim>::rollback()
   told_off_paths = told_off_paths_before;
   dissipated = committed_energy;
   paths = committed_paths;
+  find_crossing_bonds();
   if (passes == 0)
     return;
   passes = 0;

@@ -148,6 +148,17 @@ private:
   /// The views of a bond, each once, sorted.
   std::vector<BondView> views_of(unsigned int site, unsigned int bond) const;
 
+  /// A bond that leads from one face to the other, as seen from one of its ends.
+  struct BondAcross
+  {
+    BondView view;
+    dealii::Tensor<1, dim> direction; ///< of the bond, or of its image that crosses the path
+    TrackedPaths::Crossing crossing;  ///< where it crosses a path
+  };
+
+  /// Those that cross a path; without paths the broken ones.
+  std::vector<BondAcross> bonds_across() const;
+
   /// A bond that softens. Its unknown is what has become of its elongation without any force, D
   /// times the elongation [m].
   struct SofteningBond
@@ -199,8 +210,9 @@ private:
   /// The same by the in-situ stress.
   dealii::SymmetricTensor<2, dim> released_strain(unsigned int cell) const;
 
-  /// The same of a unit traction of a mode [1/Pa].
-  dealii::SymmetricTensor<2, dim> strain_of_mode(unsigned int cell, unsigned int mode) const;
+  /// Of all cells, the same of unit tractions of the modes [1/Pa]: across the fracture and along
+  /// it, combined so that bonds read no slip as an opening, nor the other way round.
+  void find_modes(const std::vector<BondAcross> &across);
 
   /// Of all cells.
   std::vector<dealii::SymmetricTensor<2, dim>> strain_of_faces(const State &state) const;
@@ -236,6 +248,9 @@ private:
   CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
 
   // With tracked paths (tracking.cc).
+
+  /// Find the bonds that cross paths, if these are others than before.
+  void find_crossing_bonds();
 
   /// Where a bond, or its image in the domain, crosses a path.
   std::optional<TrackedPaths::Crossing> crossing_of(unsigned int site, unsigned int bond) const;
@@ -276,9 +291,6 @@ private:
                                                const dealii::Tensor<1, dim> &ahead,
                                                const State &state,
                                                const OfCells &of_cells) const;
-
-  /// Of all cells, the opening that their bonds would read of a slip of one.
-  void find_lifts();
 
   /// Segments open by what bonds have lost of their elongation.
   void open_by_bonds();
@@ -437,9 +449,11 @@ private:
   std::vector<dealii::SymmetricTensor<2, dim>> released; ///< strain of each cell, if not all zero
   std::vector<Faces> faces;                              ///< of owned segments
   std::vector<LinearFunctional> pores_of_pieces;         ///< of all ranks, see pores_across()
-  std::vector<double> lifts;                             ///< see find_lifts()
-  std::vector<CellShares> softening_shares;              ///< of the softening bonds
+  std::vector<std::array<dealii::SymmetricTensor<2, dim>, 2>> modes; ///< see find_modes()
+  std::vector<CellShares> softening_shares;                          ///< of the softening bonds
   TrackedPaths paths, committed_paths;
+  std::vector<BondAcross> crossing_bonds; ///< of `paths_crossed`, sorted by view
+  TrackedPaths paths_crossed;
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
   std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
   std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here

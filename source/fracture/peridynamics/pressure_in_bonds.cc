@@ -28,6 +28,8 @@ namespace
 {
 /// Faces that are nearer to one another touch [m].
 constexpr double closed = 1e-12;
+/// What bonds of a piece read of a jump, less all of it, from which on too few are there to tell.
+constexpr double too_few_bonds = 0.5;
 } // namespace
 
 
@@ -52,23 +54,12 @@ SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_traction(const unsigned int
 template <int dim>
 SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int cell) const
 {
-  return strain_of_traction(cell,
-                            scene.in_situ_stress(all_segments[cell].centre) * cells[cell].normal);
-}
-
-
-template <int dim>
-SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_mode(const unsigned int cell,
-                                                          const unsigned int mode) const
-{
-  const Tensor<1, dim> &n = cells[cell].normal;
+  const Tensor<1, dim> &n = cells[cell].normal,
+                       traction = scene.in_situ_stress(all_segments[cell].centre) * n;
   if constexpr (dim == 2)
-    if (n_modes() > 1)
-    {
-      const SymmetricTensor<2, dim> of_shear = strain_of_traction(cell, cross_product_2d(n));
-      return mode == 1 ? of_shear : strain_of_traction(cell, n) - lifts[cell] * of_shear;
-    }
-  return strain_of_traction(cell, n);
+    return (traction * n) * modes[cell][0] + (traction * cross_product_2d(n)) * modes[cell][1];
+  else
+    return strain_of_traction(cell, traction);
 }
 
 
@@ -81,8 +72,7 @@ std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const St
   {
     strain.push_back(in_situ_is_zero ? SymmetricTensor<2, dim>() : released[i]);
     for (unsigned int m = 0; m < n_modes(); ++m)
-      strain.back() +=
-        unit * state.current.extra[unknown_of_faces(i, m) + 1] * strain_of_mode(i, m);
+      strain.back() += unit * state.current.extra[unknown_of_faces(i, m) + 1] * modes[i][m];
   }
   return strain;
 }
@@ -135,40 +125,83 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
 }
 
 
-/// The few bonds of a piece of a fracture, when it slips, are not stretched alike on the two sides
-/// of its normal. What they would read of it as opening is taken off.
 template <int dim>
-void Peridynamics<dim>::find_lifts()
+std::vector<typename Peridynamics<dim>::BondAcross> Peridynamics<dim>::bonds_across() const
 {
-  lifts.assign(cells.size(), 0.);
+  if (parameters.tracked)
+    return crossing_bonds;
+  std::vector<BondAcross> across;
+  for (const unsigned int i : zone.peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (bonds.is_broken(i, b))
+        across.push_back({{i, b}, coefficients[b].direction, {}});
+  return across;
+}
+
+
+/// On a piece of a fracture that is oblique to the mesh, bonds are not alike on the two sides of
+/// its normal: of a uniform slip they would read up to 10 per cent as an opening, and of an opening
+/// as much as a slip. That is taken off. Traction and jump are adjoint, so the load on the faces
+/// has no part along them either. How much of a jump a piece reads stays as it is: its share of the
+/// bonds.
+template <int dim>
+void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
+{
+  modes.assign(cells.size(), {});
+  for (unsigned int i = 0; i < cells.size(); ++i)
+  {
+    modes[i][0] = strain_of_traction(i, cells[i].normal);
+    if constexpr (dim == 2)
+      modes[i][1] = strain_of_traction(i, cross_product_2d(cells[i].normal));
+  }
   if constexpr (dim == 2)
   {
-    if (n_modes() == 1)
+    if (!parameters.tracked && n_modes() == 1)
       return;
-    std::vector<std::array<double, 2>> of_slip(cells.size(), {{0., 0.}});
-    std::vector<std::array<SymmetricTensor<2, dim>, 2>> strain;
-    for (unsigned int i = 0; i < cells.size(); ++i)
-      strain.push_back({{strain_of_mode(i, 0), strain_of_mode(i, 1)}});
-    for (const unsigned int i : zone.peridynamic_sites())
-      for (unsigned int b = 0; b < stencil.size(); ++b)
+    // What modes read of jumps across the fracture and along it, over its area.
+    std::vector<Tensor<2, dim>> reading(cells.size());
+    for (const BondAcross &bond : across)
+    {
+      const auto &[site, b] = bond.view;
+      if (!bonds.is_broken(site, b))
+        continue; // what softens takes part by the stretch that it has
+      const Tensor<1, dim> &e = bond.direction;
+      // Half of a bond belongs to each end.
+      const double force =
+        0.5 * zone.sites()[site].share * coefficients[b].stiffness * coefficients[b].length;
+      // Bonds ahead of the fluid belong to its last piece, but not to that one's jump.
+      const CellShares shares = parameters.tracked
+                                  ? paths.shares(bond.crossing, same_place * zone.spacing())
+                                  : shares_of(site, b, true);
+      for (const auto &[cell, share] : shares)
       {
-        if (!bonds.is_broken(i, b))
-          continue;
-        const Tensor<1, dim> &e = coefficients[b].direction;
-        const double force =
-          zone.sites()[i].share * coefficients[b].stiffness * coefficients[b].length;
-        for (const auto &[cell, share] : shares_of(i, b, true))
+        const Tensor<1, dim> &n = cells[cell].normal;
+        bool leads_up = e * n > 0.;
+        if (parameters.tracked)
         {
-          const Tensor<1, dim> &n = cells[cell].normal;
-          const double stretched = (e * cross_product_2d(n)) * (e * n > 0. ? 1. : -1.);
-          for (unsigned int m = 0; m < 2; ++m)
-            of_slip[cell][m] += share * force * stretched * (e * (strain[cell][m] * e));
+          const TrackedPaths::Piece &piece = paths.wet_pieces()[cell];
+          const bool normal_is_left = cross_product_2d(n) * (piece.to - piece.from) > 0.;
+          leads_up = (e * paths.left(bond.crossing) > 0.) == normal_is_left;
+        }
+        const double elongated = (leads_up ? share : -share) * force / all_segments[cell].area;
+        for (unsigned int m = 0; m < 2; ++m)
+        {
+          const double read = elongated * (e * (modes[cell][m] * e));
+          reading[cell][m][0] += read * (e * n);
+          reading[cell][m][1] += read * (e * cross_product_2d(n));
         }
       }
+    }
     for (unsigned int i = 0; i < cells.size(); ++i)
-      // The whole of a piece, from both ends of bonds, would be twice its area.
-      if (of_slip[i][1] > all_segments[i].area)
-        lifts[i] = of_slip[i][0] / of_slip[i][1];
+    {
+      if (std::abs(reading[i][0][0] - 1.) > too_few_bonds ||
+          std::abs(reading[i][1][1] - 1.) > too_few_bonds)
+        continue;
+      const Tensor<2, dim> right = invert(reading[i]);
+      const auto plain = modes[i];
+      for (unsigned int m = 0; m < 2; ++m)
+        modes[i][m] = reading[i][m][m] * (right[m][0] * plain[0] + right[m][1] * plain[1]);
+    }
   }
 }
 
@@ -176,19 +209,16 @@ void Peridynamics<dim>::find_lifts()
 template <int dim>
 void Peridynamics<dim>::open_by_bonds()
 {
+  if (!parameters.tracked)
+    crossed.reinit(zone, stencil, cells, parameters.horizon);
+  const std::vector<BondAcross> across = bonds_across();
+  find_modes(across);
   released.clear();
   if (!in_situ_is_zero)
     for (unsigned int i = 0; i < cells.size(); ++i)
       released.push_back(released_strain(i));
-  if (!parameters.tracked)
-    crossed.reinit(zone, stencil, cells, parameters.horizon);
-  find_lifts();
 
   const unsigned int n = n_modes();
-  std::vector<std::vector<SymmetricTensor<2, dim>>> of_mode(cells.size());
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    for (unsigned int m = 0; m < n; ++m)
-      of_mode[i].push_back(strain_of_mode(i, m));
   std::vector<Faces *> faces_of(cells.size(), nullptr);
   faces.assign(owned_cells.size(), Faces());
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
@@ -221,43 +251,43 @@ void Peridynamics<dim>::open_by_bonds()
   std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>> by_dof(
     cells.size());
 
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
+  for (const BondAcross &bond : across)
+  {
+    const auto &[i, b] = bond.view;
+    if (!bonds.is_broken(i, b))
+      continue;
+    // Half of a bond belongs to each end.
+    const Tensor<1, dim> &e = coefficients[b].direction;
+    const double length = coefficients[b].length,
+                 force = 0.5 * zone.sites()[i].share * coefficients[b].stiffness * length;
+    const FarEnd end = zone.far_end(i, b);
+    for (const auto &[cell, share] : shares_of(i, b, true))
     {
-      if (!bonds.is_broken(i, b))
+      if (faces_of[cell] == nullptr)
         continue;
-      // Half of a bond belongs to each end.
-      const Tensor<1, dim> &e = coefficients[b].direction;
-      const double length = coefficients[b].length,
-                   force = 0.5 * zone.sites()[i].share * coefficients[b].stiffness * length;
-      const FarEnd end = zone.far_end(i, b);
-      for (const auto &[cell, share] : shares_of(i, b, true))
+      const double in_situ = in_situ_is_zero ? 0. : e * (released[cell] * e);
+      std::array<double, 3> sums{{0., 0., share * force * in_situ}};
+      for (unsigned int m = 0; m < n; ++m)
       {
-        if (faces_of[cell] == nullptr)
-          continue;
-        const double in_situ = in_situ_is_zero ? 0. : e * (released[cell] * e);
-        std::array<double, 3> sums{{0., 0., share * force * in_situ}};
-        for (unsigned int m = 0; m < n; ++m)
-        {
-          Faces::Mode &mode = faces_of[cell]->modes[m];
-          sums[m] = share * force * (e * (of_mode[cell][m] * e));
-          mode.constant += sums[m] * length * in_situ;
-          for (unsigned int k = 0; k < n; ++k)
-            mode.of_tractions[k] += sums[m] * length * (e * (of_mode[cell][k] * e));
-        }
-        const auto add = [&](const dealii::types::global_dof_index dof, const double direction)
-        {
-          auto &of_dof = by_dof[cell][dof];
-          for (unsigned int k = 0; k < sums.size(); ++k)
-            of_dof[k] += direction * sums[k];
-        };
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          add(zone.sites()[i].dofs[d], -e[d]);
-          add(zone.sites()[end.site].dofs[d], end.mirrored >> d & 1 ? -e[d] : e[d]);
-        }
+        Faces::Mode &mode = faces_of[cell]->modes[m];
+        sums[m] = share * force * (e * (modes[cell][m] * e));
+        mode.constant += sums[m] * length * in_situ;
+        for (unsigned int k = 0; k < n; ++k)
+          mode.of_tractions[k] += sums[m] * length * (e * (modes[cell][k] * e));
+      }
+      const auto add = [&](const dealii::types::global_dof_index dof, const double direction)
+      {
+        auto &of_dof = by_dof[cell][dof];
+        for (unsigned int k = 0; k < sums.size(); ++k)
+          of_dof[k] += direction * sums[k];
+      };
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        add(zone.sites()[i].dofs[d], -e[d]);
+        add(zone.sites()[end.site].dofs[d], end.mirrored >> d & 1 ? -e[d] : e[d]);
       }
     }
+  }
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
     for (const auto &[dof, sums] : by_dof[owned_cells[k]])
     {
@@ -279,7 +309,7 @@ void Peridynamics<dim>::open_by_bonds()
         own->bonds.push_back(number);
         for (unsigned int m = 0; m < n; ++m)
           own->modes[m].of_bonds.push_back(share * push(softening_bonds[number].view) *
-                                           (e * (of_mode[cell][m] * e)));
+                                           (e * (modes[cell][m] * e)));
       }
   }
 }
@@ -370,15 +400,13 @@ std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const
 
 #define INSTANTIATE(dim)                                                                          \
   template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const;        \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_mode(unsigned int, unsigned int)  \
-    const;                                                                                        \
   template std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const State &) \
     const;                                                                                        \
   template double Peridynamics<dim>::fractured_stretch(                                           \
     unsigned int, unsigned int, const CellShares &, const std::vector<SymmetricTensor<2, dim>> &) \
     const;                                                                                        \
   template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const;       \
-  template void Peridynamics<dim>::find_lifts();                                                  \
+  template void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &);                   \
   template void Peridynamics<dim>::open_by_bonds();                                               \
   template double Peridynamics<dim>::push(const BondView &) const;                                \
   template void Peridynamics<dim>::commit_contact(const State &);                                 \

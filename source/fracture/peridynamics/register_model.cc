@@ -12,9 +12,9 @@ void register_model(FractureModelRegistry &registry)
                       "(peridynamics), finite elements elsewhere.";
   entry.declare_parameters = Parameters<2>::declare;
   entry.create_2d = [](dealii::ParameterHandler &prm, const Scene<2> &scene)
-  { return std::make_unique<Peridynamics<2>>(Parameters<2>::parse(prm), scene); };
+  { return std::make_unique<Peridynamics<2>>(Parameters<2>::parse(prm, scene), scene); };
   entry.create_3d = [](dealii::ParameterHandler &prm, const Scene<3> &scene)
-  { return std::make_unique<Peridynamics<3>>(Parameters<3>::parse(prm), scene); };
+  { return std::make_unique<Peridynamics<3>>(Parameters<3>::parse(prm, scene), scene); };
   registry.add("peridynamics", entry);
 }
 } // namespace stockwork::peridynamics

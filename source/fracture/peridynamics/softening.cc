@@ -178,7 +178,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
         for (unsigned int m = 0; m < n_modes(); ++m)
           law_of_bond.matrix(2 * dim, ++column) =
             -slope * share * coefficients[bond].stiffness * coefficients[bond].length *
-            (e * (strain_of_mode(cell, m) * e)) / (strain_of_pressure * zone.spacing());
+            (e * (modes[cell][m] * e)) / (strain_of_pressure * zone.spacing());
     for (unsigned int d = 0; d < dim; ++d)
     {
       law_of_bond.matrix(2 * dim, d) = k * slope * e[d];

@@ -57,5 +57,13 @@ struct SofteningLaw
   {
     return first * damage(kappa) * std::min(kappa, last);
   }
+
+  /// Work of its force on what it has lost of its elongation, also that part of it which would come
+  /// back if it were unloaded. In the same unit.
+  double separation(const double kappa) const
+  {
+    const double left = std::clamp((last - kappa) / (last - first), 0., 1.);
+    return first * last * (1. - left * left);
+  }
 };
 } // namespace stockwork::peridynamics

@@ -136,6 +136,42 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
 }
 
 
+Tensor<1, 2> TrackedPaths::left(const Crossing &crossing) const
+{
+  const Path &path = paths[crossing.path];
+  unsigned int piece = 0;
+  while (piece + 1 < path.n_pieces() && path.begin(piece + 1) < crossing.arc)
+    ++piece;
+  const Tensor<1, 2> along = path.point(piece + 1) - path.point(piece);
+  return Tensor<1, 2>({-along[1], along[0]}) / along.norm();
+}
+
+
+bool TrackedPaths::run_as(const TrackedPaths &other) const
+{
+  return std::equal(paths.begin(), paths.end(), other.paths.begin(), other.paths.end(),
+                    [](const Path &a, const Path &b)
+                    {
+                      return a.points == b.points && a.ends[0].n_points == b.ends[0].n_points &&
+                             a.ends[1].n_points == b.ends[1].n_points;
+                    });
+}
+
+
+std::vector<std::array<Point<2>, 2>> TrackedPaths::boxes() const
+{
+  std::vector<std::array<Point<2>, 2>> result;
+  for (const Path &path : paths)
+    for (unsigned int i = 0; i < path.n_pieces(); ++i)
+    {
+      const Point<2> a = path.point(i), b = path.point(i + 1);
+      result.push_back({{Point<2>(std::min(a[0], b[0]), std::min(a[1], b[1])),
+                         Point<2>(std::max(a[0], b[0]), std::max(a[1], b[1]))}});
+    }
+  return result;
+}
+
+
 CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) const
 {
   CellShares result;

@@ -54,6 +54,15 @@ public:
   /// Of the line from a to b, nearest to its middle; nothing if it crosses no path.
   std::optional<Crossing> crossing(const dealii::Point<2> &a, const dealii::Point<2> &b) const;
 
+  /// Unit normal of the piece that is crossed there, to its left.
+  dealii::Tensor<1, 2> left(const Crossing &crossing) const;
+
+  /// Whether all lines are those of the other paths.
+  bool run_as(const TrackedPaths &other) const;
+
+  /// Corners of the boxes that hold pieces, of ways as well.
+  std::vector<std::array<dealii::Point<2>, 2>> boxes() const;
+
   /// The wet pieces that a bond belongs to which crosses a path there. So many bonds do, per length
   /// of the path, in the mean over some cells only; so a bond is shared out to all of a length of
   /// two pieces around. None if the fluid is farther than @p reach [m].

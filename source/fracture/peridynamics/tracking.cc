@@ -56,36 +56,77 @@ Tensor<1, 2> turned(const Tensor<1, 2> &from, const Tensor<1, 2> &to, const doub
 
 
 template <int dim>
-std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(const unsigned int site,
-                                                                     const unsigned int bond) const
+void Peridynamics<dim>::find_crossing_bonds()
 {
   if constexpr (dim == 2)
   {
-    const Place<dim> &from = zone.sites()[site].place;
-    Place<dim> to = from;
-    for (unsigned int d = 0; d < dim; ++d)
-      to[d] += stencil[bond].offset[d];
-    if (const auto crossing = paths.crossing(zone.position(from), zone.position(to)))
-      return crossing;
-    // Beyond planes of symmetry paths go on as images.
-    const FarEnd end = zone.far_end(site, bond);
-    const Place<dim> &image = zone.sites()[end.site].place;
-    for (unsigned int mirrored = 1; mirrored <= end.mirrored; ++mirrored)
+    if (paths.run_as(paths_crossed))
+      return;
+    paths_crossed = paths;
+    crossing_bonds.clear();
+    std::vector<bool> is_near(zone.sites().size(), false);
+    const int reach = parameters.horizon + 1;
+    for (const auto &[lower, upper] : paths.boxes())
     {
-      if ((mirrored & ~static_cast<unsigned int>(end.mirrored)) != 0)
-        continue;
-      Place<dim> a = from, b = to;
+      Place<dim> first, last;
       for (unsigned int d = 0; d < dim; ++d)
-        if (mirrored >> d & 1)
-        {
-          b[d] = image[d];
-          a[d] = image[d] + to[d] - from[d];
-        }
-      if (const auto crossing = paths.crossing(zone.position(a), zone.position(b)))
-        return crossing;
+      {
+        const double origin = zone.position(Place<dim>{})[d];
+        first[d] = static_cast<int>(std::floor((lower[d] - origin) / zone.spacing())) - reach;
+        last[d] = static_cast<int>(std::ceil((upper[d] - origin) / zone.spacing())) + reach;
+      }
+      for (int x = first[0]; x <= last[0]; ++x)
+        for (int y = first[1]; y <= last[1]; ++y)
+          if (const unsigned int site = zone.find({{x, y}});
+              site != dealii::numbers::invalid_unsigned_int)
+            is_near[site] = true;
     }
+    for (const unsigned int i : zone.peridynamic_sites())
+      for (unsigned int b = 0; b < stencil.size() && is_near[i]; ++b)
+      {
+        // Beyond planes of symmetry paths go on as images.
+        const Place<dim> &from = zone.sites()[i].place;
+        const FarEnd end = zone.far_end(i, b);
+        const Place<dim> &image = zone.sites()[end.site].place;
+        for (unsigned int mirrored = 0; mirrored <= end.mirrored; ++mirrored)
+        {
+          if ((mirrored & ~static_cast<unsigned int>(end.mirrored)) != 0)
+            continue;
+          BondAcross bond{{i, b}, coefficients[b].direction, {}};
+          Place<dim> first = from, last = from;
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            last[d] += stencil[b].offset[d];
+            if (mirrored >> d & 1)
+            {
+              first[d] = image[d] + last[d] - from[d];
+              last[d] = image[d];
+              bond.direction[d] = -bond.direction[d];
+            }
+          }
+          if (const auto crossing = paths.crossing(zone.position(first), zone.position(last)))
+          {
+            bond.crossing = *crossing;
+            crossing_bonds.push_back(bond);
+            break;
+          }
+        }
+      }
   }
-  return {};
+}
+
+
+template <int dim>
+std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(const unsigned int site,
+                                                                     const unsigned int bond) const
+{
+  const BondView view(site, bond);
+  const auto found =
+    std::lower_bound(crossing_bonds.begin(), crossing_bonds.end(), view,
+                     [](const BondAcross &a, const BondView &b) { return a.view < b; });
+  if (found == crossing_bonds.end() || found->view != view)
+    return {};
+  return found->crossing;
 }
 
 
@@ -94,6 +135,7 @@ void Peridynamics<dim>::follow_paths()
 {
   cells.clear();
   all_segments.clear();
+  find_crossing_bonds();
   if constexpr (dim == 2)
   {
     const double h = zone.spacing();
@@ -392,10 +434,12 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
                                  paths.has_set_out(end) ? most_turn : most_first_turn));
       }
     }
+    find_crossing_bonds();
   }
 }
 
 #define INSTANTIATE(dim)                                                                     \
+  template void Peridynamics<dim>::find_crossing_bonds();                                    \
   template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
     unsigned int, unsigned int) const;                                                       \
   template void Peridynamics<dim>::follow_paths();                                           \
