@@ -80,7 +80,7 @@ TEST_CASE("memory of factors that last")
 {
   CostlyPhysics crack;
   crack.fracture = true;
-  // radial/small/damage, coarse, medium, fine: peak_memory_bytes of summary.json.
+  // radial/small/damage, coarse, medium, and on cells of 4 cm: peak_memory_bytes of summary.json.
   for (const auto &[unknowns, bytes] :
        {std::pair(29052., 425013248.), {48126., 635916288.}, {88212., 1207078912.}})
   {
