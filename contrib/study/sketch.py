@@ -1,4 +1,4 @@
-"""The problem to scale: the domain, the fractures at the start and at the end, the stress and the boundary conditions."""
+"""The problem to scale: the domain, the fractures when they were written first and last, the stress and the boundary conditions."""
 import numpy as np
 from matplotlib.collections import PolyCollection
 
@@ -9,35 +9,36 @@ from study.look import plt
 
 
 def first_and_last(result, name):
+    """[(time, grid), (time, grid)]; empty where nothing has been written."""
     try:
         entries = vtu.series(result.directory, name)
-        return vtu.read(entries[0][1]), vtu.read(entries[-1][1])
+        return [(time, vtu.read(file)) for time, file in (entries[0], entries[-1])]
     except (ResultError, OSError):
-        return None, None
+        return []
 
 
 def sketch(result):
     """None where the run has written no fields, or is not plane."""
-    start, _ = first_and_last(result, "fields")
-    if start is None or result.deck.get("Dimension", "2") != "2":
+    fields = first_and_last(result, "fields")
+    if not fields or result.deck.get("Dimension", "2") != "2":
         return None
+    start = fields[0][1]
     corners, _ = start.quadrilaterals()
     if not len(corners):
         return None
     domain = start.points[:, :2]
-    cracks = [g for g in first_and_last(result, "fracture") if g is not None and len(g.cells(vtu.LINE)[0])]
+    cracks = [(time, g) for time, g in first_and_last(result, "fracture") if len(g.cells(vtu.LINE)[0])]
     figure, axes = plt.subplots(1, 2 if cracks else 1, figsize=(8 if cracks else 5, 3.6), squeeze=False)
     for i, ax in enumerate(axes[0]):
-        points = domain if i == 0 else np.concatenate([g.points[:, :2] for g in cracks])
+        points = domain if i == 0 else np.concatenate([g.points[:, :2] for _, g in cracks])
         window(ax, points, 0.12 if i == 0 else 0.4)
         ax.grid(False)
         mesh(ax, start.points[corners][:, :, :2])
-        for grid, look in zip(cracks, (dict(color="#D55E00", lw=3., label="at the start"),
-                                       dict(color="#0072B2", lw=1.2, label="at the end"))):
+        for (time, grid), look in zip(cracks, (dict(color="#D55E00", lw=3.), dict(color="#0072B2", lw=1.2))):
             ends, _ = grid.cells(vtu.LINE)
             lines = np.full((len(ends), 3, 2), np.nan)
             lines[:, :2] = grid.points[ends][:, :, :2]
-            ax.plot(*lines.reshape(-1, 2).T, **look)
+            ax.plot(*lines.reshape(-1, 2).T, label=f"at {time:.3g} s", **look)
         ax.set_aspect("equal")
         ax.set_xlabel("x [m]")
         ax.set_ylabel("y [m]")

@@ -86,9 +86,10 @@ TEST_CASE(
   CHECK(bounds(well(in_and_out))[0].second == 0.);
   CHECK(bounds(well("f(t) = 1e-4*cos(t)"))[0].second == 0.);
   CHECK(bounds(well(in_and_out, {{"Fracture flow/Vapour pressure", "-3 MPa"}}))[0].second == -3e6);
-  CHECK(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Minimum pressure", "2 MPa"}}))[0].second == 2e6);
-  CHECK_THROWS_AS(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Minimum pressure", "2 m"}})),
+  CHECK(bounds(well(in_and_out, {{"Wells/Well 1/Minimum pressure", "2 MPa"}}))[0].second == 2e6);
+  CHECK_THROWS_AS(bounds(well("1e-4 m^2/s", {{"Wells/Well 1/Minimum pressure", "2 MPa"}})),
                   InputError);
+  CHECK_THROWS_AS(bounds(well(in_and_out, {{"Wells/Well 1/Minimum pressure", "2 m"}})), InputError);
   CHECK_THROWS_AS(bounds(well("0", {{"Wells/Well 1/Control", "pressure"},
                                     {"Wells/Well 1/Minimum pressure", "2 MPa"}})),
                   InputError);
