@@ -21,11 +21,12 @@ struct IdleGroup
 
 
 template <int dim>
-std::vector<IdleGroup> groups_of(ParameterHandler &prm, const Case<dim> &the_case)
+std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
+                                 const Case<dim> &the_case)
 {
   const auto given = [&](const std::string &path)
   {
-    for (const DeclaredEntry &entry : declared_entries(prm))
+    for (const DeclaredEntry &entry : declared)
       if (entry.path() == path)
         return entry.value;
     return std::string();
@@ -70,7 +71,7 @@ std::vector<std::string> idle_entries(ParameterHandler &prm, const Case<dim> &th
   if (prm.get("Physics") == "auto")
     return warnings;
   const std::vector<DeclaredEntry> declared = declared_entries(prm);
-  for (const IdleGroup &group : groups_of(prm, the_case))
+  for (const IdleGroup &group : groups_of(declared, the_case))
   {
     std::string found;
     for (const DeclaredEntry &entry : declared)

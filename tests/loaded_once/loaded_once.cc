@@ -33,7 +33,9 @@ Main real_main = nullptr;
 constexpr int patience = 60000; // without a client for so long [ms], the server ends
 
 
-/** What tells whether the program and its libraries are still those that were loaded. */
+/** What tells whether the program and its libraries are still those that were loaded. Of the
+   program, whose link leads to what was loaded, the number of names: none when it has been
+   replaced. */
 std::string state_of_files()
 {
   std::string state;
@@ -56,10 +58,11 @@ int listen_at(const std::string &name)
   const int listener = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
+  if (name.size() >= sizeof(address.sun_path) - 1)
+    return -1;
   std::memcpy(address.sun_path + 1, name.data(), name.size());
   const socklen_t length = offsetof(sockaddr_un, sun_path) + 1 + name.size();
-  const bool bound = name.size() < sizeof(address.sun_path) - 1 &&
-                     bind(listener, reinterpret_cast<sockaddr *>(&address), length) == 0 &&
+  const bool bound = bind(listener, reinterpret_cast<sockaddr *>(&address), length) == 0 &&
                      listen(listener, 64) == 0;
   return bound ? listener : -1;
 }

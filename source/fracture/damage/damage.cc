@@ -279,7 +279,8 @@ void Damage<dim>::start(const Collectives &collectives)
       "crack lies along it.");
   if (dim == 2 && parameters.growth)
     warn_of_small_angles();
-  warn_of_flat_cells();
+  if (parameters.growth)
+    warn_of_flat_cells();
   if (parameters.cell_size > 1.5 * initial_size)
   {
     std::ostringstream text;
@@ -298,11 +299,11 @@ void Damage<dim>::warn_of_small_angles()
     if (const double angle = cell.angle_to_mesh(); angle > 0.5 && angle < 12.)
     {
       std::ostringstream text;
-      text << "A crack lies at " << std::setprecision(2) << angle
-           << " degrees to the lines of the mesh. At such small angles cells crack one at a time, "
-           << "and the pressure rides on a sawtooth: it ends up to 9 % off where it is 3 % off "
-           << "along the mesh and at 15 degrees or more ('kgd/rotated'). Turn the mesh so that the "
-           << "crack lies along it, or take smaller cells.";
+      text
+        << "A crack lies at " << std::setprecision(2) << angle
+        << " degrees to the lines of the mesh. At such small angles cells crack one at a time, "
+        << "and the pressure rides on a sawtooth: that of 'kgd/rotated' ends up to 9 % off, along "
+        << "the mesh 3 %. Turn the mesh so that the crack lies along it, or take smaller cells.";
       messages.push_back(text.str());
       return;
     }
