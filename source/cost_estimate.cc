@@ -13,24 +13,33 @@
 
 namespace stockwork
 {
-CostEstimate
-estimate_cost(const unsigned int dim, const double n_unknowns, const CostlyPhysics &physics)
+CostEstimate estimate_cost(const unsigned int dim,
+                           const double n_unknowns,
+                           const CostlyPhysics &physics,
+                           const unsigned int n_ranks)
 {
   const double n = std::max(n_unknowns, 2.);
-  const double program = 1.9e8; // deal.II, Trilinos and MPI, before any cell is made
+  // deal.II, Trilinos and MPI, before any cell is made, and what the model keeps.
+  const double program = 1.9e8 * n_ranks + (physics.fracture ? physics.memory_per_unknown * n : 0.);
+  constexpr double start = 0.5; // loading libraries, making the mesh [s]
   const double looking = physics.yields ? 1.7 : 1.;
+  const double beside_fracture = physics.fracture ? physics.time_of_step : 1.;
   const bool lasting = !physics.pore_pressure && !physics.inertia && !physics.yields;
   if (dim == 3 && lasting && n <= largest_lasting_factor)
-    return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.),
-            physics.fracture ? 2e-7 * std::pow(n, 4. / 3.) : 1e-6 * n};
+    return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.), start + 1e-9 * n * n,
+            physics.fracture ? 2e-7 * std::pow(n, 4. / 3.) * beside_fracture : 1e-6 * n};
   if (dim == 3)
-    return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.),
+    return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.), start,
             4e-5 * n * (physics.fracture ? 4. : 1.) * looking};
   const double factor = 60. * n * std::log2(n);
   const double new_factor = 3e-5 * n + 2e-8 * std::pow(n, 1.5), iteration = 1e-6 * n;
   const bool changes_with_step = physics.fracture && (physics.pore_pressure || physics.inertia);
-  return {program + 2e3 * n + factor, (changes_with_step ? new_factor : 0.) +
-                                        iteration * (physics.fracture ? 6. : 1.) * looking};
+  const double factors_per_step = changes_with_step                     ? 1.
+                                  : physics.yields && !physics.fracture ? 1.5
+                                                                        : 0.;
+  return {program + 2e3 * n + factor, start + new_factor,
+          factors_per_step * new_factor +
+            iteration * (physics.fracture ? 6. * beside_fracture : 1.) * looking};
 }
 
 
@@ -114,13 +123,15 @@ ExpectedSteps expected_steps(const StepControl &control,
 }
 
 
-std::string in_words(const CostEstimate &cost, const ExpectedSteps &steps)
+std::string
+in_words(const CostEstimate &cost, const ExpectedSteps &steps, const unsigned int n_ranks)
 {
-  constexpr double start = 0.5; // loading libraries, making the mesh [s]
   std::ostringstream text;
-  text << "roughly " << in_bytes(cost.memory) << " of memory, " << in_time(cost.step)
-       << " per step; " << (steps.at_most ? "at most " : "about ") << steps.number
-       << " steps would take " << in_time(start + steps.number * cost.step) << " on one core";
+  text << "roughly " << in_bytes(cost.memory) << " of memory"
+       << (n_ranks > 1 ? " on " + std::to_string(n_ranks) + " ranks" : "") << ", "
+       << in_time(cost.step) << " per step; " << (steps.at_most ? "at most " : "about ")
+       << steps.number << " steps would take " << in_time(cost.start + steps.number * cost.step)
+       << " on one core";
   if (steps.at_most)
     text << " if none were longer than the first";
   return text.str();

@@ -12,6 +12,7 @@ namespace stockwork
 struct CostEstimate
 {
   double memory; ///< at its greatest, of all ranks [bytes]
+  double start;  ///< time before the first step, and of the first factor, on one core [s]
   double step;   ///< time of one step, on one core [s]
 };
 
@@ -21,16 +22,21 @@ struct CostlyPhysics
   bool fracture = false;
   bool pore_pressure = false;
   bool inertia = false;
-  bool yields = false; ///< rock that may leave its linear range
+  bool yields = false;                               ///< rock that may leave its linear range
+  double time_of_step = 1., memory_per_unknown = 0.; ///< of the fracture model: Requirements
 };
 
 /// From runs of the shipped cases. A factor of the matrix grows with N log N in two dimensions; it
 /// lasts as long as the rock and the coefficients of time stay as they are, in porous rock and with
 /// inertia the step, which a fracture changes all the time. Where rock may yield, states are looked
-/// at in each iteration, which is then one of all unknowns. In three dimensions the
+/// at in each iteration, which is then one of all unknowns; rock without a fracture is loaded until
+/// it does, and has a new factor in most of them. In three dimensions the
 /// factor of elastic rock grows with N^(4/3), and larger systems, or others, are solved by
 /// iteration.
-CostEstimate estimate_cost(unsigned int dim, double n_unknowns, const CostlyPhysics &physics);
+CostEstimate estimate_cost(unsigned int dim,
+                           double n_unknowns,
+                           const CostlyPhysics &physics,
+                           unsigned int n_ranks = 1);
 
 /// How many steps a run will take.
 struct ExpectedSteps
@@ -46,7 +52,8 @@ ExpectedSteps expected_steps(
   const StepControl &control, double duration, double dt, bool has_fracture, double cells);
 
 /// The estimate in words.
-std::string in_words(const CostEstimate &cost, const ExpectedSteps &steps);
+std::string
+in_words(const CostEstimate &cost, const ExpectedSteps &steps, unsigned int n_ranks = 1);
 
 /// Of the machines that the ranks run on, or less where a limit is set (ulimit -v) [bytes].
 /// Collective.

@@ -32,7 +32,12 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
     return std::string();
   };
   const bool has_pores = the_case.elements.has_pore_pressure;
-  return {
+  const bool has_inertia = the_case.scheme.kind() == TimeScheme::Kind::newmark;
+  using Solver = LinearSolverParameters::Type;
+  const Solver solver = the_case.linear_solver.type;
+  const bool makes_factors = solver == Solver::direct || solver == Solver::bordered ||
+                             (solver == Solver::automatic && dim == 2);
+  std::vector<IdleGroup> groups = {
     {!has_pores && the_case.network.leak_off_law() == LeakOff::none,
      "no pore pressure is solved for ('Rock/Bulk model = elastic', or nothing that moves fluid "
      "through the pores)",
@@ -45,9 +50,16 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
      "'Mesh/Shape' is not 'gmsh'",
      {"Mesh/Gmsh/File", "Mesh/Gmsh/Scale"}},
     {dim == 2, "the case has two dimensions", {"Mesh/Box/Z spacing"}},
-    {the_case.scheme.kind() != TimeScheme::Kind::newmark,
+    {!has_inertia,
      "there is no inertia",
-     {"Time/Newmark beta", "Time/Newmark gamma"}},
+     {"Time/Newmark beta", "Time/Newmark gamma", "Time/Theta"}},
+    {has_inertia && !has_pores, "no pore pressure is solved for", {"Time/Theta"}},
+    {makes_factors,
+     "the linear systems of this case are solved by factors, not by iteration",
+     {"Linear solver/Maximum iterations", "Linear solver/Restart"}},
+    {solver != Solver::automatic || dim == 2,
+     "only 'Linear solver/Type = auto' asks it, in three dimensions",
+     {"Linear solver/Direct below"}},
     {given("Rock/Random field/Properties").empty(),
      "no property is random ('Rock/Random field/Properties')",
      {"Rock/Random field/Weibull modulus", "Rock/Random field/Lattice spacing",
@@ -55,11 +67,23 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
       "Rock/Random field/Independent properties"}},
     {given("Coupling/Scheme") == "monolithic",
      "rock and fluid are solved together ('Coupling/Scheme = monolithic')",
-     {"Coupling/Stabilisation factor", "Coupling/Maximum passes", "Coupling/Acceleration"}},
-    {given("Verification/Reference") == "none",
-     "there is no reference ('Verification/Reference')",
-     {"Verification/Wrong factors", "Verification/Load", "Verification/Footing width",
-      "Verification/Fracture height", "Verification/Elastic share"}}};
+     {"Coupling/Stabilisation factor", "Coupling/Maximum passes", "Coupling/Acceleration",
+      "Coupling/Force"}}};
+  const std::string reference = given("Verification/Reference");
+  groups.push_back({reference == "none",
+                    "there is no reference ('Verification/Reference')",
+                    {"Verification/Wrong factors"}});
+  // Each is read by one reference.
+  const std::pair<std::string, std::string> readers[] = {{"Load", "mandel"},
+                                                         {"Footing width", "footing"},
+                                                         {"Fracture height", "pkn"},
+                                                         {"Elastic share", "double cantilever"},
+                                                         {"Rise time", "wave"}};
+  for (const auto &[entry, reader] : readers)
+    groups.push_back({reference.find(reader) == std::string::npos,
+                      "'Verification/Reference' is '" + reference + "'",
+                      {"Verification/" + entry}});
+  return groups;
 }
 } // namespace
 

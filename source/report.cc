@@ -523,6 +523,7 @@ void Report<dim>::summarise(const unsigned long n_cells)
   summary.case_name = case_name;
   summary.fracture_model = model_name;
   summary.deck = deck;
+  summary.before_physics = before_physics;
   summary.machine = machine();
   summary.date = utc_date();
   summary.ranks = run.n_ranks;

@@ -39,7 +39,8 @@ public:
          const std::string &directory);
 
   std::string case_name, model_name;
-  std::string deck; ///< its path
+  std::string deck;                                  ///< its path
+  std::map<std::string, std::string> before_physics; ///< RunSummary
 
   /// Open statistics.csv; after a restart keep its rows up to `time`.
   void open(bool restarted, double time);

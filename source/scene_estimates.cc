@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace stockwork
 {
@@ -48,8 +50,13 @@ bool is_cracked(const Case<dim> &the_case)
 template <int dim>
 CostlyPhysics costly_physics(const Case<dim> &the_case)
 {
-  return {is_cracked(the_case), the_case.elements.has_pore_pressure,
-          the_case.scheme.kind() == TimeScheme::Kind::newmark, the_case.laws.may_yield()};
+  const Requirements requirements = the_case.model->requirements();
+  return {is_cracked(the_case),
+          the_case.elements.has_pore_pressure,
+          the_case.scheme.kind() == TimeScheme::Kind::newmark,
+          the_case.laws.may_yield(),
+          requirements.time_of_step,
+          requirements.memory_per_unknown};
 }
 
 
@@ -172,6 +179,44 @@ analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case)
   return {per_pressure * (closing_stress(the_case.scene, crack) -
                           the_case.in_situ.pore_pressure(crack.points.front())),
           per_pressure};
+}
+
+
+LeakedShare leaked_share(const Case<2> &the_case, const Pumping &pumping)
+{
+  const analytical::KgdParameters fracture = plane_fracture(the_case, pumping);
+  const analytical::LeakOffCoefficient leak_off = leak_off_coefficient(the_case);
+  const auto [length, efficiency] = analytical::leaking_kgd(fracture, leak_off, pumping.duration);
+  const double least = 1. - efficiency;
+  if (the_case.network.leak_off_law() != LeakOff::resolved)
+    return {least, least};
+  // Rock that swells presses on the fracture by up to eta times the excess pressure, the
+  // poroelastic stress coefficient of Detournay & Cheng (1993), and the excess is more by as much.
+  const RockProperties &rock = the_case.rock.main();
+  const LinearStiffness<2> stiffness(rock);
+  const double eta = rock.biot_coefficient * stiffness.shear_modulus() /
+                     (stiffness.bulk_modulus() + stiffness.shear_modulus());
+  // A strip of width w loses w/sqrt(pi c t) + 1 per side (Aoki et al. 1987, of heat or ions).
+  const double tips =
+    std::sqrt(numbers::PI * pressure_diffusivity(the_case) * pumping.duration) / (4. * length);
+  const double more = (1. + tips) / (1. - eta);
+  return {least, 1. - analytical::leaking_kgd(
+                        fracture, {leak_off.at_closure * more, leak_off.per_net_pressure * more},
+                        pumping.duration)
+                        .efficiency};
+}
+
+
+std::string in_words(const LeakedShare &share)
+{
+  std::ostringstream text;
+  text << std::setprecision(2);
+  if (share.most - share.least < 0.01)
+    text << "about " << 100. * share.least << " %";
+  else
+    text << 100. * share.least << " % (flow in one dimension) to " << 100. * share.most
+         << " % (around the tips too, and with the stress of the swollen rock)";
+  return text.str();
 }
 
 

@@ -73,6 +73,20 @@ bool wells_are_constant(const Case<dim> &the_case);
 /// sideways (Howard & Fast 1957).
 analytical::LeakOffCoefficient leak_off_coefficient(const Case<2> &the_case);
 
+/// Share of the fluid that leaks off until the end of pumping.
+struct LeakedShare
+{
+  double least; ///< by flow in one dimension; the charts of models go by it
+  double most;  ///< with flow around the tips, and the back stress of swollen rock at its greatest
+};
+
+/// Of the plane-strain fracture that this pumping drives. By Carter's law with a given coefficient
+/// both are the same.
+LeakedShare leaked_share(const Case<2> &the_case, const Pumping &pumping);
+
+/// "about 25 %", or "25 to 41 %".
+std::string in_words(const LeakedShare &share);
+
 /// The plane-strain fracture that the first well drives, in impermeable rock.
 analytical::KgdParameters plane_fracture(const Case<2> &the_case, const Pumping &pumping);
 

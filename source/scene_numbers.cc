@@ -87,23 +87,21 @@ void add_hydraulic_numbers(const Case<2> &the_case,
                 : "neither viscosity nor toughness dominates"});
 
   const analytical::Kgd kgd(parameters);
-  const analytical::LeakOffCoefficient leak_off = leak_off_coefficient(the_case);
-  const auto [length, efficiency] = analytical::leaking_kgd(parameters, leak_off, pumping.duration);
+  const LeakedShare leaked = leaked_share(the_case, pumping);
   const double speed = kgd.tip_speed(0.01 * pumping.duration) / rayleigh_speed(rock);
   numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)", speed,
                      speed < 0.1 ? "inertia left out: waves settle long before the tip moves on"
                                  : "inertia matters: set Time/Inertia = on"});
 
   const std::string when = pumping.is_shut_in ? "at shut-in" : "at the end";
-  if (leak_off.at_closure != 0. || leak_off.per_net_pressure != 0.)
+  if (leaked.most > 0.)
   {
     std::ostringstream text;
-    text << std::setprecision(2) << "about " << 100. * (1. - efficiency)
-         << " % of the fluid has leaked off " << when << ", after " << std::setprecision(3)
-         << pumping.duration << " s of pumping";
+    text << in_words(leaked) << " of the fluid has leaked off " << when << ", after "
+         << std::setprecision(3) << pumping.duration << " s of pumping";
     if (!pumping.is_shut_in)
       text << " (the well is not shut in)";
-    numbers.push_back({"efficiency " + when, efficiency, text.str()});
+    numbers.push_back({"efficiency " + when, 1. - leaked.least, text.str()});
   }
 
   add_start(the_case, parameters, pumping.duration, mesh.smallest, numbers);

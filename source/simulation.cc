@@ -190,6 +190,8 @@ Simulation<dim>::Simulation(RunContext &run,
   report.case_name = the_case.name;
   report.model_name = the_case.model_name;
   report.deck = options.deck;
+  for (const PhysicsDecision &decision : the_case.decisions)
+    report.before_physics.insert(decision.replaced.begin(), decision.replaced.end());
   fields.parse_parameters(prm);
   std::string never;
   for (const double time :
@@ -365,7 +367,7 @@ void Simulation<dim>::refuse_too_large() const
 {
   const double n_cells = triangulation.n_global_active_cells();
   const double needed =
-    estimate_cost(dim, n_cells * unknowns_per_cell(), costly_physics(the_case)).memory;
+    estimate_cost(dim, n_cells * unknowns_per_cell(), costly_physics(the_case), run.n_ranks).memory;
   const double available = physical_memory(run.communicator);
   if (needed > available)
     throw EntryError(
@@ -388,14 +390,16 @@ void Simulation<dim>::announce()
   const bool cracked = is_cracked(the_case);
   const double at_end =
     unknowns_at_end(the_case, mesh, system.n_unknowns(), the_case.network.segments().size());
-  const CostEstimate cost = estimate_cost(dim, at_end, costly_physics(the_case));
+  const CostEstimate cost = estimate_cost(dim, at_end, costly_physics(the_case), run.n_ranks);
   const double cells =
     !cracked   ? 0.
     : dim == 3 ? std::numeric_limits<double>::quiet_NaN() // not all of a front comes on at once
                : (half_length_at_end(the_case) - half_length_at_start(the_case)) / mesh.smallest;
   run.out << "  "
-          << in_words(cost, expected_steps(the_case.control, the_case.control.end_time - clock.time,
-                                           clock.dt, cracked, cells))
+          << in_words(cost,
+                      expected_steps(the_case.control, the_case.control.end_time - clock.time,
+                                     clock.dt, cracked, cells),
+                      run.n_ranks)
           << std::endl;
 }
 

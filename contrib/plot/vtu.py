@@ -16,7 +16,7 @@ TYPES = {"Int8": "i1", "UInt8": "u1", "Int32": "i4", "UInt32": "u4", "Int64": "i
          "Float32": "f4", "Float64": "f8"}
 
 # VTK's cell types, as used here.
-LINE, QUAD, LAGRANGE_QUAD = 3, 9, 70
+LINE, QUAD, HEXAHEDRON, LAGRANGE_QUAD = 3, 9, 12, 70
 
 
 class Grid:

@@ -52,6 +52,6 @@ def origin(result):
 
 
 def value(result, entry):
-    """As the study has set it or the deck says, however its numbers are written."""
-    text = result.settings.get(entry, result.deck.get(entry, ""))
+    """As the study has set it or the deck says, whatever 'Physics = auto' has made of it, however its numbers are written."""
+    text = result.settings.get(entry, result.summary.get("before_physics", {}).get(entry, result.deck.get(entry, "")))
     return NUMBER.sub(lambda match: repr(float(match[0])), " ".join(text.split()))

@@ -4,7 +4,7 @@ import re
 
 from study import audit, charts, place, verdict
 from study.collect import NOT_RUN
-from study.cost import WANTED, cheapest, orders, worst_of
+from study.cost import WANTED, cheapest, orders, points, worst_of
 from study.fields import fields
 from study.look import styles
 from study.maps import chosen_map, maps
@@ -100,6 +100,7 @@ def charted(rows, wanted):
     if len(names) > 1:
         rows[WORST] = worst_of(rows, names)
         columns.insert(0, (WORST, "the worst of " + ", ".join(n.replace("_", " ") for n in names)))
+    columns = [column for column in columns if points(rows, "cpu_seconds", column[0])]    # one that has finished has it
     return rows, columns, "difference" if rows["differs"].any() else "error"
 
 

@@ -48,6 +48,13 @@ void write_summary(std::ostream &out, const RunSummary &summary)
 
   json.member("cpu_seconds", summary.cpu_seconds);
   json.member("peak_memory_bytes", summary.peak_memory_bytes);
+  if (!summary.before_physics.empty())
+  {
+    json.begin_object("before_physics");
+    for (const auto &[entry, value] : summary.before_physics)
+      json.member(entry, value);
+    json.end_object();
+  }
 
   json.begin_object("final");
   for (const auto &[column, value] : summary.final_values)

@@ -236,14 +236,12 @@ SceneKind kind_of_growing(const Charts &charts, const Case<2> &the_case, const b
     return nobodys("the net pressure compresses the fluid by more than 1 % ('Fluid/Bulk modulus')");
   if (parameters.dimensionless_toughness() < 1. && the_case.scheme.kind() != TimeScheme::Kind::bdf2)
     return nobodys("viscosity dominates, and charts of that are with 'Time/Scheme = BDF2'");
-  const double leaked =
-    1. - analytical::leaking_kgd(parameters, leak_off_coefficient(the_case), pumping.duration)
-           .efficiency;
   return kind_of_growing(charts, turned ? "growing, turned" : "growing",
                          is_porous                ? "growing, porous"
                          : law == LeakOff::carter ? "growing, carter"
                                                   : "",
-                         parameters.dimensionless_toughness(), leaked);
+                         parameters.dimensionless_toughness(),
+                         leaked_share(the_case, pumping).least);
 }
 
 

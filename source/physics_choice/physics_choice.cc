@@ -6,6 +6,8 @@
 #include "physics_choice/decisions.h"
 #include "scene_estimates.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <iomanip>
 #include <sstream>
 
@@ -36,25 +38,43 @@ std::string as_percentage(const double share)
 }
 
 
+namespace
+{
+/// In the section of an entry, with its name in there.
+void at_entry(ParameterHandler &prm,
+              const std::string &path,
+              const std::function<void(const std::string &)> &act)
+{
+  std::vector<std::string> parts = Utilities::split_string_list(path, '/');
+  const std::string name = parts.back();
+  parts.pop_back();
+  for (const std::string &part : parts)
+    prm.enter_subsection(part);
+  act(name);
+  for (unsigned int i = 0; i < parts.size(); ++i)
+    prm.leave_subsection();
+}
+} // namespace
+
+
 void set_entries(ParameterHandler &prm, const Settings &settings)
 {
-  for (const auto &[path, value] : settings)
-  {
-    std::istringstream in(path);
-    std::vector<std::string> parts;
-    for (std::string part; std::getline(in, part, '/');)
-      parts.push_back(part);
-    for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-      prm.enter_subsection(parts[i]);
-    prm.set(parts.back(), value);
-    for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-      prm.leave_subsection();
-  }
+  for (const auto &setting : settings)
+    at_entry(prm, setting.first, [&](const std::string &name) { prm.set(name, setting.second); });
 }
 
 
 namespace
 {
+/// What is there now.
+Settings as_they_are(ParameterHandler &prm, Settings settings)
+{
+  for (auto &setting : settings)
+    at_entry(prm, setting.first, [&](const std::string &name) { setting.second = prm.get(name); });
+  return settings;
+}
+
+
 /// The case of a deck with some entries set.
 template <int dim>
 std::shared_ptr<const Case<dim>>
@@ -123,6 +143,9 @@ leave_out_physics(const Deck &deck,
   if constexpr (dim == 2)
     if (is_cracked(*the_case) && is_driven_on(*the_case))
       take(decide_lubrication(*the_case));
+  for (PhysicsDecision &decision : decisions)
+    if (decision.left_out)
+      decision.replaced = as_they_are(prm, decision.settings);
   set_entries(prm, settings);
   return decisions;
 }

@@ -33,6 +33,7 @@ struct PhysicsDecision
   bool CostlyPhysics::*cost = nullptr;
 
   Settings settings = {}; ///< that leave it out
+  Settings replaced = {}; ///< what the deck says of these; empty where it is kept
 
   /// What the run has shown of the estimate; empty: nothing.
   std::function<Assumption(const Outcome &)> judge = {};

@@ -81,10 +81,7 @@ double error_of_leak_off(const Case<2> &the_case, const double reach, std::ostri
 {
   const RockProperties &rock = the_case.rock.main();
   const Pumping pumping = first_pumping(the_case);
-  const double leaked =
-    1. - analytical::leaking_kgd(plane_fracture(the_case, pumping), leak_off_coefficient(the_case),
-                                 pumping.duration)
-           .efficiency;
+  const double leaked = leaked_share(the_case, pumping).least;
   const analytical::Kgd fracture(plane_fracture(the_case, pumping));
   const InitialCrack<2> &crack = the_case.scene.cracks[0];
   const double excess = closing_stress(the_case.scene, crack) +

@@ -192,7 +192,7 @@ double RandomField::exceedance(const Property property, const Indices &cell) con
       for (int i = -n; i <= n; ++i)
         deviate += weights[std::abs(i)] * weights[std::abs(j)] *
                    (dim == 3 ? weights[std::abs(k)] : 1.) *
-                   normal_deviate(property, {cell[0] + i, cell[1] + j, cell[2] + k});
+                   normal_deviate(property, {{cell[0] + i, cell[1] + j, cell[2] + k}});
   return 0.5 * std::erfc(deviate / std::sqrt(2.));
 }
 

@@ -25,7 +25,7 @@ sys.path[:0] = [CONTRIB]
 import pandas  # noqa: E402
 
 from results import ResultError  # noqa: E402
-from study import charts, collect, cost, difference, estimate, fields, look, matrix, names, problem, study_file  # noqa: E402
+from study import charts, collect, cost, difference, estimate, fields, look, matrix, names, problem, report, study_file  # noqa: E402
 from study.command import main  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.exists(sys.argv[1]) else None
@@ -467,6 +467,11 @@ class Parts(unittest.TestCase):
         for entry in ("Mesh/Box/X spacing", "Resolution", "Discretisation/Elements", "Linear solver/Type", "Coupling/Scheme",
                       "Time/Scheme", "Time/Initial step", "Fracture/Model", "Fracture/damage/Cell size", "Title"):
             self.assertEqual(number(run([], {entry: "1"}), run([], {entry: "2"})), 1, entry)
+        # Less physics for the same problem.
+        less = run([], {"Rock/Bulk model": "elastic", "Fluid/Viscosity": "1"})
+        less.summary["before_physics"] = {"Rock/Bulk model": "auto"}
+        self.assertEqual(number(less, run([], {"Rock/Bulk model": "auto", "Fluid/Viscosity": "1"})), 1)
+        self.assertEqual(number(less, run([], {"Rock/Bulk model": "auto", "Fluid/Viscosity": "2"})), 2)
         # Written in another way; the decks of a case, and what a study has set in them.
         self.assertEqual(number(run([], {"Fluid/Viscosity": "1e-3 Pa s"}), run([], {"Fluid/Viscosity": "0.001  Pa s"})), 1)
         soft, hard = {"Rock/Young modulus": "1 GPa"}, {"Rock/Young modulus": "2 GPa"}
@@ -549,6 +554,14 @@ class Parts(unittest.TestCase):
         self.assertEqual(estimate.guess(job, checked, [{**record, "fingerprint": "new"}]),
                          (5., "an earlier run"))
         self.assertEqual(estimate.guess(job, {**checked, "seconds": None}, []), (None, ""))
+
+    def test_no_chart_of_what_has_failed(self):
+        rows = pandas.DataFrame({"status": ["failed", "finished"], "curve": ["a", "b"], "differs": [False] * 2,
+                                 "cpu_seconds": [1., 2.], "error_mean_load": [0.1, float("nan")],
+                                 "error_final_load": [0.1, float("nan")]})
+        self.assertEqual(report.charted(rows, [])[1], [])
+        rows.loc[1, ["error_mean_load", "error_final_load"]] = 0.2
+        self.assertEqual(report.charted(rows, [])[1], [("error_mean_load", "load")])
 
     def test_quantities_that_are_compared(self):
         self.assertIn("net_inlet_pressure", difference.QUANTITIES)

@@ -71,7 +71,7 @@ TEST_CASE("equal steps are counted; where nothing tells how they grow, that is s
   CHECK(steps.at_most);
   CHECK(steps.number == 10.);
   CHECK(
-    in_words({2e8, 0.014}, steps) ==
+    in_words({2e8, 0.5, 0.014}, steps) ==
     "roughly 200 MB of memory, 14 ms per step; at most 10 steps would take 640 ms on one core if "
     "none were longer than the first");
 }

@@ -84,6 +84,7 @@ TEST_CASE("the summary has the promised keys")
   summary.final_values["undefined"] = std::nan("");
   summary.errors["pore_pressure"] = {0.01, 0.02, "Mandel (1953)"};
   summary.warnings = {"one"};
+  summary.before_physics["Time/Inertia"] = "off";
   std::ostringstream out;
   write_summary(out, summary);
   const auto tree = read_json(out.str());
@@ -119,6 +120,7 @@ TEST_CASE("the summary has the promised keys")
                           "fluid_balance.stored",
                           "fluid_balance.outflow",
                           "fluid_balance.relative_error",
+                          "before_physics.Time/Inertia",
                           "warnings"})
   {
     CAPTURE(key);

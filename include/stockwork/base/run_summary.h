@@ -55,6 +55,10 @@ struct RunSummary
   std::map<double, std::map<std::string, Error>> errors_against; ///< by wrong factor
   FluidBalance fluid_balance;
   std::vector<std::string> warnings;
+
+  /// What the deck said of entries that 'Physics = auto' has set: it is the problem that the run
+  /// solves with less. The key is left out where there are none.
+  std::map<std::string, std::string> before_physics;
 };
 
 /// Write the summary as JSON. Final values that are not finite are left out.

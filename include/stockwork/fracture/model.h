@@ -57,6 +57,11 @@ struct Requirements
   /// What advance() breaks may count from the next step on, without a solve between: its response
   /// is linear wherever no jump exceeds those that it has committed.
   bool breaks_between_steps = false;
+
+  /// For the estimate before a run: the time of a step in dry rock in that of cut cells with as
+  /// many unknowns, and what the model itself keeps [bytes per unknown].
+  double time_of_step = 1.;
+  double memory_per_unknown = 0.;
 };
 
 /// What a model says about a converged solution.
