@@ -94,7 +94,7 @@ void add_hydraulic_numbers(const Case<2> &the_case,
                                  : "inertia matters: set Time/Inertia = on"});
 
   const std::string when = pumping.is_shut_in ? "at shut-in" : "at the end";
-  if (leaked.most > 0.)
+  if (leaked.most > 1e-4) // else rounding
   {
     std::ostringstream text;
     text << in_words(leaked) << " of the fluid has leaked off " << when << ", after "
@@ -128,18 +128,18 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   effect << std::setprecision(2);
   if (K_m < 0.5)
     effect << "viscosity dominates: the zone matters little";
-  else if (zone <= 0.2 * length)
-    effect << "short: it makes the fracture about " << 5. * zone / length << " % longer";
+  else if (zone <= 0.2 * reach)
+    effect << "short: it makes the fracture about " << 5. * zone / reach << " % longer";
   else
   {
-    effect << "long: it makes the fracture about " << 5. * zone / length
+    effect << "long: it makes the fracture about " << 5. * zone / reach
            << " % longer, earlier more; ";
     if (std::isnan(rock.tensile_strength))
-      effect << "cells of " << 0.2 * length / cells_of_process_zone << " m would do for 1 %";
+      effect << "cells of " << 0.2 * reach / cells_of_process_zone << " m would do for 1 %";
     else
       effect << "that is the rock's strength, not the mesh's";
   }
-  numbers.push_back({"process zone / final length", zone / length, effect.str()});
+  numbers.push_back({"process zone / final length", zone / reach, effect.str()});
   add_cells_ahead(cells, zone, numbers);
 }
 

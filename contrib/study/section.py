@@ -10,11 +10,12 @@ DISC = re.compile(rf"disc \(({NUMBER}), ({NUMBER}), ({NUMBER})\) normal \(({NUMB
 FACES = np.array([[0, 3, 7, 4], [1, 2, 6, 5], [0, 1, 5, 4], [3, 2, 6, 7], [0, 1, 2, 3], [4, 5, 6, 7]])    # of VTK's hexahedron
 
 
-def plane(deck, points):
-    """(axis that it is normal to, where): that of a disc which lies along the mesh, else one that a disc crosses."""
+def plane(deck, points=None):
+    """(axis that it is normal to, where): that of a disc which lies along the mesh, else one that a disc crosses; without a disc
+    and without points, where is None."""
     found = DISC.search(deck.get("Cracks/Open", ""))
     if not found:
-        return 1, points[:, 1].min()
+        return 1, None if points is None else points[:, 1].min()
     numbers = np.array([float(text) for text in found.groups()])
     normal = np.abs(numbers[3:]) / np.linalg.norm(numbers[3:])
     axis = int(np.argmax(normal) if normal.max() > 0.99 else np.argmin(normal))
@@ -35,12 +36,18 @@ def cut(grid, axis, at):
     return np.delete(grid.points[ends], axis, axis=2), numbers[met]
 
 
-def cracked(grid, axis, at):
-    """The polygons of cells that a crack is open in, or is broken through."""
-    polygons, numbers = cut(grid, axis, at)
-    corners, _ = grid.cells(vtu.HEXAHEDRON)
+def is_cracked(grid, numbers):
+    """Which of these cells a crack is open in, or is broken through."""
     values = grid.point_data.get("opening", grid.point_data.get("damage"))
-    if values is None or not len(numbers):
-        return polygons[:0]
-    least = 0. if "opening" in grid.point_data else 0.5
-    return polygons[values[corners].max(axis=1)[numbers] > least]
+    if values is None:
+        return np.zeros(len(numbers), bool)
+    least = 0. if "opening" in grid.point_data else 0.05    # of bonds, as in plot/field.py
+    of_cells = np.zeros(len(grid.types))
+    corners, hexahedra = grid.cells(vtu.HEXAHEDRON)
+    of_cells[hexahedra] = values[corners].mean(axis=1)
+    return of_cells[numbers] > least
+
+
+def cracked(grid, axis, at):
+    polygons, numbers = cut(grid, axis, at)
+    return polygons[is_cracked(grid, numbers)]

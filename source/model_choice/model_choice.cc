@@ -355,7 +355,7 @@ private:
                                   : std::string("; there is no second choice"));
     if (model_is_open(deck))
       why << "; with the settings of models/" << candidates[0].model << ".part.prm";
-    why << remarks_by_model();
+    why << remarks_by_model() << ". Seconds are of the charts' runs; what this one takes is below";
     chosen.push_back({"Fracture/Model",
                       candidates[0].model + ", Resolution = " + candidates[0].resolution,
                       why.str()});

@@ -56,7 +56,7 @@ stockwork_case_test(NAME convergence/deleeuw DECK prm/deleeuw/none.prm NEGATIVE
 stockwork_case_test(NAME convergence/cryer DECK prm/cryer/none.prm NEGATIVE
   SET "Resolution=coarse" EXPECT "errors/peak_pore_pressure/final < 3.9e-2"
     "errors/pore_pressure/mean < 1.9e-2" "errors/displacement/final < 7e-3")
-stockwork_case_test(NAME convergence/cryer/medium DECK prm/cryer/none.prm NEGATIVE
+stockwork_case_test(NAME convergence/cryer/medium DECK prm/cryer/none.prm NEGATIVE LABELS nightly
   SET "Resolution=medium" "Output/Fields=false" EXPECT "errors/peak_pore_pressure/final < 1e-2")
 stockwork_case_test(NAME convergence/column/inertia DECK prm/column/inertia/none.prm NEGATIVE
   SET "Resolution=coarse" EXPECT "errors/displacement/final < 1e-2" "errors/pore_pressure/final < 1e-2")

@@ -36,7 +36,7 @@ stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics DECK prm/kgd/su
   SET "Output/Fields=false" SERIES "Resolution=coarse" "Resolution=medium" TOLERANCE 0.3
   ORDER "errors/equivalent_length/mean=1" "errors/inlet_aperture/mean=1" "errors/net_inlet_pressure/mean=1")
 # The zone that grows with the fracture does what one does that has been there before.
-stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone
+stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone LABELS nightly
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
   SECOND_SET "Fracture/peridynamics/Zone=(0, -1.1 m) to (7.2 m, 0.9 m)"
   TOLERANCE 1e-3 IGNORE "error")
@@ -206,7 +206,7 @@ stockwork_case_test(NAME convergence/surfing/peridynamics DECK prm/surfing/perid
   SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
   EXPECT "rates/external_work = 800 within 0.02" "rates/dissipated_energy = 800 within 0.02"
          "final/fracture_length = final/extent_x within 0.2")
-stockwork_case_test(NAME convergence/surfing/peridynamics/uncorrected
+stockwork_case_test(NAME convergence/surfing/peridynamics/uncorrected LABELS nightly
   DECK prm/surfing/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=0.5 s" "Output/Fields=false"
       "Fracture/peridynamics/Surface correction=false"
@@ -226,7 +226,7 @@ stockwork_case_test(NAME convergence/surfing/peridynamics/slab DECK tests/data/s
   LABELS nightly TIMEOUT 3600 SET "Fracture/peridynamics/Softening=1"
   EXPECT "rates/external_work = 538 within 0.03")
 # With a horizon of two cells the crack jumps: bonds soften over several steps.
-stockwork_case_test(NAME convergence/surfing/peridynamics/jumps DECK prm/surfing/peridynamics.prm
+stockwork_case_test(NAME convergence/surfing/peridynamics/jumps DECK prm/surfing/peridynamics.prm LABELS nightly
   SET "Resolution=coarse" "Time/End time=0.35 s" "Output/Fields=false"
       "Fracture/peridynamics/Horizon=2"
   EXPECT "rates/external_work = 800 within 0.05")
@@ -243,7 +243,7 @@ stockwork_case_test(NAME convergence/peridynamics/dynamic_notch/brittle
 # From a notch of 2 m at 30 degrees, nothing but the mesh prefers a direction: straight on it is 3.6 m by 2.1 m.
 # By default bonds turn into the axis of the mesh (doc/cases/rotated.md); the volume must balance around the corners
 # nevertheless. On a path they go straight on.
-stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics
+stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics LABELS nightly
   DECK prm/kgd/rotated/30/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
   EXPECT "errors/fracture_volume/final < 1e-9" "errors/net_inlet_pressure/final < 0.1"

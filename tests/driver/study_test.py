@@ -22,10 +22,13 @@ import unittest.mock
 HERE = os.path.dirname(os.path.abspath(__file__))
 CONTRIB = os.path.join(HERE, "..", "..", "contrib")
 sys.path[:0] = [CONTRIB]
+import numpy as np  # noqa: E402
 import pandas  # noqa: E402
 
+from plot import vtu  # noqa: E402
 from results import ResultError  # noqa: E402
-from study import charts, collect, cost, difference, estimate, fields, look, matrix, names, problem, report, study_file  # noqa: E402
+from study import (charts, collect, cost, difference, estimate, fields, look, matrix, names, problem, report,  # noqa: E402
+                   section, study_file)
 from study.command import main  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.exists(sys.argv[1]) else None
@@ -507,7 +510,7 @@ class Parts(unittest.TestCase):
         look.plt.close(figure)
         figure, axes = look.plt.subplots(2, 3, sharex=True, sharey=True)
         axes[1, 2].remove()
-        fields.numbers_outside(axes)
+        fields.numbers_outside(axes, "xy")
         figure.canvas.draw()
         for (line, column), ax in [((i, j), axes[i, j]) for i in (0, 1) for j in (0, 1, 2) if (i, j) != (1, 2)]:
             last = line == 1 or column == 2
@@ -554,6 +557,20 @@ class Parts(unittest.TestCase):
         self.assertEqual(estimate.guess(job, checked, [{**record, "fingerprint": "new"}]),
                          (5., "an earlier run"))
         self.assertEqual(estimate.guess(job, {**checked, "seconds": None}, []), (None, ""))
+
+    def test_a_section(self):
+        """Two cubes above one another, the upper one cracked: planes between them, through one, and beyond."""
+        cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+        grid = vtu.Grid(np.concatenate([cube, cube + [0, 0, 1]]), np.arange(16), np.array([8, 16]), np.array([12, 12]),
+                        {"opening": np.repeat([0., 1e-3], 8)}, {})
+        self.assertEqual([len(section.cut(grid, 2, at)[0]) for at in (0.5, 1., 1.7, 2.1)], [1, 2, 1, 0])
+        polygons, numbers = section.cut(grid, 2, 1.7)
+        self.assertEqual(list(numbers), [1])
+        np.testing.assert_array_equal(polygons[0], [[0, 0], [1, 0], [1, 1], [0, 1]])
+        self.assertEqual([len(section.cracked(grid, 0, 0.2)), len(section.cracked(grid, 2, 0.5))], [1, 0])
+        self.assertEqual(section.plane({"Cracks/Open": "disc (0, 0, 0.5) normal (0, 0, 1) radius 25 m"}), (2, 0.5))
+        self.assertEqual(section.plane({"Cracks/Open": "disc (1, 2, 3) normal (-1, 1, 0) radius 4 m"}), (2, 3.))
+        self.assertEqual(section.plane({}, grid.points), (1, 0.))
 
     def test_no_chart_of_what_has_failed(self):
         rows = pandas.DataFrame({"status": ["failed", "finished"], "curve": ["a", "b"], "differs": [False] * 2,

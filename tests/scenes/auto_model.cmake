@@ -70,7 +70,7 @@ stockwork_scene_test(model/cells_ahead_said DECK tests/scenes/auto_model_turned.
 
 # To 60 s the choice is medium, to 100 s coarse: a restart to 100 s goes on with what there is. (Fields, for a step that
 # ends at 60 s.)
-stockwork_restart_test(NAME scenes/model/restart DECK tests/scenes/auto_model.prm TOLERANCE 1e-8
+stockwork_restart_test(NAME scenes/model/restart DECK tests/scenes/auto_model.prm TOLERANCE 1e-8 LABELS nightly
   IGNORE "fluid_balance_error|error_fracture_volume" SET "Resolution=medium" "Output/Fields=true" "Output/Times of fields=60 s" INTERRUPT_SET "Resolution=auto" "Time/End time=60 s" "Checkpoint/Steps between=1"
   RESTART_SET "Resolution=auto")
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <tuple>
 
 #include "cost_estimate.h"
 
@@ -107,5 +108,67 @@ TEST_CASE("a step with a factor that lasts, in three dimensions")
     CHECK(expected > seconds / 2.5);
     CHECK(expected < 2.5 * seconds);
   }
+}
+
+TEST_CASE("the first factor is what a static run in two dimensions takes")
+{
+  CostlyPhysics crack;
+  crack.fracture = true;
+  // unknowns, cpu_seconds of sneddon and inclined/* with cohesive_xfem, damage and prescribed, one
+  // step.
+  for (const auto &[unknowns, seconds] : {std::pair(425950., 34.8),
+                                          {425678., 19.4},
+                                          {131514., 6.0},
+                                          {107174., 6.4},
+                                          {72226., 3.6},
+                                          {44618., 2.2},
+                                          {10470., 0.7}})
+  {
+    const CostEstimate expected = estimate_cost(2, unknowns, crack);
+    CHECK(expected.start + expected.step > seconds / 2.);
+    CHECK(expected.start + expected.step < 2. * seconds);
+  }
+}
+
+TEST_CASE("a step of bonds")
+{
+  CostlyPhysics bonds;
+  bonds.fracture = true;
+  bonds.time_of_step = 5.; // Peridynamics<2>::requirements()
+  // kgd/sun and kgd/toughness, coarse to fine: cpu_seconds / steps, unknowns at the end.
+  for (const auto &[unknowns, seconds] : {std::pair(3413., 0.144),
+                                          {6689., 0.234},
+                                          {11844., 0.547},
+                                          {8027., 0.163},
+                                          {11491., 0.292},
+                                          {18642., 0.708}})
+  {
+    const double expected = estimate_cost(2, unknowns, bonds).step;
+    CHECK(expected > seconds / 2.);
+    CHECK(expected < 2. * seconds);
+  }
+}
+
+TEST_CASE("rock that is loaded until it yields has new factors")
+{
+  CostlyPhysics rock;
+  rock.yields = true;
+  // footing/bearing and borehole/expansion, coarse: unknowns, steps, cpu_seconds.
+  for (const auto &[unknowns, steps, seconds] : {std::tuple(3566., 50., 12.2), {1750., 20., 1.25}})
+  {
+    const CostEstimate expected = estimate_cost(2, unknowns, rock);
+    CHECK(expected.start + steps * expected.step > seconds / 3.);
+    CHECK(expected.start + steps * expected.step < 3. * seconds);
+  }
+}
+
+TEST_CASE("every rank loads the program, and a model keeps what it keeps")
+{
+  CostlyPhysics bonds;
+  bonds.fracture = true;
+  const double one = estimate_cost(2, 1e4, bonds).memory;
+  CHECK(estimate_cost(2, 1e4, bonds, 2).memory - one > 1e8);
+  bonds.memory_per_unknown = 12e3;
+  CHECK(estimate_cost(2, 1e4, bonds).memory - one == doctest::Approx(12e3 * 1e4));
 }
 } // namespace stockwork::cost_estimate_test

@@ -4,6 +4,7 @@
 
 #include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
+#include "fracture/damage/first_cracks.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 #include "stockwork/exchange/released_traction.h"
@@ -13,8 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -235,32 +234,9 @@ void Damage<dim>::start(const Collectives &collectives)
       throw EntryError(crack.entry, crack.text,
                        "cracks with cells of their own; half of this one's or more hold another. "
                        "Smaller cells, or cracks further apart, will do");
-    // The volume of a crack whose pressure is given goes with the square of its length.
-    const double noticeable = std::isnan(scene.crack_pressure) ? 0.02 : 0.004;
-    if (dim == 2 && std::abs(length - crack.size()) > noticeable * crack.size())
-    {
-      std::ostringstream text;
-      text << "A crack is " << length << " m long, not " << crack.size()
-           << " m as in the deck: cracks of this model have whole cells.";
-      messages.push_back(text.str());
-    }
-    if (crack.disc)
-    {
-      // Of a disc that planes of symmetry cut, the model has a part.
-      const double wanted = dealii::numbers::PI * crack.disc->radius * crack.disc->radius,
-                   size = passed.front().size();
-      double misfit = 1.;
-      for (const double share : {1., 0.5, 0.25, 0.125})
-        misfit = std::min(misfit, std::abs(length / (share * wanted) - 1.));
-      if (length > 1.02 * wanted || size > 0.5 * crack.disc->radius ||
-          (!std::isnan(scene.crack_pressure) && misfit > 0.01))
-      {
-        std::ostringstream text;
-        text << "A disc of radius " << crack.disc->radius << " m, " << wanted << " m^2, is "
-             << passed.size() << " whole cells of " << size << " m here, " << length << " m^2.";
-        messages.push_back(text.str());
-      }
-    }
+    for (const std::string &text :
+         misfit_of_cells(crack, passed, length, !std::isnan(scene.crack_pressure)))
+      messages.push_back(text);
   }
   band.replace(all);
   committed = all;
@@ -268,19 +244,9 @@ void Damage<dim>::start(const Collectives &collectives)
   initial_size = 0.;
   for (const CrackCell<dim> &cell : all)
     initial_size = std::max(initial_size, cell.size());
-  if (dim == 3 && parameters.growth &&
-      std::any_of(all.begin(), all.end(), [](const auto &cell) { return !cell.is_cut_evenly(); }))
-    messages.push_back(
-      "A crack is turned against the mesh, and grows more easily along the lines of the mesh in "
-      "its "
-      "plane than along its stairs of cells: discs turned by 27 and 45 degrees have become 1.04 to "
-      "1.09 times as long as wide in viscous fluid, 1.12 to 1.22 times where toughness dominates, "
-      "with up to 7 % less pressure than along the mesh. Turn the mesh, if you can, so that the "
-      "crack lies along it.");
-  if (dim == 2 && parameters.growth)
-    warn_of_small_angles();
   if (parameters.growth)
-    warn_of_flat_cells();
+    for (const std::string &text : doubts_about_growth(all, scene))
+      messages.push_back(text);
   if (parameters.cell_size > 1.5 * initial_size)
   {
     std::ostringstream text;
@@ -289,52 +255,6 @@ void Damage<dim>::start(const Collectives &collectives)
          << "along the cracks are smaller already, " << initial_size << " m.";
     messages.push_back(text.str());
   }
-}
-
-
-template <int dim>
-void Damage<dim>::warn_of_small_angles()
-{
-  for (const CrackCell<dim> &cell : committed)
-    if (const double angle = cell.angle_to_mesh(); angle > 0.5 && angle < 12.)
-    {
-      std::ostringstream text;
-      text
-        << "A crack lies at " << std::setprecision(2) << angle
-        << " degrees to the lines of the mesh. At such small angles cells crack one at a time, "
-        << "and the pressure rides on a sawtooth: that of 'kgd/rotated' ends up to 9 % off, along "
-        << "the mesh 3 %. Turn the mesh so that the crack lies along it, or take smaller cells.";
-      messages.push_back(text.str());
-      return;
-    }
-}
-
-
-template <int dim>
-void Damage<dim>::warn_of_flat_cells()
-{
-  double worst = 1.;
-  for (const CrackCell<dim> &cell : committed)
-  {
-    if (!std::isnan(scene.rock(cell.region).tensile_strength))
-      continue; // not taken for the size of a cell
-    double longest = 0., shortest = std::numeric_limits<double>::infinity();
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double edge = (cell.face_centre(2 * d + 1) - cell.face_centre(2 * d)).norm();
-      longest = std::max(longest, edge);
-      shortest = std::min(shortest, edge);
-    }
-    worst = std::max(worst, longest / shortest);
-  }
-  if (worst < 2.)
-    return;
-  std::ostringstream text;
-  text << "Cells along a crack are " << std::setprecision(2) << worst
-       << " times as long one way as another. The model takes them for squares of their size, in "
-          "its strength and in how far a front goes: 'kgd/toughness' with cells four times as "
-          "long as thick is 6 % off for 1 %. Make them square.";
-  messages.push_back(text.str());
 }
 
 

@@ -216,12 +216,6 @@ private:
              const dealii::Tensor<1, dim> &across,
              const std::vector<CrackCell<dim>> &beside) const;
 
-  /// The pressure of a fracture that grows at a small angle to the mesh is not smooth.
-  void warn_of_small_angles();
-
-  /// Cells that are no squares or cubes.
-  void warn_of_flat_cells();
-
   /// A larger cell does not resolve the process zone, unless it was so from the start [m].
   double largest_cell(const CrackCell<dim> &crack) const;
 
