@@ -39,7 +39,7 @@ CostEstimate estimate_cost(const unsigned int dim,
                                                                         : 0.;
   return {program + 2e3 * n + factor, start + new_factor,
           factors_per_step * new_factor +
-            iteration * (physics.fracture ? 6. * beside_fracture : 1.) * looking};
+            iteration * (physics.fracture ? 4. * beside_fracture : 1.) * looking};
 }
 
 

@@ -50,7 +50,7 @@ template <int dim>
 double cells_in_half_length(const Case<dim> &the_case, const MeshSizes<dim> &mesh);
 
 /// Unknowns at the end of a run that has so many now, and so many segments: where cells are refined
-/// ahead of the front of a disc, they become more. As many where nothing tells.
+/// ahead of a tip or of the front of a disc, they become more. As many where nothing tells.
 template <int dim>
 double unknowns_at_end(const Case<dim> &the_case,
                        const MeshSizes<dim> &mesh,

@@ -82,7 +82,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.may_grow = parameters.growth;
   requirements.regional_rock = RegionalRock::none;
   // As seen in kgd/sun, kgd/toughness, minifrac and radial/toughness.
-  requirements.time_of_step = dim == 2 ? 5. : 25.;
+  requirements.time_of_step = dim == 2 ? 7.5 : 25.;
   requirements.memory_per_unknown = dim == 2 ? 12e3 : 48e3;
   return requirements;
 }
