@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace stockwork
@@ -377,10 +378,13 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   const std::vector<ChosenValue> chosen_for_flow = set_flow_scales(prm, *this);
   const std::vector<std::string> automatic = automatic_entries(prm, model_name);
   model = make_model<dim>(prm, plug_ins, scene);
+  const std::map<std::string, std::string> reasons = model->reasons();
   for (const std::string &entry : automatic)
     if (const std::string value = value_of(prm, {"Fracture", model_name}, entry); value != "auto")
       chosen.push_back({"Fracture/" + model_name + "/" + entry, value,
-                        "what 'auto' comes to with the deck's other entries"});
+                        reasons.count(entry) > 0
+                          ? reasons.at(entry)
+                          : "what 'auto' comes to with the deck's other entries"});
   const bool has_fracture = model->requirements().has_fracture;
   const bool solves_for_flow = has_fracture && std::isnan(scene.crack_pressure);
   if (solves_for_flow)

@@ -46,5 +46,9 @@ stockwork_case_test(NAME scenes/tutorial/path DECK prm/tutorial/peridynamics.prm
          "closure/isip = 18.466e6 within 0.005" "minimum/minimum_aperture > -9.07e-6" "maximum/inlet_aperture = 9.07e-4 within 0.04"
          "maximum/equivalent_length = 43.9 within 0.06" "fluid_balance/relative_error < 1e-8")
 stockwork_scene_test(tutorial/bonds DECK prm/tutorial/cohesive_xfem.prm LABELS quick
-  ARGS --set "Fracture/Model=peridynamics" --set "Discretisation/Elements=Q1-Q1 stabilised" --checked --ends 1
-       --says "In situ/Stress: along the crack" --says "and hold 0.762 MPa with cells of 1 m")
+  ARGS --set "Fracture/Model=peridynamics" --set "Discretisation/Elements=Q1-Q1 stabilised" --set "Fracture/peridynamics/Closure=conserving"
+       --checked --ends 1 --says "In situ/Stress: along the crack" --says "and hold 0.762 MPa with cells of 1 m"
+       --says "Use 'Fracture/peridynamics/Closure = in bonds'")
+stockwork_check_test(NAME scenes/tutorial/bonds/chosen DECK prm/tutorial/cohesive_xfem.prm
+  SET "Fracture/Model=peridynamics" "Discretisation/Elements=Q1-Q1 stabilised"
+  SAYS "Closure = in bonds: for a path.*Tracking = path: the crack .* is oblique to the mesh")

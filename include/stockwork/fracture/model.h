@@ -20,6 +20,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -184,6 +185,13 @@ public:
   /// Sentences for the user since the last call: values the model has chosen by itself, warnings, a
   /// tip that has stopped; nothing from a step that was rolled back. The same on every rank.
   virtual std::vector<std::string> take_messages()
+  {
+    return {};
+  }
+
+  /// Why entries of the model's own that are 'auto' in the deck are what they have come to, where
+  /// there is more to say than that the deck's other entries ask for it. By entry.
+  virtual std::map<std::string, std::string> reasons() const
   {
     return {};
   }

@@ -7,8 +7,10 @@
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace stockwork::peridynamics
 {
@@ -30,11 +32,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "volume at both its ends, too, which frees Poisson's ratio, couples nodes two "
                     "horizons apart and makes the solution dearer. These bonds are brittle, "
                     "whatever 'Softening' says.");
-  prm.declare_entry("Bond volumes", "exact", Patterns::Selection("exact|isotropic|full|ramp"),
-                    "How much of a cell counts as within the horizon. exact: its intersection with "
-                    "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
-                    "direction in the small. full: all of it if its centre is inside. ramp: a "
-                    "share that falls linearly over the last cell; the least accurate.");
+  prm.declare_entry(
+    "Bond volumes", "auto", Patterns::Selection("auto|exact|isotropic|full|ramp"),
+    "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path', else "
+    "exact. exact: its intersection with "
+    "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
+    "direction in the small. full: all of it if its centre is inside. ramp: a "
+    "share that falls linearly over the last cell; the least accurate.");
   prm.declare_entry(
     "Margin", "", Patterns::Anything(),
     "Cells around the initial cracks that are peridynamic, at least the horizon and "
@@ -71,12 +75,15 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "wetted, of which the rock has nothing. of dry rock: not reduced; pressurised fractures are "
     "tougher then, by a share that falls with the root of the cells' size.");
   prm.declare_alias("Critical stretch", "Stretch", true);
-  prm.declare_entry("Surface correction", "true", Patterns::Bool(),
-                    "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
-                    "which makes its faces too soft. With the correction, the bonds that are left "
-                    "are stiffer, in proportion.");
   prm.declare_entry(
-    "Closure", "conserving", Patterns::Selection("auto|conserving|in bonds|as published"),
+    "Surface correction", "true", Patterns::Bool(),
+    "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
+    "which makes its faces too soft. With the correction, the bonds that are left "
+    "are stiffer, in proportion. With 'Closure = in bonds' only those beside the "
+    "initial cracks: faces of a fracture that grows are those of a crack without load in "
+    "rock under a uniform stress, which do not feel what bonds are left.");
+  prm.declare_entry(
+    "Closure", "auto", Patterns::Selection("auto|conserving|in bonds|as published"),
     "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, else "
     "conserving. conserving: it loads the faces, "
     "and does the work of their opening. in bonds: it is part of the law of bonds, as if rock "
@@ -92,10 +99,12 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry(
-    "Tracking", "none", Patterns::Selection("auto|none|path"),
-    "auto: path where it can be: in two dimensions, around cracks that the deck gives, with "
-    "bond-based bonds that "
-    "soften, fluid in the segments and neither 'Closure = conserving' nor inertia; "
+    "Tracking", "auto", Patterns::Selection("auto|none|path"),
+    "auto: path where a crack is oblique to the mesh or the in-situ stress along it is not that "
+    "across it, and with 'Closure = in bonds', if it can be: in two dimensions, around cracks that "
+    "the deck "
+    "gives and fluid presses open, with bond-based bonds that soften, fluid in the segments, "
+    "neither another closure nor inertia; "
     "else none. none: any bond softens that is stretched too far; where nothing guides it, the "
     "way of a fracture is the mesh's. path: only those that cross a path, which "
     "runs ahead of each tip, at right angles to the greatest principal stress, "
@@ -116,17 +125,67 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
 
 namespace
 {
-/// Whether what the deck says elsewhere lets the way of a fracture be tracked by default. With
-/// inertia fractures may fork.
-template <int dim>
-bool may_be_tracked(dealii::ParameterHandler &prm, const Scene<dim> &scene)
+bool has_inertia(dealii::ParameterHandler &prm)
 {
   prm.leave_subsection();
   prm.leave_subsection();
   const bool inertia = value_of(prm, {"Time"}, "Inertia") == "on";
   prm.enter_subsection("Fracture");
   prm.enter_subsection("peridynamics");
-  return dim == 2 && !scene.cracks.empty() && !inertia;
+  return inertia;
+}
+
+
+/// Why a fracture would not stay in the plane of its crack, or not feel the stress along it, if
+/// bonds were left to themselves; empty: it lies along the mesh, in isotropic stress.
+template <int dim>
+std::string why_guided(const Scene<dim> &scene)
+{
+  constexpr double same = 1e-6;
+  if constexpr (dim == 2)
+    for (const InitialCrack<dim> &crack : scene.cracks)
+      for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
+      {
+        const dealii::Tensor<1, dim> along = crack.points[i + 1] - crack.points[i];
+        const dealii::SymmetricTensor<2, dim> stress =
+          scene.in_situ_stress(crack.points[i] + 0.5 * along);
+        if (std::min(std::abs(along[0]), std::abs(along[1])) > same * along.norm())
+          return "the crack '" + crack.text +
+                 "' is oblique to the mesh, into whose axes it would turn";
+        if (dealii::deviator(stress).norm() > same * stress.norm())
+          return "the in-situ stress along the crack '" + crack.text + "' is not that across it";
+      }
+  return "";
+}
+
+
+/// Whether the way of a fracture is tracked by default, and why.
+template <int dim>
+std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm,
+                                                   const Parameters<dim> &p,
+                                                   const Scene<dim> &scene)
+{
+  if (dim == 3)
+    return {false, "paths are those of two dimensions"};
+  if (scene.cracks.empty())
+    return {false, "the deck gives no crack"};
+  if (scene.crack_pressure == 0.)
+    return {false, "the cracks are dry"};
+  if (p.state_based || p.softening == 1.)
+    return {false, "bonds are brittle"};
+  if (p.tensor_fluid)
+    return {false, "the fluid is in the pores' elements"};
+  if (!p.effective_stretch)
+    return {false, "the critical stretch is that of dry rock"};
+  if (has_inertia(prm))
+    return {false, "with inertia fractures may fork"};
+  if (const std::string closure = prm.get("Closure"); closure != "auto" && closure != "in bonds")
+    return {false, "the closure is another"};
+  if (const std::string why = why_guided(scene); !why.empty())
+    return {true, why};
+  if (prm.get("Closure") == "in bonds")
+    return {true, "the pressure is in the bonds"};
+  return {false, "cracks lie along the mesh, in isotropic stress"};
 }
 
 
@@ -156,11 +215,6 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   Parameters p;
   p.horizon = prm.get_integer("Horizon");
   p.state_based = prm.get("Bond law") == "state-based";
-  const std::string volumes = prm.get("Bond volumes");
-  p.volumes = volumes == "isotropic" ? VolumeRule::isotropic
-              : volumes == "full"    ? VolumeRule::full
-              : volumes == "ramp"    ? VolumeRule::ramp
-                                     : VolumeRule::exact;
   p.margin = number("Margin", p.horizon + 2.);
   if (!(p.margin >= p.horizon + 1.))
     throw bad("Margin", "at least " + std::to_string(p.horizon + 1) +
@@ -179,18 +233,31 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";
   p.tensor_fluid = permeability_tensor::is_chosen(prm);
-  const std::string closure = prm.get("Closure");
   if (prm.get("Tracking") == "auto")
-    prm.set("Tracking", !p.state_based && p.softening > 1. && !p.tensor_fluid &&
-                            p.effective_stretch && (closure == "auto" || closure == "in bonds") &&
-                            may_be_tracked(prm, scene)
-                          ? "path"
-                          : "none");
+  {
+    const auto [tracked, why] = is_tracked_by_default(prm, p, scene);
+    prm.set("Tracking", tracked ? "path" : "none");
+    p.reasons["Tracking"] = why;
+  }
   p.tracked = prm.get("Tracking") == "path";
-  if (closure == "auto")
+  if (prm.get("Closure") == "auto")
+  {
     prm.set("Closure", p.tracked ? "in bonds" : "conserving");
+    p.reasons["Closure"] = p.tracked ? "for a path" : "where no path is tracked";
+  }
   p.as_published = prm.get("Closure") == "as published";
   p.in_bonds = prm.get("Closure") == "in bonds";
+  if (prm.get("Bond volumes") == "auto")
+  {
+    prm.set("Bond volumes", p.tracked ? "isotropic" : "exact");
+    p.reasons["Bond volumes"] =
+      p.tracked ? "a path may have any direction" : "where no path is tracked";
+  }
+  const std::string volumes = prm.get("Bond volumes");
+  p.volumes = volumes == "isotropic" ? VolumeRule::isotropic
+              : volumes == "full"    ? VolumeRule::full
+              : volumes == "ramp"    ? VolumeRule::ramp
+                                     : VolumeRule::exact;
   if (p.tracked && (dim != 2 || !p.in_bonds || p.softening == 1.))
     throw bad("Tracking", dim != 2      ? "none in three dimensions"
                           : !p.in_bonds ? "none, or 'Closure = in bonds'"

@@ -6,6 +6,8 @@
 #include "fracture/peridynamics/stencil.h"
 #include "stockwork/exchange/scene.h"
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace stockwork::peridynamics
@@ -32,7 +34,8 @@ struct Parameters
   double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
   double friction = 0.;         ///< coefficient, of faces that touch
   bool growth;
-  bool tracked; ///< bonds soften across the ways of cracks only
+  bool tracked;                               ///< bonds soften across the ways of cracks only
+  std::map<std::string, std::string> reasons; ///< why what is 'auto' is what it is, by entry
   enum class Bonds
   {
     none,

@@ -327,7 +327,10 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
 template <int dim>
 void Peridynamics<dim>::correct_faces()
 {
-  if (!parameters.surface_correction)
+  // With the pressure in the bonds faces are those of a crack without load in rock under a uniform
+  // stress: free of stress across them and, but near the tips, along them. Bonds that are left
+  // there do nothing, and stiffer ones would oppose the strain of the pressure.
+  if (!parameters.surface_correction || parameters.in_bonds)
     return;
   const auto is_relaxed = [&](const unsigned int site)
   {

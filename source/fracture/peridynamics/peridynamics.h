@@ -52,6 +52,10 @@ public:
   void rollback() override;
 
   std::vector<std::string> take_messages() override;
+  std::map<std::string, std::string> reasons() const override
+  {
+    return parameters.reasons;
+  }
 
   void wanted_cell_size(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                         std::vector<float> &sizes) const override;
