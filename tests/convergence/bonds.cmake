@@ -75,7 +75,7 @@ set(closes "closure/first_contact = 4e6 within 0.02" "closure/g_function = 4e6 w
   "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/minifrac/peridynamics DECK prm/minifrac/peridynamics.prm
   SET "Resolution=coarse" "Output/Fields=false" EXPECT ${closes})
-stockwork_case_test(NAME convergence/minifrac/peridynamics/conserving DECK prm/minifrac/peridynamics.prm
+stockwork_case_test(NAME convergence/minifrac/peridynamics/conserving DECK prm/minifrac/peridynamics.prm LABELS nightly
   SET "Resolution=coarse" "Output/Fields=false" "Fracture/peridynamics/Closure=conserving"
   EXPECT ${closes} WARNS "The in-situ stress along the crack") # 0.0051, 0.0130
 # As published, load and fluid: four times the pressure, and faces that overlap.
@@ -98,22 +98,24 @@ stockwork_case_test(NAME convergence/kgd/sun/permeable/tensor
 # thousandths of its length, as the cells of one size around the zone are not as many above it as below.
 set(in_bonds "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Output/Fields=false" "Time/End time=10 s")
 foreach(tracking none path)
+  set(labels LABELS nightly)
   set(tolerance 1e-9) # 1e-11
   set(ignored "error|^inlet_pressure|^minimum_pressure|^maximum_pressure|borehole_pressure|energy|load")
   if(tracking STREQUAL "path")
+    set(labels)
     set(tolerance 1e-3)
     string(APPEND ignored "|extent_y")
   endif()
   stockwork_same_test(NAME convergence/kgd/toughness/in_bonds/stress/${tracking}
     DECK prm/kgd/toughness/peridynamics.prm SET ${in_bonds} "Fracture/peridynamics/Tracking=${tracking}"
     SECOND_SET "In situ/Stress=-23 MPa, -17 MPa" TOLERANCE ${tolerance} IGNORE "${ignored}")
-  stockwork_case_test(NAME convergence/kgd/toughness/in_bonds/${tracking} NEGATIVE
+  stockwork_case_test(NAME convergence/kgd/toughness/in_bonds/${tracking} NEGATIVE ${labels}
     DECK prm/kgd/toughness/peridynamics.prm
     SET "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=${tracking}"
     EXPECT "errors/equivalent_length/final < 0.025" "errors/inlet_aperture/final < 0.012"
            "errors/net_inlet_pressure/final < 0.005" "errors/net_inlet_pressure/mean < 0.005"
            "fluid_balance/relative_error < 1e-8")
-  stockwork_case_test(NAME convergence/kgd/sun/in_bonds/${tracking} NEGATIVE
+  stockwork_case_test(NAME convergence/kgd/sun/in_bonds/${tracking} NEGATIVE ${labels}
     DECK prm/kgd/sun/peridynamics.prm
     SET "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=${tracking}"
     EXPECT "errors/equivalent_length/mean < 0.03" "errors/inlet_aperture/mean < 0.025"
