@@ -254,7 +254,7 @@ stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics/direction
   EXPECT "final/extent_x = 3.6 within 0.1" "final/extent_y = 2.1 within 0.1")
 # With a stress in situ that is 2 MPa greater along the notch than across it, net pressure, aperture and length are the same (the least
 # aperture is that of the piece at the tip).
-stockwork_same_test(NAME convergence/kgd/rotated/30/peridynamics/stress
+stockwork_same_test(NAME convergence/kgd/rotated/30/peridynamics/stress LABELS nightly
   DECK prm/kgd/rotated/30/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
   SECOND_SET "In situ/Stress=-18.5 MPa, -17.5 MPa, -0.8660254 MPa" TOLERANCE 0.01
