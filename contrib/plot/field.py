@@ -147,7 +147,8 @@ def window_of(grid, lines, aperture):
     low, high = grid.points.min(axis=0)[:2], grid.points.max(axis=0)[:2]
     if not len(lines):
         return low[0], high[0], low[1], high[1]
-    corner = lines[is_open(aperture)].reshape(-1, 2)
+    seen = is_open(aperture)
+    corner = lines[seen if seen.any() else slice(None)].reshape(-1, 2)  # all of one that has closed
     middle, size = (corner.min(axis=0) + corner.max(axis=0)) / 2, np.ptp(corner, axis=0).max()
     x = np.clip([middle[0] - 0.75 * size, middle[0] + 0.75 * size], low[0], high[0])
     y = np.clip([middle[1] - 0.5 * size, middle[1] + 0.5 * size], low[1], high[1])

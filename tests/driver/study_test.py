@@ -572,6 +572,11 @@ class Parts(unittest.TestCase):
         self.assertEqual(section.plane({"Cracks/Open": "disc (1, 2, 3) normal (-1, 1, 0) radius 4 m"}), (2, 3.))
         self.assertEqual(section.plane({}, grid.points), (1, 0.))
 
+    def test_the_window_of_a_fracture_that_has_closed(self):
+        block = vtu.Grid(np.array([[-9., -9, 0], [9, 9, 0]]), [], [], [], {}, {})
+        line = np.array([[[0., 0.], [2., 0.]]])
+        self.assertEqual(fields.drawing.window_of(block, line, np.array([-1e-9])), (-0.5, 2.5, -1., 1.))
+
     def test_no_chart_of_what_has_failed(self):
         rows = pandas.DataFrame({"status": ["failed", "finished"], "curve": ["a", "b"], "differs": [False] * 2,
                                  "cpu_seconds": [1., 2.], "error_mean_load": [0.1, float("nan")],
