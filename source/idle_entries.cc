@@ -4,6 +4,7 @@
 #include "stockwork/base/quantity.h"
 
 #include <algorithm>
+#include <regex>
 
 namespace stockwork
 {
@@ -20,6 +21,14 @@ struct IdleGroup
 };
 
 
+/// The entry of the whole rock that one of a region stands in for; any other as it is.
+std::string everywhere(const std::string &path)
+{
+  static const std::regex region("^Rock/Region \\d+/");
+  return std::regex_replace(path, region, "Rock/");
+}
+
+
 template <int dim>
 std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
                                  const Case<dim> &the_case)
@@ -31,48 +40,64 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
         return entry.value;
     return std::string();
   };
+  const auto is_default = [&](const std::string &path)
+  {
+    return std::any_of(declared.begin(), declared.end(),
+                       [&](const DeclaredEntry &entry)
+                       { return entry.path() == path && entry.value == entry.default_value; });
+  };
+  const bool somewhere_random = std::any_of(
+    declared.begin(), declared.end(),
+    [](const DeclaredEntry &entry)
+    { return everywhere(entry.path()) == "Rock/Random field/Properties" && !entry.value.empty(); });
   const bool has_pores = the_case.elements.has_pore_pressure;
   const bool has_inertia = the_case.scheme.kind() == TimeScheme::Kind::newmark;
   using Solver = LinearSolverParameters::Type;
   const Solver solver = the_case.linear_solver.type;
   const bool makes_factors = solver == Solver::direct || solver == Solver::bordered ||
                              (solver == Solver::automatic && dim == 2);
+  const bool is_split =
+    given("Coupling/Scheme") != "monolithic"; // its passes are an iteration, too
   std::vector<IdleGroup> groups = {
     {!has_pores && the_case.network.leak_off_law() == LeakOff::none,
      "no pore pressure is solved for ('Rock/Bulk model = elastic', or nothing that moves fluid "
      "through the pores)",
      {"Rock/Permeability", "Rock/Biot coefficient", "Rock/Biot modulus", "Rock/Porosity",
       "Rock/Solid bulk modulus"}},
-    {has_pores && !given("Rock/Biot modulus").empty(),
-     "'Rock/Biot modulus' is given, which it would make up",
+    {has_pores && !given("Rock/Biot modulus").empty() && !given("Rock/Biot coefficient").empty(),
+     "'Rock/Biot modulus' and 'Rock/Biot coefficient' are given, which it would make up",
      {"Rock/Solid bulk modulus"}},
-    {given("Mesh/Shape") != "gmsh",
-     "'Mesh/Shape' is not 'gmsh'",
+    {given("Mesh/Shape") != "gmsh file",
+     "'Mesh/Shape' is not 'gmsh file'",
      {"Mesh/Gmsh/File", "Mesh/Gmsh/Scale"}},
     {dim == 2, "the case has two dimensions", {"Mesh/Box/Z spacing"}},
     {!has_inertia,
      "there is no inertia",
      {"Time/Newmark beta", "Time/Newmark gamma", "Time/Theta"}},
     {has_inertia && !has_pores, "no pore pressure is solved for", {"Time/Theta"}},
-    {makes_factors,
+    {makes_factors && !is_split,
      "the linear systems of this case are solved by factors, not by iteration",
      {"Linear solver/Maximum iterations", "Linear solver/Restart"}},
-    {solver != Solver::automatic || dim == 2,
-     "only 'Linear solver/Type = auto' asks it, in three dimensions",
+    {makes_factors,
+     "the linear systems of this case are solved by factors, whatever their size",
      {"Linear solver/Direct below"}},
-    {given("Rock/Random field/Properties").empty(),
+    {!somewhere_random,
      "no property is random ('Rock/Random field/Properties')",
      {"Rock/Random field/Weibull modulus", "Rock/Random field/Lattice spacing",
       "Rock/Random field/Correlation length", "Rock/Random field/Seed",
       "Rock/Random field/Independent properties"}},
-    {given("Coupling/Scheme") == "monolithic",
+    {!is_split,
      "rock and fluid are solved together ('Coupling/Scheme = monolithic')",
      {"Coupling/Stabilisation factor", "Coupling/Maximum passes", "Coupling/Acceleration",
       "Coupling/Force"}}};
   const std::string reference = given("Verification/Reference");
   groups.push_back({reference == "none",
                     "there is no reference ('Verification/Reference')",
-                    {"Verification/Wrong factors"}});
+                    {"Verification/Wrong factors", "Verification/Compare"}});
+  groups.push_back(
+    {is_default("In situ/Stress gradient") && is_default("In situ/Pore pressure gradient"),
+     "stress and pore pressure are the same at any depth",
+     {"In situ/Datum"}});
   // Each is read by one reference.
   const std::pair<std::string, std::string> readers[] = {{"Load", "mandel"},
                                                          {"Footing width", "footing"},
@@ -100,7 +125,7 @@ std::vector<std::string> idle_entries(ParameterHandler &prm, const Case<dim> &th
     std::string found;
     for (const DeclaredEntry &entry : declared)
       if (group.is_idle && entry.value != entry.default_value &&
-          std::find(group.entries.begin(), group.entries.end(), entry.path()) !=
+          std::find(group.entries.begin(), group.entries.end(), everywhere(entry.path())) !=
             group.entries.end())
         found += (found.empty() ? "'" : ", '") + entry.path() + " = " + entry.value + "'";
     if (!found.empty())

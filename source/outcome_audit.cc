@@ -96,7 +96,7 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
   if (outcome.leaked > 0.)
   {
     const double seen = outcome.leaked / outcome.injected;
-    constexpr double margin = 0.05; // of the closed form (leaking_kgd()) and of a wall or two
+    constexpr double margin = 0.25; // of the closed form (leaking_kgd()) and of a wall or two
     bool foreseen = true;
     std::string estimate;
     if constexpr (dim == 2)
@@ -104,11 +104,12 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
           is_driven_on(the_case) && !pumping.is_shut_in)
       {
         const LeakedShare share = leaked_share(the_case, pumping);
-        foreseen = seen > share.least - margin && seen < share.most + margin;
+        foreseen =
+          seen > (1. - margin) * share.least - 0.01 && seen < (1. + margin) * share.most + 0.01;
         estimate = "; the estimate before the run was " + in_words(share) +
                    (foreseen ? ""
-                             : ", so what was foreseen of length, time and model is of another "
-                               "fracture than this");
+                             : ": either the cells do not resolve the flow into the rock, or what "
+                               "was foreseen of length, time and model is of another fracture");
       }
     assumptions.push_back(
       {"leak-off: leaked / injected", seen, foreseen, "as modelled" + estimate});

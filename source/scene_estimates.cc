@@ -209,14 +209,16 @@ LeakedShare leaked_share(const Case<2> &the_case, const Pumping &pumping)
 
 std::string in_words(const LeakedShare &share)
 {
-  std::ostringstream text;
-  text << std::setprecision(2);
+  const auto per_cent = [](const double part)
+  {
+    std::ostringstream text;
+    text << std::setprecision(part < 0.995 ? 2 : 3) << 100. * part << " %";
+    return text.str();
+  };
   if (share.most - share.least < 0.01)
-    text << "about " << 100. * share.least << " %";
-  else
-    text << 100. * share.least << " % (flow in one dimension) to " << 100. * share.most
-         << " % (around the tips too, and with the stress of the swollen rock)";
-  return text.str();
+    return "about " + per_cent(share.least);
+  return per_cent(share.least) + " (flow in one dimension) to " + per_cent(share.most) +
+         " (around the tips too, and with the stress of the swollen rock)";
 }
 
 

@@ -108,8 +108,11 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   const double reach = half_length_at_end(the_case);
   const double walls = distance_to_walls(the_case) / reach;
   std::ostringstream text;
-  text << "the fracture grows to about " << std::setprecision(3) << reach << " m per wing; "
-       << (walls > 12.5 ? "the walls are far enough for 1 %"
+  if (reach > half_length_at_start(the_case))
+    text << "the fracture grows to about " << std::setprecision(3) << reach << " m per wing; ";
+  else
+    text << "the fracture hardly grows, for what is pumped leaks off or opens the crack alone; ";
+  text << (walls > 12.5 ? "the walls are far enough for 1 %"
            : walls > nearest_walls
              ? "the walls cost some per cent"
              : "the walls govern the answer: enlarge the domain, or compare with a "
