@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Run the decks that the charts of 'Fracture/Model = auto' and 'Resolution = auto' are made of.
 
-    contrib/make_charts.py [--program build/source/stockwork] [--into prm/charts.csv] [--kind KIND ...]
+    contrib/make_charts.py [--program build/source/stockwork] [--into prm/charts.csv] [--kind KIND] [--deck DECK] [--model MODEL]
     contrib/make_charts.py --count      count cells and look up K_m and what leaks again; errors and seconds stay
 
 A row is one run: the kind of scene, deck, model and resolution, by the scene audit the dimensionless toughness of a
 fracture that grows, the share of the fluid that leaks off and how many cells make up half of the fracture's length at
 the end; the error there (the worst of what is compared), seconds of the processor, and whether the run reached its end.
 Errors are those against the reference; where a deck has none, the greatest difference from the finest runs of all
-models. With --kind the other kinds' rows stay as they are.
+models. With --kind, --deck and --model, each as often as one likes, the other rows stay as they are.
 """
 import argparse
 import csv
@@ -117,28 +117,39 @@ def main():
     parser.add_argument("--program", default=os.path.join(HERE, "..", "build", "source", "stockwork"))
     parser.add_argument("--into", default=os.path.join(HERE, "..", "prm", "charts.csv"))
     parser.add_argument("--kind", action="append", choices=KINDS)
+    parser.add_argument("--deck", action="append", choices=[deck for decks, *_ in KINDS.values() for deck in decks])
+    parser.add_argument("--model", action="append", choices=MODELS)
     parser.add_argument("--count", action="store_true")
     options = parser.parse_args()
+
+    def chosen(kind, deck, model):
+        return all(not wanted or one in wanted for wanted, one in ((options.kind, kind), (options.deck, deck),
+                                                                   (options.model, model)))
     rows = []
-    if (options.kind or options.count) and os.path.exists(options.into):
+    if (options.kind or options.deck or options.model or options.count) and os.path.exists(options.into):
         with open(options.into, encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
     if options.count:
         for old in rows:
             old.update(audited(options.program, path_of(old["deck"], old["model"]), old["resolution"]))
         return write(rows, options.into)
-    rows = [old for old in rows if old["kind"] not in (options.kind or [])]
+    rows = [old for old in rows if not chosen(old["kind"], old["deck"], old["model"])]
     for kind, (decks, compared, resolutions) in KINDS.items():
-        if options.kind and kind not in options.kind:
-            continue
         for deck in decks:
             of_deck = [new for model in MODELS
-                       if os.path.exists(path_of(deck, model)) and (deck, model) not in TOO_DEAR
+                       if chosen(kind, deck, model) and os.path.exists(path_of(deck, model)) and (deck, model) not in TOO_DEAR
                        for new in runs(options.program, kind, deck, model, resolutions, compared)]
-            if not any(new["error"] for new in of_deck):
+            if of_deck and not any(new["error"] or new["status"] != "finished" for new in of_deck):
+                if options.model:
+                    parser.error(f"{deck} has no reference: its models are compared with one another, and run together")
                 compare(of_deck)
             rows += of_deck
-            write(rows, options.into)
+            write(sorted(rows, key=place), options.into)
+
+
+def place(one):
+    return (list(KINDS).index(one["kind"]), KINDS[one["kind"]][0].index(one["deck"]), MODELS.index(one["model"]),
+            ["coarse", "medium", "fine"].index(one["resolution"]))
 
 
 def runs(program, kind, deck, model, resolutions, compared):
