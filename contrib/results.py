@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import re
 import sys
 
 
@@ -60,6 +61,12 @@ def read_statistics(directory):
     names = [name.strip() for name in rows[0]]
     return Table(path, {name: [_number(row[i] if i < len(row) else "") for row in rows[1:]]
                         for i, name in enumerate(names)})
+
+
+def read_units(directory):
+    """{column: SI unit} from the first line of statistics.csv; empty if it says none."""
+    with open(os.path.join(directory, "statistics.csv"), encoding="utf-8") as file:
+        return dict(re.findall(r"(\w+) \[([^\]]+)\]", file.readline()))
 
 
 def read_deck(directory):

@@ -53,10 +53,8 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
 
   if (!the_case.walls_follow_reference)
   {
-    const double walls = distance_to_walls(the_case) / wing;
-    // A crack of half length a between rollers has K/K_inf = 0.996 with walls at 20 a (all round),
-    // 0.945 at 5 a and 0.84 at 2.5 a: 1 - (1 to 1.6) (a/d)^2.
-    const double effect = 1.5 / (walls * walls);
+    const double distance = distance_to_walls(the_case), walls = distance / wing,
+                 effect = effect_of_walls<dim>(distance, wing);
     assumptions.push_back({"walls far away: distance / length of a wing", walls, effect < 0.05,
                            (effect < 0.05 ? "they change the stress intensity by about "
                                           : "the walls govern the answer; they change the stress "

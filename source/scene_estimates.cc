@@ -313,6 +313,21 @@ double half_length_at_end(const Case<dim> &the_case)
 }
 
 
+template <int dim>
+double effect_of_walls(const double distance, const double half_length)
+{
+  return 1.5 * std::pow(half_length / distance, dim);
+}
+
+
+template <int dim>
+double effect_of_walls(const Case<dim> &the_case)
+{
+  const double reach = half_length_at_end(the_case);
+  return std::isnan(reach) ? 0. : effect_of_walls<dim>(distance_to_walls(the_case), reach);
+}
+
+
 template double duration_of<2>(const Case<2> &);
 template double duration_of<3>(const Case<3> &);
 template bool is_cracked<2>(const Case<2> &);
@@ -335,6 +350,10 @@ template bool begins_on_an_edge<2>(const Case<2> &);
 template bool begins_on_an_edge<3>(const Case<3> &);
 template bool is_driven_on<2>(const Case<2> &);
 template bool is_driven_on<3>(const Case<3> &);
+template double effect_of_walls<2>(double, double);
+template double effect_of_walls<3>(double, double);
+template double effect_of_walls<2>(const Case<2> &);
+template double effect_of_walls<3>(const Case<3> &);
 template double half_length_at_end<2>(const Case<2> &);
 template double half_length_at_end<3>(const Case<3> &);
 } // namespace stockwork

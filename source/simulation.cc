@@ -627,7 +627,10 @@ try_deck(RunContext &run, const Deck &deck, ParameterHandler &prm, const PlugIns
   Simulation<dim> simulation(run, the_case, prm, options);
   start_only(simulation, prm);
   const MeshSizes<dim> mesh = simulation.mesh_sizes();
-  TriedDeck tried{cells_in_half_length(the_case, mesh), {}};
+  TriedDeck tried{cells_in_half_length(the_case, mesh),
+                  is_driven_on(the_case),
+                  the_case.walls_follow_reference ? 0. : effect_of_walls(the_case),
+                  {}};
   for (const SceneNumber &number : scene_numbers(the_case, mesh))
     if (number.spoils)
       tried.warnings.push_back(number.consequence);

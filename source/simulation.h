@@ -33,7 +33,10 @@ void simulate(RunContext &run,
 /// What --check finds out about a deck, for who chooses between decks.
 struct TriedDeck
 {
-  double cells; ///< in half of its first fracture's length at the end (mesh_sizes.h)
+  double cells;           ///< in half of its first fracture's length at the end (mesh_sizes.h)
+  bool grows;             ///< a well drives it on
+  double effect_of_walls; ///< on its stress intensity at the end, as a share; 0 where it counts for
+                          ///< the reference
   std::vector<std::string> warnings; ///< why its answer could not be trusted; empty: it could
 };
 

@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from results import ResultError, read_deck, read_statistics, read_summary, script  # noqa: E402
+from results import ResultError, read_deck, read_statistics, read_summary, read_units, script  # noqa: E402
 
 # What is drawn, if there: column, label, unit and factor from SI.
 QUANTITIES = {
@@ -31,12 +31,24 @@ QUANTITIES = {
 }
 # Of the other columns, by how their names end.
 ENDINGS = {"length": ("m", 1.), "aperture": ("mm", 1e3), "pressure": ("MPa", 1e-6), "volume": ("m²", 1.)}
+# Of a run in space.
+IN_SPACE = {"m^2": ("m²", 1.), "m^3": ("m³", 1.), "J": ("J", 1.), "N": ("kN", 1e-3)}
 PREFIX = "reference_"
 THIN = {"equivalent_length": ("fracture_length", "physical tip")}
 
 
 def numbers(column):
     return np.array([x if isinstance(x, float) else np.nan for x in column])
+
+
+def shown_as(name, directory):
+    """(label, unit, factor from SI) of a column, as the run's own units have it."""
+    label, unit, factor = QUANTITIES.get(
+        name, (name.replace("_", " "), *ENDINGS.get(name.rsplit("_", 1)[-1], ("SI", 1.))))
+    si = read_units(directory).get(name)
+    if si == "m^2" and name.endswith("length"):
+        label = label.replace("length", "area")
+    return label, *IN_SPACE.get(si, (unit, factor))
 
 
 def labels(directories, runs):
@@ -63,8 +75,7 @@ def draw(directories, columns, output):
     named = labels(directories, runs)
     figure, axes = plt.subplots(1, len(names), figsize=(4 * len(names), 3.2), squeeze=False)
     for ax, name in zip(axes[0], names):
-        label, unit, factor = QUANTITIES.get(
-            name, (name.replace("_", " "), *ENDINGS.get(name.rsplit("_", 1)[-1], ("SI", 1.))))
+        label, unit, factor = shown_as(name, next(d for d, (_, t) in zip(directories, runs) if name in t))
         for i, (_, table) in enumerate(runs):
             if name not in table:
                 continue

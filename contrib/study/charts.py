@@ -6,7 +6,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from plot import profile as along
 from plot import vtu
-from plot.history import ENDINGS, QUANTITIES
+from plot.history import QUANTITIES, shown_as
 from results import ResultError
 from study.cost import cheapest, front, points
 from study.difference import histories
@@ -115,8 +115,7 @@ def history(results, styles):
     for ax in axes.flat[len(names):]:
         ax.remove()
     for ax, name in zip(axes.flat, names):
-        label, unit, factor = QUANTITIES.get(
-            name, (name.replace("_", " "), *ENDINGS.get(name.rsplit("_", 1)[-1], ("SI", 1.))))
+        label, unit, factor = shown_as(name, next(r.directory for r, t in tables if name in t))
         reference = next((t for _, t in tables if "reference_" + name in t), None)
         if reference is not None:
             ax.plot(reference["time"], factor * reference["reference_" + name], color="0.7", lw=4.5, label="reference")

@@ -95,6 +95,8 @@ def show(directories, folder, title, text, quantities, chosen, options):
     from study import markdown, verdict
     from study import report as pages
     from study.collect import results
+    if options.map and not chosen:
+        raise ResultError(f"--map {options.map}: there is no map; a study's [map] says what it shows (doc/studies/README.md)")
     found = results(directories)
     path, rows = pages.write(found, folder, title, text, quantities, chosen, options.map)
     if options.into:

@@ -16,7 +16,7 @@ def first_and_last(result, name):
     """[(time, grid), (time, grid)]; empty where nothing has been written."""
     try:
         entries = vtu.series(result.directory, name)
-        return [(time, vtu.read(file)) for time, file in (entries[0], entries[-1])]
+        return [(time, vtu.read(file)) for time, file in dict.fromkeys((entries[0], entries[-1]))]
     except (ResultError, OSError):
         return []
 

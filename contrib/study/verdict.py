@@ -91,7 +91,8 @@ def missing(rows, wanted):
     """What is wrong with the quantities that are wanted, in a sentence; nothing where they are there, or no run has any."""
     there = [c[len("error_end_"):] for c in rows.columns if c.startswith("error_end_")]
     absent = [name for name in wanted if name not in there]
-    return f"no run has an error of '{absent[0]}'; there is: {', '.join(there)}" if absent and there else ""
+    names = " or ".join(f"'{name}'" for name in absent)
+    return f"no run has an error of {names}; there is: {', '.join(there)}" if absent and there else ""
 
 
 def per_cent(value):

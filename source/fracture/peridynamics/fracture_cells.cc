@@ -182,6 +182,8 @@ double broken_share(const Zone<dim> &zone,
   for (unsigned int v = 0; v < 1u << dim; ++v)
   {
     const unsigned int site = zone.find(corner<dim>(cell.place, v));
+    if (site == dealii::numbers::invalid_unsigned_int)
+      continue;       // beyond the rim there are no bonds
     double here = 0.; // distances from the fracture, in spacings
     for (unsigned int d = 0; d < dim; ++d)
       here += cell.normal[d] * ((v >> d & 1) != 0u ? 0.5 : -0.5);
@@ -196,7 +198,7 @@ double broken_share(const Zone<dim> &zone,
       broken += damage(site, b);
     }
   }
-  return broken / n_crossing;
+  return n_crossing > 0 ? broken / n_crossing : 0.;
 }
 
 

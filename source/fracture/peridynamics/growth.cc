@@ -222,11 +222,13 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (parameters.tracked)
     track(state, of_cells);
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
-  if (rim == Rim::stays && !told_of_rim)
+  if (rim == Rim::stays)
   {
-    messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
-                       "beyond. Enlarge 'Fracture/peridynamics/Zone'.");
-    told_of_rim = true;
+    verdict.kind = Verdict::Kind::stop; // what a fracture does that may not grow is nothing
+    verdict.reason = "a crack has reached the rim of the peridynamic zone, which has no room to "
+                     "grow. Enlarge 'Fracture/peridynamics/Zone', or make the elements around it "
+                     "squares";
+    return verdict;
   }
   if (rim == Rim::grows)
   {
