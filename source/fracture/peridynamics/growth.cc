@@ -222,13 +222,20 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (parameters.tracked)
     track(state, of_cells);
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
-  if (rim == Rim::stays)
+  if (rim == Rim::stays && std::isnan(scene.crack_pressure))
   {
-    verdict.kind = Verdict::Kind::stop; // what a fracture does that may not grow is nothing
+    verdict.kind =
+      Verdict::Kind::stop; // what fluid does in a fracture that may not grow is nothing
     verdict.reason = "a crack has reached the rim of the peridynamic zone, which has no room to "
                      "grow. Enlarge 'Fracture/peridynamics/Zone', or make the elements around it "
                      "squares";
     return verdict;
+  }
+  if (rim == Rim::stays && !told_of_rim)
+  {
+    messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
+                       "beyond. Enlarge 'Fracture/peridynamics/Zone'.");
+    told_of_rim = true;
   }
   if (rim == Rim::grows)
   {
@@ -244,9 +251,10 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     return verdict;
   }
 
-  warn_of_pressure(state);
   if (parameters.tracked)
     warn_off_paths();
+  else
+    warn_of_pressure(state); // on a path, bonds break nowhere else
 
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);
   const unsigned int n_new = cells.size() - n_segments_before;

@@ -46,11 +46,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Zone", "", Patterns::Anything(),
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
-  prm.declare_entry("Zone growth", default_zone_growth, Patterns::Integer(0),
-                    "Cells by which the zone is enlarged ahead of a fracture when less than the "
-                    "margin of it is left there; 0: the zone stays as it is, and fractures stop at "
-                    "its rim. It grows only where 'Cell size' is given, which the new cells are "
-                    "refined to.");
+  prm.declare_entry(
+    "Zone growth", default_zone_growth, Patterns::Integer(0),
+    "Cells by which the zone is enlarged ahead of a fracture when less than the "
+    "margin of it is left there; 0: the zone stays as it is, and a fracture that "
+    "fluid drives to its rim ends the run. It grows only where 'Cell size' is given, "
+    "which the new cells are "
+    "refined to.");
   prm.declare_entry("Cell size", "0", Quantity(dimension::length, Range::non_negative()),
                     "Wanted size of the cells in the zone and for a horizon around it, which must "
                     "be squares (cubes) of one size [m]; zero: that of the given mesh.");

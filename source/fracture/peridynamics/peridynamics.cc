@@ -264,6 +264,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   has_rejected = false;
   dissipated = committed_energy;
   n_messages_before = messages.size();
+  told_of_rim_before = told_of_rim;
   told_of_pressure_before = told_of_pressure;
   told_off_paths_before = told_off_paths;
   n_segments_before = cells.size();
@@ -356,6 +357,7 @@ template <int dim>
 void Peridynamics<dim>::rollback()
 {
   messages.resize(n_messages_before);
+  told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
   told_off_paths = told_off_paths_before;
   dissipated = committed_energy;
@@ -414,7 +416,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_correction << committed_energy
-          << committed_damage_relaxation << told_of_pressure << committed_paths
+          << committed_damage_relaxation << told_of_rim << told_of_pressure << committed_paths
           << committed_way_energy << told_off_paths << committed_cells << told_of_contact;
 }
 
@@ -426,7 +428,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths >>
+    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths >>
     committed_cells >> told_of_contact;
   paths = committed_paths;
   Point<dim> corner;
