@@ -71,6 +71,7 @@ case "${1:-}" in
     build build-debug Debug ON stockwork_program loaded_once unit_tests contract_tests contract_mpi_tests taking_over springs rejecting_model
     begin "quick tests, Debug" "One of them again, with what it says: ctest --test-dir build-debug -R NAME -V"
     # Those with more than ten seconds of it there whose assertions others reach as well are left to Release.
+    # (A line each and no groups in that file: beyond 32 parentheses CMake takes an expression for none.)
     ctest --test-dir build-debug --output-on-failure -j "$cores" -L quick -LE "smoke|house|nightly" \
       -E "^($(paste -s -d '|' tests/slow_in_debug.txt))\$"
     printf '\nAll tests passed.\n' ;;
