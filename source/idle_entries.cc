@@ -49,7 +49,7 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
   const bool somewhere_random = std::any_of(
     declared.begin(), declared.end(),
     [](const DeclaredEntry &entry)
-    { return everywhere(entry.path()) == "Rock/Random field/Properties" && !entry.value.empty(); });
+    { return !entry.value.empty() && everywhere(entry.path()) == "Rock/Random field/Properties"; });
   const bool has_pores = the_case.elements.has_pore_pressure;
   const bool has_inertia = the_case.scheme.kind() == TimeScheme::Kind::newmark;
   using Solver = LinearSolverParameters::Type;

@@ -196,7 +196,8 @@ LeakedShare leaked_share(const Case<2> &the_case, const Pumping &pumping)
   const LinearStiffness<2> stiffness(rock);
   const double eta = rock.biot_coefficient * stiffness.shear_modulus() /
                      (stiffness.bulk_modulus() + stiffness.shear_modulus());
-  // A strip of width w loses w/sqrt(pi c t) + 1 per side (Aoki et al. 1987, of heat or ions).
+  // At early times each side of a strip of width w loses in proportion to w/sqrt(pi c t) + 1 (Aoki
+  // et al. 1987, of ions): the 1 is what flows around its edges.
   const double tips =
     std::sqrt(numbers::PI * pressure_diffusivity(the_case) * pumping.duration) / (4. * length);
   const double more = (1. + tips) / (1. - eta);

@@ -94,7 +94,7 @@ struct LeakedShare
 /// both are the same.
 LeakedShare leaked_share(const Case<2> &the_case, const Pumping &pumping);
 
-/// "about 25 %", or "25 to 41 %".
+/// "about 25 %", or from the least to the most, with what makes the difference.
 std::string in_words(const LeakedShare &share);
 
 /// The plane-strain fracture that the first well drives, in impermeable rock.

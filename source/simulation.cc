@@ -366,8 +366,10 @@ template <int dim>
 void Simulation<dim>::refuse_too_large() const
 {
   const double n_cells = triangulation.n_global_active_cells();
+  CostlyPhysics physics = costly_physics(the_case);
+  physics.memory_per_unknown = 0.; // which a model takes in its part of the mesh alone
   const double needed =
-    estimate_cost(dim, n_cells * unknowns_per_cell(), costly_physics(the_case), run.n_ranks).memory;
+    estimate_cost(dim, n_cells * unknowns_per_cell(), physics, run.n_ranks).memory;
   const double available = physical_memory(run.communicator);
   if (needed > available)
     throw EntryError(

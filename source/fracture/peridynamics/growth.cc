@@ -224,8 +224,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
   if (rim == Rim::stays && std::isnan(scene.crack_pressure))
   {
-    verdict.kind =
-      Verdict::Kind::stop; // what fluid does in a fracture that may not grow is nothing
+    // Fluid that is pumped on would raise the pressure, and nothing else.
+    verdict.kind = Verdict::Kind::stop;
     verdict.reason = "a crack has reached the rim of the peridynamic zone, which has no room to "
                      "grow. Enlarge 'Fracture/peridynamics/Zone', or make the elements around it "
                      "squares";
