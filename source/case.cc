@@ -326,7 +326,7 @@ bool can_audit_energy(const Case<dim> &the_case)
   return !the_case.elements.has_pore_pressure && the_case.in_situ.is_zero() &&
          (the_case.scene.cracks.empty() || the_case.scene.crack_pressure == 0.) &&
          (the_case.scheme.kind() == TimeScheme::Kind::newmark
-            ? !moved
+            ? !moved || the_case.scheme.is_explicit()
             : moved && the_case.boundary_conditions.loads().empty());
 }
 } // namespace

@@ -398,6 +398,8 @@ void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings)
 template <int dim>
 void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case)
 {
+  if (the_case.scheme.is_explicit() && the_case.elements.has_pore_pressure)
+    throw EntryError("Time/Scheme", "explicit", "Newmark with a pore pressure ('Rock/Bulk model')");
   if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
     require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
   if (std::isfinite(the_case.control.error_tolerance) &&

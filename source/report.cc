@@ -130,6 +130,11 @@ void Report<dim>::observe_energy(const State &state,
     energy.work += 0.5 * (control->force(state.committed, index) + energy.load) *
                    (values["load_displacement"] - before);
   }
+  if (const ExplicitMarch<dim> *const march = stepper.explicit_march())
+  {
+    energy.kinetic = march->kinetic_energy();
+    energy.work = march->work_of_step();
+  }
   external_work += energy.work;
   if (stepper.last_context().acceleration > 0.)
     values["kinetic_energy"] = energy.kinetic;

@@ -253,6 +253,7 @@ void Simulation<dim>::start(ParameterHandler &prm)
     stepper.committed.bulk = values;
   }
   the_case.scheme.initialise(stepper.committed);
+  stepper.make_explicit_march();
 }
 
 
@@ -505,6 +506,8 @@ template <int dim>
 void Simulation<dim>::march()
 {
   report.header();
+  if (clock.step == 0)
+    stepper.start(clock.time);
   while (!finished())
   {
     const double target =

@@ -141,6 +141,21 @@ Unknowns CoupledSystem<dim>::start() const
 
 
 template <int dim>
+TrilinosWrappers::MPI::BlockVector CoupledSystem<dim>::residual_at_rest(const double time)
+{
+  StepContext context;
+  context.time = time;
+  context.dt = context.rate = context.pressure_rate = 1.;
+  begin_step(context);
+  const Unknowns at_rest = start();
+  assembly.assemble_linear(context, state(at_rest, at_rest, at_rest, at_rest));
+  auto result = unknowns.owned_vector();
+  copy_owned(result, assembly.linear_system().residual_bulk);
+  return result;
+}
+
+
+template <int dim>
 NonlinearReport CoupledSystem<dim>::pass_as_published(const StepContext &context,
                                                       Unknowns &current,
                                                       const Unknowns &start)

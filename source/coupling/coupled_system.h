@@ -81,6 +81,16 @@ public:
   /// The unknowns at the start of the run, in the present numbering: nothing is open.
   Unknowns start() const;
 
+  /// The residual of the bulk where nothing has moved: less than nothing, what loads it at a time.
+  /// Essential conditions are those of this time from then on. Collective.
+  dealii::TrilinosWrappers::MPI::BlockVector residual_at_rest(double time);
+
+  /// Of the rock in a cell [kg/m^3].
+  double density(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
+  {
+    return scene.rock.at(cell->material_id(), cell->center()).density;
+  }
+
   /// The converged state of a step is accepted.
   void commit(const StepContext &context, const State &state);
 

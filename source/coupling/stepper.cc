@@ -194,8 +194,70 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
 
 
 template <int dim>
+void Stepper<dim>::make_explicit_march()
+{
+  if (march || !scheme.is_explicit())
+    return;
+  ExplicitRock *const rock = model.explicit_rock();
+  if (rock == nullptr)
+    throw EntryError("Time/Scheme", "explicit",
+                     "Newmark, or 'Fracture/Model = peridynamics' with bonds in all of the domain");
+  march = std::make_unique<ExplicitMarch<dim>>(run, system, *rock, scheme.newmark_gamma());
+}
+
+
+template <int dim>
+void Stepper<dim>::start(const double time)
+{
+  if (scheme.starts_in_equilibrium())
+    march->find_equilibrium(time, committed);
+}
+
+
+template <int dim>
+StepReport
+Stepper<dim>::advance_explicitly(const double time, const double dt, const unsigned int step)
+{
+  make_explicit_march();
+  StepReport report;
+  const ExtraNumbering committed_numbering = system.extra_numbering();
+  context = scheme.context(time, dt, step, 0);
+  current = before = committed;
+  model.begin_step(context);
+  network.begin_step(context);
+  report.nonlinear_iterations =
+    march->advance(time, dt, current, scheme.bulk_velocity(), scheme.bulk_acceleration());
+  scheme.references(context, current, rate_reference, acceleration_reference);
+  const State state = last_state();
+  const Verdict verdict = model.advance(context, state, system.collectives());
+  if (verdict.kind == Verdict::Kind::topology_changed)
+    system.renumber_extra(
+      {&current.extra, &before.extra, &rate_reference.extra, &acceleration_reference.extra});
+  commit(state);
+  for (std::vector<double> *history : scheme.extra_history())
+    *history = system.extra_numbering().transfer(committed_numbering, *history, 0.);
+  committed = current;
+  report.dt = dt;
+  report.next_dt = std::min(dt * std::max(1., control.growth), control.maximum_step);
+  return report;
+}
+
+
+template <int dim>
+void Stepper<dim>::commit(const State &state)
+{
+  balance = network.balance(context, state, system.collectives());
+  system.commit(context, state);
+  network.commit(context, state, system.collectives());
+  model_wants_setup = model.commit(context, state);
+}
+
+
+template <int dim>
 StepReport Stepper<dim>::advance(const double time, double dt, const unsigned int step)
 {
+  if (scheme.is_explicit())
+    return advance_explicitly(time, dt, step);
   StepReport report;
   const ExtraNumbering committed_numbering = system.extra_numbering();
   const double first_dt = dt;
@@ -226,11 +288,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
 
     if (accepted)
     {
-      const State state = last_state();
-      balance = network.balance(context, state, system.collectives());
-      system.commit(context, state);
-      network.commit(context, state, system.collectives());
-      model_wants_setup = model.commit(context, state);
+      commit(last_state());
       // The history follows the numbering that has come out of the step.
       for (std::vector<double> *history : scheme.extra_history())
         *history = system.extra_numbering().transfer(committed_numbering, *history, 0.);

@@ -3,6 +3,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include "coupling/coupled_system.h"
+#include "coupling/explicit_march.h"
 #include "coupling/time_scheme.h"
 #include "flow/fluid_balance.h"
 
@@ -59,6 +60,19 @@ public:
   /// or the system is interrupted; the unknowns are then those of the last accepted step.
   StepReport advance(double time, double dt, unsigned int step);
 
+  /// If steps are explicit.
+  /// @throws InputError where the model cannot be moved so
+  void make_explicit_march();
+
+  /// What 'Time/Start' asks for.
+  void start(double time);
+
+  /// Null: steps are not explicit.
+  const ExplicitMarch<dim> *explicit_march() const
+  {
+    return march.get();
+  }
+
   /// The state at the end of the last step, for reports: references are those of that step.
   State last_state() const;
 
@@ -97,6 +111,11 @@ private:
 
   Outcome attempt(StepReport &report, std::string &advice, Verdict &verdict);
 
+  StepReport advance_explicitly(double time, double dt, unsigned int step);
+
+  /// The step is accepted, with `current`.
+  void commit(const State &state);
+
   RunContext &run;
   CoupledSystem<dim> &system;
   FractureModel<dim> &model;
@@ -108,5 +127,6 @@ private:
   Unknowns current, before, rate_reference, acceleration_reference;
   FluidBalance balance;
   bool model_wants_setup = false;
+  std::unique_ptr<ExplicitMarch<dim>> march;
 };
 } // namespace stockwork

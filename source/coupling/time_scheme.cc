@@ -52,11 +52,16 @@ bool has_appeared(const Unknowns &previous, const Unknowns &now)
 void TimeScheme::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Time");
-  prm.declare_entry("Scheme", "auto", Patterns::Selection("auto|backward Euler|BDF2|Newmark"),
+  prm.declare_entry("Scheme", "auto", Patterns::Selection("auto|backward Euler|BDF2|Newmark|explicit"),
                     "auto: Newmark with inertia; BDF2 for consolidation without a fracture; else "
-                    "backward Euler.");
+                    "backward Euler. explicit: Newmark's with beta = 0 and a mass lumped at the "
+                    "nodes, for dry rock all of which is made of bonds; each step is divided into "
+                    "as many as are stable, which takes no matrix.");
   prm.declare_entry("Inertia", "off", Patterns::Selection("off|on"),
                     "Accelerations of rock and fluid together (u-p form).");
+  prm.declare_entry("Start", "at rest", Patterns::Selection("at rest|in equilibrium"),
+                    "in equilibrium: the loads of the start time have been there for long, and the "
+                    "rock has taken them without cracking further; 'Scheme = explicit' only.");
   prm.declare_entry("Newmark beta", "0.25", Quantity(dimension::number, Range::positive()),
                     "Unconditionally stable for 2 beta >= gamma >= 1/2.");
   prm.declare_entry("Newmark gamma", "0.5", Quantity(dimension::number, Range::positive()),
@@ -75,10 +80,14 @@ void TimeScheme::parse_parameters(ParameterHandler &prm, const bool smooth)
   beta = get_quantity(prm, "Newmark beta", dimension::number);
   gamma = get_quantity(prm, "Newmark gamma", dimension::number);
   theta = get_quantity(prm, "Theta", dimension::number);
+  explicit_steps = name == "explicit";
+  in_equilibrium = prm.get("Start") == "in equilibrium";
   const std::string beta_text = prm.get("Newmark beta"), gamma_text = prm.get("Newmark gamma");
   prm.leave_subsection();
 
-  if (name == "Newmark" || (name == "auto" && inertia))
+  if (in_equilibrium && !explicit_steps)
+    throw EntryError("Time/Start", "in equilibrium", "at rest, or 'Time/Scheme = explicit'");
+  if (name == "Newmark" || explicit_steps || (name == "auto" && inertia))
     scheme = Kind::newmark;
   else if (name == "BDF2" || (name == "auto" && smooth))
     scheme = Kind::bdf2;
@@ -87,12 +96,12 @@ void TimeScheme::parse_parameters(ParameterHandler &prm, const bool smooth)
 
   if (inertia != (scheme == Kind::newmark))
     throw EntryError("Time/Scheme", name,
-                     inertia ? "Newmark or auto when Time/Inertia = on"
-                             : "not Newmark when Time/Inertia = off");
+                     inertia ? "Newmark, explicit or auto when Time/Inertia = on"
+                             : "neither Newmark nor explicit when Time/Inertia = off");
   if (scheme == Kind::newmark && !(gamma >= 0.5))
     throw EntryError("Time/Newmark gamma", gamma_text,
                      "at least 1/2 (otherwise the scheme is unstable)");
-  if (scheme == Kind::newmark && !(2. * beta >= gamma))
+  if (scheme == Kind::newmark && !explicit_steps && !(2. * beta >= gamma))
     throw EntryError("Time/Newmark beta", beta_text,
                      "at least half of Newmark gamma, which is " + gamma_text +
                        " (otherwise the scheme is unstable)");
@@ -135,6 +144,8 @@ StepContext TimeScheme::context(const double time,
     const double r = dt / previous_dt;
     context.rate = context.pressure_rate = (1. + 2. * r) / ((1. + r) * dt);
   }
+  else if (explicit_steps)
+    context.acceleration = 1. / (dt * dt);
   else if (scheme == Kind::newmark)
   {
     context.rate = gamma / (beta * dt);
@@ -156,6 +167,12 @@ void TimeScheme::references(const StepContext &context,
     const double r = dt / previous_dt;
     combine(rate_reference, (1. + r) * (1. + r) / (1. + 2. * r), committed, -r * r / (1. + 2. * r),
             previous);
+  }
+  else if (explicit_steps)
+  {
+    // Of the state at the end, for which `committed` stands here.
+    combine(rate_reference, 1., committed, -dt, velocity);
+    combine(acceleration_reference, 1., committed, -dt * dt, acceleration);
   }
   else if (scheme == Kind::newmark)
   {
@@ -197,7 +214,7 @@ void TimeScheme::accept(const StepContext &context,
                         const Unknowns &committed,
                         const Unknowns &current)
 {
-  if (scheme == Kind::newmark)
+  if (scheme == Kind::newmark && !explicit_steps)
   {
     Unknowns rate_reference, acceleration_reference;
     references(context, committed, rate_reference, acceleration_reference);

@@ -10,7 +10,8 @@ namespace stockwork
 ///
 /// Quasi-static: backward Euler, or BDF2 with variable steps (second order; the default for smooth
 /// consolidation). With inertia: Newmark for the displacement and the theta scheme for the
-/// pressure, both collocated at the end of the step.
+/// pressure, both collocated at the end of the step. Explicit: Newmark's with beta = 0, in as many
+/// equal parts of a step as it takes to be stable (ExplicitMarch).
 class TimeScheme
 {
 public:
@@ -65,6 +66,33 @@ public:
     return scheme;
   }
 
+  /// A kind of Newmark's.
+  bool is_explicit() const
+  {
+    return explicit_steps;
+  }
+
+  double newmark_gamma() const
+  {
+    return gamma;
+  }
+
+  /// What an explicit step goes on from, and leaves (Newmark).
+  dealii::TrilinosWrappers::MPI::BlockVector &bulk_velocity()
+  {
+    return velocity.bulk;
+  }
+  dealii::TrilinosWrappers::MPI::BlockVector &bulk_acceleration()
+  {
+    return acceleration.bulk;
+  }
+
+  /// Whether the loads of the start have been there for ever.
+  bool starts_in_equilibrium() const
+  {
+    return in_equilibrium;
+  }
+
   /// Vectors of history that must move with the mesh and into checkpoints.
   std::vector<dealii::TrilinosWrappers::MPI::BlockVector *> bulk_history();
 
@@ -82,6 +110,8 @@ private:
   double beta = 0.25;
   double gamma = 0.5;
   double theta = 0.5;
+  bool explicit_steps = false;
+  bool in_equilibrium = false;
 
   double previous_dt = 0., earlier_dt = 0.;
   unsigned int n_accepted = 0;

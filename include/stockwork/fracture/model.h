@@ -13,6 +13,7 @@
 #include "stockwork/exchange/segment.h"
 #include "stockwork/exchange/sink.h"
 #include "stockwork/exchange/state.h"
+#include "stockwork/fracture/explicit_rock.h"
 #include "stockwork/fracture/kept_terms.h"
 #include "stockwork/fracture/summary.h"
 #include "stockwork/mesh/mesh_view.h"
@@ -152,6 +153,12 @@ public:
   /// Terms that are linear in the bulk unknowns and stay as they are for many solves (bonds that
   /// hold). Null: there are none, ever.
   virtual const KeptTerms *kept_terms() const
+  {
+    return nullptr;
+  }
+
+  /// The rock, where 'Time/Scheme = explicit' asks for it; after setup(). Null: the model cannot.
+  virtual ExplicitRock *explicit_rock()
   {
     return nullptr;
   }

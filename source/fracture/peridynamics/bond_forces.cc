@@ -98,6 +98,7 @@ BondForces<dim>::BondForces(const LatticeBox<dim> &box,
   {
     Pair pair;
     pair.by = strides[b];
+    pair.per_length = 1. / bonds[b].length;
     for (unsigned int d = 0; d < dim; ++d)
     {
       pair.direction[d] = bonds[b].direction[d];
@@ -144,13 +145,21 @@ void BondForces<dim>::for_each_block(const unsigned int margin,
     for (unsigned int y = margin; y < box.size[1] - margin; ++y)
     {
       const std::size_t layer = (dim == 3 ? z + margin : 0);
-      const std::size_t row = (layer * box.size[1] + y) * box.size[0] + margin;
-      unsigned int x = 0;
-      for (; x + sweep_width <= length; x += sweep_width)
-        wide(row + x);
-      for (; x < length; ++x)
-        narrow(row + x);
+      for_each_block_of({(layer * box.size[1] + y) * box.size[0] + margin, length}, wide, narrow);
     }
+}
+
+template <int dim>
+template <typename Wide, typename Narrow>
+void BondForces<dim>::for_each_block_of(const Span &row,
+                                        const Wide &wide,
+                                        const Narrow &narrow) const
+{
+  unsigned int x = 0;
+  for (; x + sweep_width <= row.length; x += sweep_width)
+    wide(row.first + x);
+  for (; x < row.length; ++x)
+    narrow(row.first + x);
 }
 
 // Opposite bonds have opposite directions: what is even in the direction (force of the bond's own
@@ -221,6 +230,73 @@ void BondForces<dim>::sweep(const LatticeField<dim> &u,
   for (unsigned int d = 0; d < dim; ++d)
     for (int r = 0; r < n; ++r)
       store(sum[d][r], force[d].data() + first + r * width);
+}
+
+template <int dim>
+template <typename Value, int n>
+void BondForces<dim>::watch(const LatticeField<dim> &u,
+                            const std::size_t first,
+                            const double limit,
+                            LatticeField<dim> &force,
+                            std::vector<std::size_t> &stretched) const
+{
+  constexpr int width = sizeof(Value) / sizeof(double);
+  std::array<const double *, dim> at;
+  Value own[dim][n], sum[dim][n] = {}, greatest[n] = {};
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    at[d] = u[d].data() + first;
+    for (int r = 0; r < n; ++r)
+      load(own[d][r], at[d] + r * width);
+  }
+  for (const Pair &pair : pairs)
+    for (int r = 0; r < n; ++r)
+    {
+      Value of_ahead = {}, of_behind = {};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double *const here = at[d] + r * width;
+        Value ahead, behind;
+        load(ahead, here + pair.by);
+        load(behind, here - pair.by);
+        of_ahead += pair.direction[d] * (ahead - own[d][r]);
+        of_behind += pair.direction[d] * (own[d][r] - behind);
+      }
+      const Value longer = of_ahead > of_behind ? of_ahead : of_behind,
+                  stretch = pair.per_length * longer;
+      greatest[r] = stretch > greatest[r] ? stretch : greatest[r];
+      for (unsigned int d = 0; d < dim; ++d)
+        sum[d][r] += pair.force[d] * (of_ahead - of_behind);
+    }
+  for (unsigned int d = 0; d < dim; ++d)
+    for (int r = 0; r < n; ++r)
+      store(sum[d][r], force[d].data() + first + r * width);
+  double of_sites[n * width];
+  for (int r = 0; r < n; ++r)
+    store(greatest[r], of_sites + r * width);
+  for (int i = 0; i < n * width; ++i)
+    if (of_sites[i] > limit)
+      stretched.push_back(first + i);
+}
+
+template <int dim>
+void BondForces<dim>::evaluate(const LatticeField<dim> &u,
+                               LatticeField<dim> &force,
+                               const double limit,
+                               std::vector<std::size_t> *const stretched) const
+{
+  if (stretched != nullptr)
+    stretched->clear();
+  for (const Span &row : swept)
+    if (stretched != nullptr)
+      for_each_block_of(
+        row, [&](const std::size_t site)
+        { watch<Lanes, n_registers>(u, site, limit, force, *stretched); },
+        [&](const std::size_t site) { watch<double, 1>(u, site, limit, force, *stretched); });
+    else
+      for_each_block_of(
+        row, [&](const std::size_t site) { sweep<Lanes, n_registers>(u, site, force); },
+        [&](const std::size_t site) { sweep<double, 1>(u, site, force); });
 }
 
 template <int dim>

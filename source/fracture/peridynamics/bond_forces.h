@@ -51,6 +51,26 @@ public:
   /// The force on each site [N]; in 2-D per metre of thickness.
   void evaluate(const LatticeField<dim> &u, const BrokenBonds &broken, LatticeField<dim> &force);
 
+  /// Sites in a row, in the direction of x.
+  struct Span
+  {
+    std::size_t first;
+    unsigned int length;
+  };
+
+  /// From now on, evaluate() is for these sites, all of them inside the margin.
+  void sweep_only(const std::vector<Span> &spans)
+  {
+    swept = spans;
+  }
+
+  /// The force on each site, all bonds whole; bond-based.
+  /// @param stretched becomes the sites that have a bond stretched beyond @p limit; may be null
+  void evaluate(const LatticeField<dim> &u,
+                LatticeField<dim> &force,
+                double limit,
+                std::vector<std::size_t> *stretched) const;
+
   /// Stretch of a bond, which must not leave the box.
   double stretch(const LatticeField<dim> &u, const std::size_t site, const unsigned int bond) const;
 
@@ -62,6 +82,7 @@ private:
     std::array<double, dim> direction;  ///< e
     std::array<double, dim> force;      ///< k e
     std::array<double, dim> dilatation; ///< g e
+    double per_length;                  ///< 1/|xi|
   };
 
   LatticeBox<dim> box;
@@ -72,6 +93,7 @@ private:
   double dilatation_stiffness; ///< A V
   unsigned int reach;
   std::vector<double> dilatation; ///< theta of each site, if state-based
+  std::vector<Span> swept;
 
   double elongation(const LatticeField<dim> &u, const std::size_t site, const unsigned int b) const;
   void compute_dilatation(const LatticeField<dim> &u, const BrokenBonds &broken);
@@ -81,8 +103,19 @@ private:
   template <typename Value, int n>
   void sweep(const LatticeField<dim> &u, const std::size_t first, LatticeField<dim> &force) const;
 
+  /// As sweep(), and which sites have a bond beyond the limit.
+  template <typename Value, int n>
+  void watch(const LatticeField<dim> &u,
+             const std::size_t first,
+             const double limit,
+             LatticeField<dim> &force,
+             std::vector<std::size_t> &stretched) const;
+
   /// Call @p wide(site) for blocks of sites and @p narrow(site) for what is left of a row.
   template <typename Wide, typename Narrow>
   void for_each_block(const unsigned int margin, const Wide &wide, const Narrow &narrow) const;
+
+  template <typename Wide, typename Narrow>
+  void for_each_block_of(const Span &row, const Wide &wide, const Narrow &narrow) const;
 };
 } // namespace stockwork::peridynamics

@@ -43,7 +43,8 @@ public:
 
   bool can_break(const unsigned int site, const unsigned int bond) const
   {
-    return zone->sites()[zone->far_end(site, bond).site].peridynamic;
+    const FarEnd end = zone->far_end(site, bond);
+    return !end.absent && zone->sites()[end.site].peridynamic;
   }
 
   /// Call `use(site, bond)` for the bond as it is seen from all its ends.

@@ -130,10 +130,20 @@ void Peridynamics<dim>::for_each_dilatation(
 
 
 template <int dim>
+double Peridynamics<dim>::whole_stiffness(const unsigned int site, const unsigned int bond) const
+{
+  const FarEnd far = zone.far_end(site, bond);
+  return far.absent ? 0.
+                    : zone.sites()[site].volume * zone.sites()[far.site].volume *
+                        coefficients[bond].stiffness;
+}
+
+
+template <int dim>
 double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int bond) const
 {
   const unsigned int far = zone.far_end(site, bond).site;
-  const double whole = coefficients[bond].stiffness;
+  const double whole = whole_stiffness(site, bond);
   if (bonds.is_broken(site, bond))
     return is_nearly_detached(std::max(damage[site], damage[far])) ? remaining_share * whole : 0.;
   if (!parameters.surface_correction)
@@ -269,6 +279,7 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;                      \
   template void Peridynamics<dim>::add_couplings(const Coupling &) const;                          \
   template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;                  \
+  template double Peridynamics<dim>::whole_stiffness(unsigned int, unsigned int) const;            \
   template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;             \
   template double Peridynamics<dim>::dilatation_factor(unsigned int) const;                        \
   template void Peridynamics<dim>::for_each_dilatation(                                            \

@@ -146,7 +146,7 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
   const unsigned int half = stencil.size() / 2;
   const auto consider = [&](const unsigned int i, const unsigned int b)
   {
-    if (bonds.is_broken(i, b))
+    if (bonds.is_broken(i, b) || never_breaks(i, b))
       return;
     const bool breakable = bonds.can_break(i, b);
     if (b >= half && breakable && zone.far_end(i, b).mirrored == 0)
@@ -213,6 +213,12 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                                    const Collectives &collectives)
 {
   Verdict verdict;
+  if (parameters.explicit_steps)
+  {
+    if (parameters.growth && follow_explicit_bonds(collectives))
+      verdict.kind = Verdict::Kind::topology_changed;
+    return verdict;
+  }
   if (parameters.growth || parameters.written != Parameters<dim>::Bonds::none)
     displacement = zone.displacement(state.current.bulk, collectives);
   if (!parameters.growth)

@@ -46,6 +46,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Zone", "", Patterns::Anything(),
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
+  prm.declare_entry("Unbreakable", "", Patterns::Anything(),
+                    "Boxes none of whose nodes has a bond that breaks, such as beside grips and "
+                    "impacts: '(0, -8 mm) to (32 mm, -7 mm); …' [m].");
   prm.declare_entry(
     "Zone growth", default_zone_growth, Patterns::Integer(0),
     "Cells by which the zone is enlarged ahead of a fracture when less than the "
@@ -127,14 +130,15 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
 
 namespace
 {
-bool has_inertia(dealii::ParameterHandler &prm)
+/// An entry of subsection Time.
+std::string entry_of_time(dealii::ParameterHandler &prm, const std::string &entry)
 {
   prm.leave_subsection();
   prm.leave_subsection();
-  const bool inertia = value_of(prm, {"Time"}, "Inertia") == "on";
+  const std::string value = value_of(prm, {"Time"}, entry);
   prm.enter_subsection("Fracture");
   prm.enter_subsection("peridynamics");
-  return inertia;
+  return value;
 }
 
 
@@ -179,7 +183,7 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {false, "the fluid is in the pores' elements"};
   if (!p.effective_stretch)
     return {false, "the critical stretch is that of dry rock"};
-  if (has_inertia(prm))
+  if (entry_of_time(prm, "Inertia") == "on")
     return {false, "with inertia fractures may fork"};
   if (const std::string closure = prm.get("Closure"); closure != "auto" && closure != "in bonds")
     return {false, "the closure is another"};
@@ -223,6 +227,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
                           " cells: every bond that a crack cuts joins two peridynamic nodes");
   for (const auto &labelled : parse_boxes<dim>(prm.get("Zone")))
     p.boxes.push_back(labelled.box);
+  for (const auto &labelled : parse_boxes<dim>(prm.get("Unbreakable")))
+    p.unbreakable.push_back(labelled.box);
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.zone_growth = p.cell_size > 0. ? prm.get_integer("Zone growth") : 0;
   p.cell_growth = prm.get_double("Cell growth");
@@ -275,6 +281,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.friction > 0. && (dim != 2 || !p.in_bonds))
     throw bad("Friction coefficient",
               dim != 2 ? "0 in three dimensions" : "0, or 'Closure = in bonds'");
+  p.explicit_steps = entry_of_time(prm, "Scheme") == "explicit";
+  p.free_boundaries = !p.state_based && scene.crack_pressure == 0.;
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   if (p.softening > 1. && prm.get("Bonds per pass") != default_bonds_per_pass)

@@ -21,6 +21,7 @@ struct Parameters
   VolumeRule volumes;                          ///< of the cells that the horizon cuts
   double margin;                               ///< of the zone around the initial cracks, in cells
   std::vector<dealii::BoundingBox<dim>> boxes; ///< more of the zone
+  std::vector<dealii::BoundingBox<dim>> unbreakable; ///< where no bond breaks
   double cell_size;                            ///< wanted in the zone [m]; zero: as the mesh is
   unsigned int zone_growth;                    ///< in cells, at once; zero: the zone stays
   double cell_growth;                          ///< size over distance outside the zone
@@ -33,6 +34,8 @@ struct Parameters
   bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
   double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
   double friction = 0.;         ///< coefficient, of faces that touch
+  bool explicit_steps;    ///< 'Time/Scheme = explicit'
+  bool free_boundaries;   ///< the zone may reach to the boundary of the domain, which is dry
   bool growth;
   bool tracked;                               ///< bonds soften across the ways of cracks only
   std::map<std::string, std::string> reasons; ///< why what is 'auto' is what it is, by entry

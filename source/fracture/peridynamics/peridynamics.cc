@@ -122,7 +122,15 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
 {
   rank = collectives.rank();
   n_nodes = mesh_view.dof_handler.n_dofs() / mesh_view.dof_handler.get_fe().dofs_per_vertex;
-  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, mesh_view, collectives);
+  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based,
+             parameters.free_boundaries, mesh_view, collectives);
+  unbreakable.clear();
+  if (!parameters.unbreakable.empty())
+    for (const Site<dim> &site : zone.sites())
+      unbreakable.push_back(std::any_of(
+        parameters.unbreakable.begin(), parameters.unbreakable.end(),
+        [&](const auto &box)
+        { return box.point_inside(zone.position(site.place), same_place * zone.spacing()); }));
   regions.clear();
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     regions.push_back(cell->material_id());
@@ -160,13 +168,15 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
       set_initial_normals();
     if (parameters.surface_correction)
       for (const unsigned int i : zone.peridynamic_sites())
-        if (const double gone = bonds.damage(i); gone > 0.)
+        if (const double gone = bonds.damage(i) + zone.absent_share(i, stencil); gone > 0.)
           committed_correction[zone.sites()[i].place] = gone;
     started = true;
   }
   row_versions.restart(zone.sites().size());
   paths_crossed = TrackedPaths(); // by other sites
   refresh_segments();
+  if (parameters.explicit_steps)
+    make_explicit_bonds(mesh_view);
 }
 
 
@@ -330,7 +340,7 @@ void Peridynamics<dim>::correct_faces()
   // With the pressure in the bonds faces are those of a crack without load in rock under a uniform
   // stress: free of stress across them and, but near the tips, along them. Bonds that are left
   // there do nothing, and stiffer ones would oppose the strain of the pressure.
-  if (!parameters.surface_correction || parameters.in_bonds)
+  if (!parameters.surface_correction || parameters.in_bonds || parameters.explicit_steps)
     return;
   const auto is_relaxed = [&](const unsigned int site)
   {

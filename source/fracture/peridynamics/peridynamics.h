@@ -2,6 +2,7 @@
 
 #include "fracture/peridynamics/bond_set.h"
 #include "fracture/peridynamics/crossed_cells.h"
+#include "fracture/peridynamics/explicit_bonds.h"
 #include "fracture/peridynamics/faces.h"
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
@@ -37,7 +38,12 @@ public:
 
   const KeptTerms *kept_terms() const override
   {
-    return this;
+    return parameters.explicit_steps ? nullptr : this;
+  }
+
+  ExplicitRock *explicit_rock() override
+  {
+    return explicit_bonds.get();
   }
 
   void assemble(const StepContext &context, const State &state, Sink &sink) const override;
@@ -83,6 +89,13 @@ private:
   void add_couplings(const Coupling &couple) const override;
   void
   assemble(const StepContext &context, const dealii::IndexSet &rows, Sink &sink) const override;
+
+  /// A bond of a site in 'Unbreakable'.
+  bool never_breaks(unsigned int site, unsigned int bond) const
+  {
+    return !unbreakable.empty() &&
+           (unbreakable[site] || unbreakable[zone.far_end(site, bond).site]);
+  }
 
   /// Break the bonds that the initial open cracks pass through.
   void cut_initial_cracks();
@@ -352,6 +365,15 @@ private:
 
   void write_bonds(FieldSink<dim> &sink) const;
 
+  // By explicit steps (explicit_steps.cc).
+
+  /// @throws InputError where not all of the rock is bonds
+  void make_explicit_bonds(const MeshView<dim> &mesh_view);
+
+  /// Bonds are what they have become.
+  /// @return whether the fracture has grown
+  bool follow_explicit_bonds(const Collectives &collectives);
+
   /// The bonds of cells of this size [m].
   void set_law(double spacing);
 
@@ -399,6 +421,9 @@ private:
   /// little of the broken ones.
   double stiffness(unsigned int site, unsigned int bond) const;
 
+  /// That of a bond of the lattice, by what of both ends' volumes is rock [N/m].
+  double whole_stiffness(unsigned int site, unsigned int bond) const;
+
   /// Of the bonds under displacements of all sites [J/m]: half of that of a bond belongs to each of
   /// its ends, and counts if the end is peridynamic.
   double strain_energy(const std::vector<double> &u) const;
@@ -442,6 +467,7 @@ private:
   BondSet<dim> bonds;                         ///< broken ones
   BondSet<dim> cracked;                       ///< broken ones and those that have begun to soften
   std::vector<SofteningBond> softening_bonds; ///< sorted by view
+  std::vector<bool> unbreakable;              ///< sites; empty: none
   std::vector<double> damage;                 ///< of all sites
   std::vector<unsigned int> n_broken;         ///< bonds of all sites
   std::vector<double> corrected_damage;       ///< what the surface correction, if any, makes up for
@@ -465,6 +491,8 @@ private:
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;
   RowVersions row_versions; ///< by whole bonds and cells' normals
+  std::unique_ptr<ExplicitBonds<dim>> explicit_bonds; ///< null: steps are not explicit
+  double energy_before_explicit = 0.; ///< dissipated before they were made [J/m]
 
   // Committed.
   std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;

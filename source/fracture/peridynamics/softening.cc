@@ -58,7 +58,7 @@ double Peridynamics<dim>::energy_at_unit_stretch(const BondView &view) const
 {
   double energy = 0.;
   for (const auto &[s, b] : views_of(view.first, view.second))
-    energy += 0.25 * zone.sites()[s].share * coefficients[b].stiffness * coefficients[b].length *
+    energy += 0.25 * zone.sites()[s].share * whole_stiffness(s, b) * coefficients[b].length *
               coefficients[b].length;
   return energy_over_spring * energy;
 }
@@ -70,8 +70,10 @@ double Peridynamics<dim>::equivalent_stretch(const unsigned int site,
                                              const unsigned int bond,
                                              const double elongation) const
 {
-  return std::sqrt(stiffness(site, bond) / coefficients[bond].stiffness) * elongation /
-         coefficients[bond].length;
+  const double whole = whole_stiffness(site, bond);
+  return whole > 0.
+           ? std::sqrt(stiffness(site, bond) / whole) * elongation / coefficients[bond].length
+           : 0.;
 }
 
 
@@ -79,6 +81,8 @@ template <int dim>
 std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
 {
   std::vector<ExtraUnknown> unknowns;
+  if (parameters.explicit_steps)
+    return unknowns;
   for (const SofteningBond &bond : softening_bonds)
   {
     const auto [from, to] = bonds.places(bond.view.first, bond.view.second);

@@ -121,6 +121,38 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil, cons
 
 
 template <int dim>
+void Zone<dim>::find_volumes()
+{
+  for (Site<dim> &site : all_sites)
+  {
+    site.volume = 1.;
+    const Point<dim> x = position(site.place);
+    for (unsigned int d = 0; d < dim && has_free_boundaries && site.peridynamic; ++d)
+      for (const unsigned int side : {0u, 1u})
+        if (mirrors[d][side] == no_mirror &&
+            std::abs(x[d] - (side == 0 ? domain.lower_bound(d) : domain.upper_bound(d))) <
+              same_place * h)
+          site.volume *= 0.5;
+  }
+}
+
+
+template <int dim>
+double Zone<dim>::absent_share(const unsigned int site,
+                               const std::vector<StencilBond<dim>> &stencil) const
+{
+  double gone = 0., all = 0.;
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+  {
+    const FarEnd end = far_end(site, b);
+    all += stencil[b].volume_fraction;
+    gone += stencil[b].volume_fraction * (end.absent ? 1. : 1. - all_sites[end.site].volume);
+  }
+  return gone / all;
+}
+
+
+template <int dim>
 void Zone<dim>::find_far_ends_of(const unsigned int i, const std::vector<StencilBond<dim>> &stencil)
 {
   const Site<dim> &site = all_sites[i];
@@ -154,6 +186,11 @@ void Zone<dim>::find_far_ends_of(const unsigned int i, const std::vector<Stencil
       for (unsigned int d = 0; d < dim; ++d)
         outside |= far[d] < domain.lower_bound(d) - same_place * h ||
                    far[d] > domain.upper_bound(d) + same_place * h;
+      if (outside && has_free_boundaries)
+      {
+        far_ends.push_back({i, 0, true});
+        continue;
+      }
       std::ostringstream message;
       message << "The horizon of the peridynamic node at (" << position(site.place) << ") m ";
       if (outside)
@@ -176,10 +213,12 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
                       const double spacing,
                       const std::vector<StencilBond<dim>> &stencil,
                       const bool with_rim,
+                      const bool free_boundaries,
                       const MeshView<dim> &mesh_view,
                       const Collectives &collectives)
 {
   rank = collectives.rank();
+  has_free_boundaries = free_boundaries;
   int reach = 0;
   for (const StencilBond<dim> &bond : stencil)
     for (unsigned int d = 0; d < dim; ++d)
@@ -193,6 +232,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
   gather_sites(shape, with_rim ? 2 * reach : reach, mesh_view, collectives);
   for (Site<dim> &site : all_sites)
     site.peridynamic = shape.contains(position(site.place), h);
+  find_volumes();
   find_far_ends(stencil, with_rim);
 
   patterns.assign(1u << (1u << dim), std::vector<bool>(1 << dim, false));

@@ -55,6 +55,7 @@ struct Site
   unsigned int owner = 0;   ///< the rank that gives its values; of a peridynamic site, of its rows
   bool peridynamic = false; ///< its momentum rows are bonds'
   double share = 1.;        ///< of its cell that lies in the domain: a half on a plane of symmetry
+  double volume = 1.;       ///< of its cell and its images that is rock: a half on a free boundary
 
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
@@ -65,10 +66,12 @@ struct Site
 
 /// The far end of a bond. Beyond a plane of symmetry (a roller boundary) it is the image of a site
 /// of the domain, with the components of displacement in `mirrored` reversed.
+/// Beyond a free boundary there is none: the bond is absent, and leads back to its own site.
 struct FarEnd
 {
   unsigned int site;
   unsigned char mirrored = 0; ///< bit d: reflected in direction d
+  bool absent = false;
 };
 
 /// The lattice: vertices of the cells that are uniform in and around the zone, and which of them
@@ -82,12 +85,14 @@ public:
 
   /// @param spacing [m]; zero: the edge of the smallest cell in the zone
   /// @param with_rim whether the bonds of sites count that a bond leads to from the zone
-  /// @throws InputError where cells in the zone differ, or a horizon leaves the domain through a
-  /// boundary that is not a plane of symmetry
+  /// @param free_boundaries whether a horizon may leave the domain through a boundary that is not a
+  /// plane of symmetry, where bonds are absent then
+  /// @throws InputError where cells in the zone differ, or a horizon leaves the domain and may not
   void setup(const ZoneShape<dim> &shape,
              double spacing,
              const std::vector<StencilBond<dim>> &stencil,
              const bool with_rim,
+             const bool free_boundaries,
              const MeshView<dim> &mesh_view,
              const Collectives &collectives);
 
@@ -151,6 +156,9 @@ public:
     return far_ends[first_far_end[site] + bond];
   }
 
+  /// Of the bonds of a peridynamic site, the share by volume that is beyond free boundaries.
+  double absent_share(const unsigned int site, const std::vector<StencilBond<dim>> &stencil) const;
+
   /// Planes of symmetry that a site lies on: bit d, one normal to direction d.
   unsigned int planes_of(const unsigned int site) const;
 
@@ -201,6 +209,7 @@ private:
                  unsigned int reach,
                  const MeshView<dim> &,
                  const Collectives &);
+  void find_volumes();
   void find_far_ends(const std::vector<StencilBond<dim>> &stencil, const bool with_rim);
   void find_far_ends_of(const unsigned int site, const std::vector<StencilBond<dim>> &stencil);
 
@@ -222,6 +231,7 @@ private:
   std::array<std::array<int, 2>, dim> mirrors;
   dealii::BoundingBox<dim> domain, largest;
   unsigned int rank = 0;
+  bool has_free_boundaries = false;
 };
 
 

@@ -252,10 +252,11 @@ void Zone<dim>::find_room(const Point<dim> &first,
                           const MeshView<dim> &mesh_view,
                           const Collectives &collectives)
 {
+  const double rim = has_free_boundaries ? 0. : reach * h;
   std::array<std::array<double, 2>, dim> bound;
   for (unsigned int d = 0; d < dim; ++d)
-    bound[d] = {{domain.lower_bound(d) + (mirrors[d][0] == no_mirror ? reach * h : 0.),
-                 domain.upper_bound(d) - (mirrors[d][1] == no_mirror ? reach * h : 0.)}};
+    bound[d] = {{domain.lower_bound(d) + (mirrors[d][0] == no_mirror ? rim : 0.),
+                 domain.upper_bound(d) - (mirrors[d][1] == no_mirror ? rim : 0.)}};
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {

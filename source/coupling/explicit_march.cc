@@ -1,0 +1,272 @@
+#include "coupling/explicit_march.h"
+
+#include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/precondition.h>
+#include <deal.II/lac/solver_cg.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork
+{
+using namespace dealii;
+
+namespace
+{
+/// Of the longest step that is stable. The bound of the frequency is safe already.
+constexpr double share_of_stable_step = 0.95;
+/// Of the residual of the loads, in equilibrium.
+constexpr double equilibrium_tolerance = 1e-8;
+} // namespace
+
+
+template <int dim>
+ExplicitMarch<dim>::ExplicitMarch(RunContext &run,
+                                  CoupledSystem<dim> &system,
+                                  ExplicitRock &rock,
+                                  const double gamma)
+  : run(run)
+  , system(system)
+  , rock(rock)
+  , gamma(gamma)
+{
+}
+
+
+template <int dim>
+void ExplicitMarch<dim>::take(const BlockVector &from, Vector &to) const
+{
+  const double *const values = from.block(0).trilinos_vector()[0]; // own ones come first
+  std::copy(values, values + to.locally_owned_size(), to.begin());
+}
+
+
+template <int dim>
+void ExplicitMarch<dim>::give_back(const Vector &from, BlockVector &to) const
+{
+  BlockVector owned = system.owned_vector();
+  std::copy(from.begin(), from.begin() + from.locally_owned_size(),
+            owned.block(0).trilinos_vector()[0]);
+  to = owned;
+}
+
+
+template <int dim>
+void ExplicitMarch<dim>::find_masses()
+{
+  const MeshView<dim> mesh = system.mesh_view();
+  const auto &element = mesh.dof_handler.get_fe();
+  FEValues<dim> values(mesh.mapping, element, QGauss<dim>(element.degree + 1),
+                       update_values | update_JxW_values);
+  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  mass = 0.;
+  for (const auto &cell : mesh.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      values.reinit(cell);
+      cell->get_dof_indices(dofs);
+      const double density = system.density(cell);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+          mass(dofs[i]) += density * values.shape_value(i, q) * values.JxW(q);
+    }
+  mass.compress(VectorOperation::add);
+}
+
+
+template <int dim>
+void ExplicitMarch<dim>::set_up()
+{
+  if (is_set_up)
+    return;
+  is_set_up = true;
+  const MeshView<dim> mesh = system.mesh_view();
+  IndexSet seen = rock.seen();
+  IndexSet of_cells;
+  DoFTools::extract_locally_relevant_dofs(mesh.dof_handler, of_cells);
+  seen.add_indices(of_cells);
+  for (Vector *vector : {&mass, &u, &v, &a, &force})
+    vector->reinit(mesh.dof_handler.locally_owned_dofs(), seen, run.communicator);
+  rock.set_layout(u);
+  find_masses();
+
+  for (const auto i : mesh.dof_handler.locally_owned_dofs())
+    if (mesh.constraints.is_constrained(i))
+      held.push_back(u.get_partitioner()->global_to_local(i));
+
+  Vector sums(u);
+  rock.add_row_sums(sums);
+  double greatest = 0.;
+  std::vector<bool> is_held(u.locally_owned_size(), false);
+  for (const unsigned int i : held)
+    is_held[i] = true;
+  for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+    if (!is_held[i])
+      greatest = std::max(greatest, sums.local_element(i) / mass.local_element(i));
+  greatest = system.collectives().max(greatest);
+  longest_step = share_of_stable_step * std::sqrt(2. / gamma / greatest);
+  run.out << "Explicit steps of at most " << to_string(longest_step, dimension::time) << std::endl;
+}
+
+
+template <int dim>
+void ExplicitMarch<dim>::look_at_boundary(const double time)
+{
+  const BlockVector residual = system.residual_at_rest(time);
+  BlockVector values = system.owned_vector();
+  system.make_conforming(values);
+  const double *const at_rest = residual.block(0).trilinos_vector()[0];
+  loads.resize(u.locally_owned_size());
+  for (unsigned int i = 0; i < loads.size(); ++i)
+    loads[i] = -at_rest[i];
+  prescribed.clear();
+  for (const unsigned int i : held)
+    prescribed.push_back(values.block(0).trilinos_vector()[0][i]);
+}
+
+
+template <int dim>
+void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
+{
+  const auto scope = run.timers.scope("equilibrium");
+  set_up();
+  look_at_boundary(time);
+  u = 0.;
+  for (unsigned int k = 0; k < held.size(); ++k)
+    u.local_element(held[k]) = prescribed[k];
+  u.update_ghost_values();
+  rock.forces(u, false, force);
+  Vector right_side(u), change(u);
+  right_side.zero_out_ghost_values();
+  for (unsigned int i = 0; i < loads.size(); ++i)
+    right_side.local_element(i) = force.local_element(i) + loads[i];
+  for (const unsigned int i : held)
+    right_side.local_element(i) = 0.;
+
+  struct Stiffness
+  {
+    void vmult(Vector &result, const Vector &x) const
+    {
+      x.update_ghost_values();
+      rock.forces(x, false, result);
+      x.zero_out_ghost_values();
+      for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
+        result.local_element(i) = -result.local_element(i);
+      for (const unsigned int i : held)
+        result.local_element(i) = 0.;
+    }
+    ExplicitRock &rock;
+    const std::vector<unsigned int> &held;
+  };
+  change = 0.;
+  const double size = right_side.l2_norm();
+  if (size > 0.)
+  {
+    SolverControl control(20 * static_cast<unsigned int>(std::pow(u.size(), 1. / dim)) + 1000,
+                          equilibrium_tolerance * size);
+    try
+    {
+      SolverCG<Vector>(control).solve(Stiffness{rock, held}, change, right_side,
+                                      PreconditionIdentity());
+    }
+    catch (const SolverControl::NoConvergence &)
+    {
+      throw SolveError("The rock finds no equilibrium under the loads at the start: is it held on "
+                       "all sides that they push it to ('Boundary conditions')?");
+    }
+    run.out << "Equilibrium at the start: " << control.last_step() << " iterations" << std::endl;
+  }
+  u.zero_out_ghost_values();
+  u += change;
+  u.update_ghost_values();
+  rock.forces(u, false, force);
+  double stored = 0.;
+  for (unsigned int i = 0; i < loads.size(); ++i)
+    stored -= 0.5 * u.local_element(i) * force.local_element(i);
+  work_before = system.collectives().sum(stored);
+  give_back(u, unknowns.bulk);
+}
+
+
+template <int dim>
+unsigned int ExplicitMarch<dim>::advance(const double time,
+                                         const double dt,
+                                         Unknowns &unknowns,
+                                         BlockVector &velocity,
+                                         BlockVector &acceleration)
+{
+  set_up();
+  look_at_boundary(time);
+  const std::vector<double> loads_before = loads, prescribed_before = prescribed;
+  look_at_boundary(time + dt);
+  u.zero_out_ghost_values();
+  take(unknowns.bulk, u);
+  take(velocity, v);
+
+  const auto scope = run.timers.scope("explicit steps");
+  const unsigned int n_parts = std::max(1, static_cast<int>(std::ceil(dt / longest_step - 1e-9)));
+  const double h = dt / n_parts;
+  const unsigned int n = u.locally_owned_size();
+  u.update_ghost_values();
+  rock.forces(u, false, force);
+  for (unsigned int i = 0; i < n; ++i)
+    a.local_element(i) = (force.local_element(i) + loads_before[i]) / mass.local_element(i);
+  // Unknowns that are held follow the boundary, and no mass of theirs moves.
+  for (const unsigned int i : held)
+    v.local_element(i) = a.local_element(i) = 0.;
+  double done = 0.;
+  std::vector<double> held_force(held.size());
+  for (unsigned int part = 0; part < n_parts; ++part)
+  {
+    const double s = static_cast<double>(part) / n_parts, t = static_cast<double>(part + 1) / n_parts;
+    u.zero_out_ghost_values();
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const double du = h * (v.local_element(i) + 0.5 * h * a.local_element(i));
+      u.local_element(i) += du;
+      done += 0.5 * du * ((2. - s - t) * loads_before[i] + (s + t) * loads[i]);
+    }
+    for (unsigned int k = 0; k < held.size(); ++k)
+    {
+      held_force[k] = force.local_element(held[k]);
+      u.local_element(held[k]) = (1. - t) * prescribed_before[k] + t * prescribed[k];
+    }
+    u.update_ghost_values();
+    rock.forces(u, true, force);
+    for (unsigned int k = 0; k < held.size(); ++k)
+      done -= 0.5 * (held_force[k] + force.local_element(held[k])) *
+              (prescribed[k] - prescribed_before[k]) / n_parts;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const double now = (force.local_element(i) + (1. - t) * loads_before[i] + t * loads[i]) /
+                         mass.local_element(i);
+      v.local_element(i) += h * ((1. - gamma) * a.local_element(i) + gamma * now);
+      a.local_element(i) = now;
+    }
+    for (const unsigned int i : held)
+      v.local_element(i) = a.local_element(i) = 0.;
+  }
+  u.zero_out_ghost_values();
+  double moving = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+    moving += 0.5 * mass.local_element(i) * v.local_element(i) * v.local_element(i);
+  kinetic = system.collectives().sum(moving);
+  work = system.collectives().sum(done) + work_before;
+  work_before = 0.;
+  if (!std::isfinite(kinetic))
+    throw SolveError("explicit steps have run out of bounds");
+  give_back(u, unknowns.bulk);
+  give_back(v, velocity);
+  give_back(a, acceleration);
+  return n_parts;
+}
+
+
+template class ExplicitMarch<2>;
+template class ExplicitMarch<3>;
+} // namespace stockwork

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "coupling/coupled_system.h"
+#include "coupling/time_scheme.h"
+
+namespace stockwork
+{
+/// Moves rock by explicit steps, Newmark's scheme with beta = 0 (Newmark 1959; with gamma = 1/2
+/// that of central differences):
+///
+///   u_1 = u_0 + h v_0 + h^2/2 a_0 ,   M a_1 = f(u_1) + loads ,   v_1 = v_0 + h ((1-gamma) a_0 + gamma a_1)
+///
+/// with the mass M lumped at the nodes. Stable for h omega < sqrt(2/gamma) (Hughes 1987, sec. 9.1).
+template <int dim>
+class ExplicitMarch
+{
+public:
+  ExplicitMarch(RunContext &run, CoupledSystem<dim> &system, ExplicitRock &rock, double gamma);
+
+  /// The displacement at which the rock holds the loads of a time, and nothing breaks.
+  /// @throws SolveError
+  void find_equilibrium(double time, Unknowns &unknowns);
+
+  /// Go on by a step, in equal parts that are stable. Collective.
+  /// @return how many parts
+  unsigned int advance(double time,
+                       double dt,
+                       Unknowns &unknowns,
+                       dealii::TrilinosWrappers::MPI::BlockVector &velocity,
+                       dealii::TrilinosWrappers::MPI::BlockVector &acceleration);
+
+  /// 1/2 v.Mv at the end of the last step [J; J/m in 2-D].
+  double kinetic_energy() const
+  {
+    return kinetic;
+  }
+
+  /// Of loads and of what moves the boundary, in the last step; in the first one also what it took
+  /// to reach equilibrium, slowly [J; J/m].
+  double work_of_step() const
+  {
+    return work;
+  }
+
+private:
+  using Vector = ExplicitRock::Vector;
+  using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
+
+  /// Layout, masses, and the longest step that is stable.
+  void set_up();
+  void find_masses();
+
+  /// What the boundary prescribes at a time, and the loads then.
+  void look_at_boundary(double time);
+
+  void take(const BlockVector &from, Vector &to) const;
+  void give_back(const Vector &from, BlockVector &to) const;
+
+  RunContext &run;
+  CoupledSystem<dim> &system;
+  ExplicitRock &rock;
+  const double gamma;
+
+  bool is_set_up = false;
+  double longest_step = 0.; ///< [s]
+  Vector mass, u, v, a, force;
+  std::vector<unsigned int> held;   ///< own unknowns that are prescribed, by local number
+  std::vector<double> prescribed;   ///< their values at the time looked at last
+  std::vector<double> loads;        ///< of all own unknowns, likewise [N]
+  double kinetic = 0., work = 0., work_before = 0.;
+};
+} // namespace stockwork

@@ -1,0 +1,265 @@
+#include "fracture/peridynamics/explicit_bonds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::peridynamics
+{
+namespace
+{
+constexpr unsigned int unlisted = dealii::numbers::invalid_unsigned_int;
+} // namespace
+
+
+template <int dim>
+ExplicitBonds<dim>::ExplicitBonds(
+  const Zone<dim> &zone,
+  const std::vector<StencilBond<dim>> &stencil,
+  const BondLaw &law,
+  const SofteningLaw &softening,
+  const std::function<Bond(unsigned int site, unsigned int bond)> &bond,
+  const unsigned int rank)
+  : zone(zone)
+  , stencil(stencil)
+  , softening(softening)
+  , coefficients(bond_coefficients<dim>(stencil, law, zone.spacing()))
+  , rank(rank)
+{
+  find_box();
+  find_sources();
+  kernel = std::make_unique<BondForces<dim>>(box, stencil, law, zone.spacing());
+  find_spans();
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+  {
+    std::vector<Bond> bonds;
+    bool whole = true;
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+    {
+      bonds.push_back(bond(own_sites[k], b));
+      whole = whole && bonds.back().stiffness == coefficients[b].stiffness &&
+              bonds.back().amplification == 1. && bonds.back().greatest == 0.;
+    }
+    if (whole)
+      continue;
+    list(k);
+    listed.back().bonds = bonds;
+  }
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::find_box()
+{
+  int reach = 0;
+  for (const StencilBond<dim> &bond : stencil)
+    for (unsigned int d = 0; d < dim; ++d)
+      reach = std::max(reach, std::abs(bond.offset[d]));
+  Place<dim> upper;
+  corner.fill(std::numeric_limits<int>::max());
+  upper.fill(std::numeric_limits<int>::lowest());
+  for (const unsigned int i : zone.peridynamic_sites())
+    if (zone.sites()[i].owner == rank)
+    {
+      own_sites.push_back(i);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        corner[d] = std::min(corner[d], zone.sites()[i].place[d] - reach);
+        upper[d] = std::max(upper[d], zone.sites()[i].place[d] + reach);
+      }
+    }
+  for (unsigned int d = 0; d < dim; ++d)
+    box.size[d] = own_sites.empty() ? 0 : upper[d] - corner[d] + 1;
+  for (const StencilBond<dim> &bond : stencil)
+    strides.push_back(box.stride(bond.offset));
+  const auto place_of = [&](const unsigned int site)
+  {
+    std::array<int, dim> offset;
+    for (unsigned int d = 0; d < dim; ++d)
+      offset[d] = zone.sites()[site].place[d] - corner[d];
+    return static_cast<std::size_t>(box.stride(offset));
+  };
+  std::sort(own_sites.begin(), own_sites.end(),
+            [&](const unsigned int i, const unsigned int j) { return place_of(i) < place_of(j); });
+  number.assign(box.n_sites(), unlisted);
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+  {
+    own_places.push_back(place_of(own_sites[k]));
+    number[own_places.back()] = k;
+  }
+  list_of.assign(own_sites.size(), unlisted);
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    u[d].assign(box.n_sites(), 0.);
+    f[d].assign(box.n_sites(), 0.);
+  }
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::find_sources()
+{
+  std::vector<bool> is_known(box.n_sites(), false);
+  const auto add = [&](const std::size_t place, const FarEnd &from)
+  {
+    if (is_known[place])
+      return;
+    is_known[place] = true;
+    sources.push_back({place, from.site, from.mirrored, {}});
+  };
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+  {
+    add(own_places[k], {own_sites[k]});
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (const FarEnd end = zone.far_end(own_sites[k], b); !end.absent)
+        add(own_places[k] + strides[b], end);
+  }
+}
+
+
+/// Own sites that follow one another in the direction of x.
+template <int dim>
+void ExplicitBonds<dim>::find_spans()
+{
+  std::vector<typename BondForces<dim>::Span> spans;
+  for (const std::size_t place : own_places)
+    if (!spans.empty() && spans.back().first + spans.back().length == place)
+      ++spans.back().length;
+    else
+      spans.push_back({place, 1});
+  kernel->sweep_only(spans);
+}
+
+
+template <int dim>
+dealii::IndexSet ExplicitBonds<dim>::seen() const
+{
+  std::vector<dealii::types::global_dof_index> dofs;
+  for (const Source &source : sources)
+    dofs.insert(dofs.end(), zone.sites()[source.site].dofs.begin(),
+                zone.sites()[source.site].dofs.end());
+  std::sort(dofs.begin(), dofs.end());
+  dealii::IndexSet set(dim * zone.sites().size());
+  set.add_indices(dofs.begin(), std::unique(dofs.begin(), dofs.end()));
+  return set;
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::set_layout(const Vector &vector)
+{
+  const auto &partitioner = *vector.get_partitioner();
+  for (Source &source : sources)
+    for (unsigned int d = 0; d < dim; ++d)
+      source.local[d] = partitioner.global_to_local(zone.sites()[source.site].dofs[d]);
+  own_unknowns.clear();
+  for (const unsigned int site : own_sites)
+  {
+    own_unknowns.emplace_back();
+    for (unsigned int d = 0; d < dim; ++d)
+      own_unknowns.back()[d] = partitioner.global_to_local(zone.sites()[site].dofs[d]);
+  }
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::add_row_sums(Vector &sums) const
+{
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+    {
+      const double stiffness =
+        list_of[k] == unlisted ? coefficients[b].stiffness : listed[list_of[k]].bonds[b].stiffness;
+      const dealii::Tensor<1, dim> &e = coefficients[b].direction;
+      double of_components = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        of_components += std::abs(e[d]);
+      for (unsigned int d = 0; d < dim; ++d)
+        sums.local_element(own_unknowns[k][d]) +=
+          2. * zone.sites()[own_sites[k]].share * stiffness * std::abs(e[d]) * of_components;
+    }
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::list(const unsigned int own)
+{
+  list_of[own] = listed.size();
+  listed.push_back({own, {}});
+  for (const BondCoefficients<dim> &bond : coefficients)
+    listed.back().bonds.push_back({bond.stiffness, 1.});
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::add_listed_force(Listed &site, const bool breaks)
+{
+  const std::size_t place = own_places[site.own];
+  const double share = zone.sites()[own_sites[site.own]].share;
+  std::array<double, dim> sum = {};
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+  {
+    Bond &bond = site.bonds[b];
+    if (bond.stiffness == 0.)
+      continue;
+    const BondCoefficients<dim> &whole = coefficients[b];
+    double elongation = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      elongation += whole.direction[d] * (u[d][place + strides[b]] - u[d][place]);
+    const double stretch = bond.amplification * elongation / whole.length;
+    if (breaks && stretch > softening.first && stretch > bond.greatest)
+    {
+      // Half of the bond's energy is at each end.
+      const double of_unit_stretch = 0.25 * share * bond.stiffness * whole.length * whole.length /
+                                     (bond.amplification * bond.amplification);
+      energy += of_unit_stretch *
+                (softening.dissipated(stretch) - softening.dissipated(bond.greatest));
+      bond.greatest = stretch;
+    }
+    const double force =
+      bond.stiffness * (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.) * elongation;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum[d] += force * whole.direction[d];
+  }
+  for (unsigned int d = 0; d < dim; ++d)
+    f[d][place] = sum[d];
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::forces(const Vector &displacement, const bool breaks, Vector &force)
+{
+  for (const Source &source : sources)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double value = displacement.local_element(source.local[d]);
+      u[d][source.place] = source.mirrored >> d & 1 ? -value : value;
+    }
+  kernel->evaluate(u, f, softening.first, breaks ? &stretched : nullptr);
+  if (breaks)
+    for (const std::size_t place : stretched)
+      if (list_of[number[place]] == unlisted)
+        list(number[place]);
+  for (Listed &site : listed)
+    add_listed_force(site, breaks);
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+    for (unsigned int d = 0; d < dim; ++d)
+      force.local_element(own_unknowns[k][d]) =
+        zone.sites()[own_sites[k]].share * f[d][own_places[k]];
+}
+
+
+template <int dim>
+std::vector<typename ExplicitBonds<dim>::Softened> ExplicitBonds<dim>::softened() const
+{
+  std::vector<Softened> result;
+  for (const Listed &site : listed)
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (site.bonds[b].stiffness > 0. && site.bonds[b].greatest > softening.first)
+        result.push_back({own_sites[site.own], b, site.bonds[b].greatest});
+  return result;
+}
+
+
+template class ExplicitBonds<2>;
+template class ExplicitBonds<3>;
+} // namespace stockwork::peridynamics

@@ -1,0 +1,109 @@
+#pragma once
+
+#include "fracture/peridynamics/bond_forces.h"
+#include "fracture/peridynamics/softening.h"
+#include "fracture/peridynamics/zone.h"
+#include "stockwork/fracture/explicit_rock.h"
+
+#include <functional>
+
+namespace stockwork::peridynamics
+{
+/// The bonds of all rock, moved by explicit steps. Sites whose bonds are all whole are swept by the
+/// stencil (BondForces); the others, beside cracks and free boundaries, have a list of their bonds.
+/// A bond has its history at both ends, and both see the same elongation, so no rank tells another
+/// what has broken.
+template <int dim>
+class ExplicitBonds : public ExplicitRock
+{
+public:
+  /// What a bond is like at the start.
+  struct Bond
+  {
+    double stiffness;      ///< of what is left of it by volume, elastic; zero: absent or broken [N/m]
+    double amplification;  ///< stretch of a whole bond of the same energy, over its own; zero:
+                           ///< it never breaks
+    double greatest = 0.;  ///< stretch so far, of such a bond
+  };
+
+  /// @param bond of a site and a bond of the stencil
+  ExplicitBonds(const Zone<dim> &zone,
+                const std::vector<StencilBond<dim>> &stencil,
+                const BondLaw &law,
+                const SofteningLaw &softening,
+                const std::function<Bond(unsigned int site, unsigned int bond)> &bond,
+                unsigned int rank);
+
+  dealii::IndexSet seen() const override;
+  void set_layout(const Vector &vector) override;
+  void add_row_sums(Vector &sums) const override;
+  void forces(const Vector &displacement, bool breaks, Vector &force) override;
+
+  /// A bond that has begun to soften, or has broken.
+  struct Softened
+  {
+    unsigned int site, bond;
+    double greatest; ///< stretch
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &site &bond &greatest;
+    }
+  };
+
+  /// Of this rank's sites, each seen from each of its ends here.
+  std::vector<Softened> softened() const;
+
+  /// By this rank's sites, since the start [J; J/m in 2-D].
+  double dissipated() const
+  {
+    return energy;
+  }
+
+private:
+  /// A site whose bonds are not all whole and elastic.
+  struct Listed
+  {
+    unsigned int own; ///< number among the own sites
+    std::vector<Bond> bonds;
+  };
+
+  void find_box();
+  void find_sources();
+  void find_spans();
+  void list(unsigned int own);
+  void add_listed_force(Listed &site, bool breaks);
+
+  const Zone<dim> &zone;
+  const std::vector<StencilBond<dim>> stencil;
+  const SofteningLaw softening;
+  const std::vector<BondCoefficients<dim>> coefficients;
+  const unsigned int rank;
+
+  LatticeBox<dim> box;
+  Place<dim> corner;                     ///< of the box
+  std::vector<unsigned int> own_sites;   ///< in the order of the box
+  std::vector<std::size_t> own_places;   ///< in the box
+  std::vector<std::ptrdiff_t> strides;   ///< of the bonds
+  std::vector<unsigned int> number;      ///< of own sites by place in the box; invalid: not own
+
+  /// Where the displacement at a place of the box is from: a site, or its image.
+  struct Source
+  {
+    std::size_t place;
+    unsigned int site;
+    unsigned char mirrored;
+    std::array<unsigned int, dim> local; ///< unknowns
+  };
+  std::vector<Source> sources;
+  std::vector<std::array<unsigned int, dim>> own_unknowns; ///< local numbers
+
+  std::unique_ptr<BondForces<dim>> kernel;
+  LatticeField<dim> u, f;
+  std::vector<Listed> listed;
+  std::vector<unsigned int> list_of; ///< of own sites; invalid: not listed
+  std::vector<std::size_t> stretched;
+  double energy = 0.;
+};
+} // namespace stockwork::peridynamics
