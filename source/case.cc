@@ -342,6 +342,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
           [this](const Point<dim> &x) { return in_situ.pore_pressure(x); },
           0.}
 {
+  scene.moves_side = [this](const types::boundary_id side)
+  { return boundary_conditions.moves(side); };
   scene.rock_law = [this](const types::material_id region) -> const RockLaw &
   { return laws(region); };
   scene.in_situ_tensor = [this](const Point<dim> &x, const RockProperties &properties)

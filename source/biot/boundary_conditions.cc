@@ -292,6 +292,17 @@ bool BoundaryConditions<dim>::is_roller(const types::boundary_id side) const
 
 
 template <int dim>
+bool BoundaryConditions<dim>::moves(const types::boundary_id side) const
+{
+  return std::any_of(dirichlet.begin(), dirichlet.end(),
+                     [side](const Dirichlet &condition) {
+                       return condition.side == side && condition.component != dim &&
+                              !condition.is_zero;
+                     });
+}
+
+
+template <int dim>
 bool BoundaryConditions<dim>::is_plane_of_symmetry(const types::boundary_id side,
                                                    const unsigned int coordinate) const
 {

@@ -100,6 +100,9 @@ public:
   bool is_plane_of_symmetry(const dealii::types::boundary_id side,
                             const unsigned int coordinate) const;
 
+  /// Whether a displacement other than none is prescribed on a side.
+  bool moves(const dealii::types::boundary_id side) const;
+
   /// Whether neither fluid nor a change of volume gets through any of these sides.
   bool seal(const std::vector<dealii::types::boundary_id> &sides) const;
 

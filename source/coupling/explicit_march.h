@@ -8,7 +8,8 @@ namespace stockwork
 /// Moves rock by explicit steps, Newmark's scheme with beta = 0 (Newmark 1959; with gamma = 1/2
 /// that of central differences):
 ///
-///   u_1 = u_0 + h v_0 + h^2/2 a_0 ,   M a_1 = f(u_1) + loads ,   v_1 = v_0 + h ((1-gamma) a_0 + gamma a_1)
+///   u_1 = u_0 + h v_0 + h^2/2 a_0 ,   M a_1 = f(u_1) + loads ,   v_1 = v_0 + h ((1-gamma) a_0 +
+///   gamma a_1)
 ///
 /// with the mass M lumped at the nodes. Stable for h omega < sqrt(2/gamma) (Hughes 1987, sec. 9.1).
 template <int dim>
@@ -29,14 +30,14 @@ public:
                        dealii::TrilinosWrappers::MPI::BlockVector &velocity,
                        dealii::TrilinosWrappers::MPI::BlockVector &acceleration);
 
-  /// 1/2 v.Mv at the end of the last step [J; J/m in 2-D].
+  /// Of the motion, at the end of the last step [J; J/m in 2-D].
   double kinetic_energy() const
   {
     return kinetic;
   }
 
   /// Of loads and of what moves the boundary, in the last step; in the first one also what it took
-  /// to reach equilibrium, slowly [J; J/m].
+  /// to reach equilibrium, slowly, and of a jump of the loads [J; J/m].
   double work_of_step() const
   {
     return work;
@@ -53,6 +54,10 @@ private:
   /// What the boundary prescribes at a time, and the loads then.
   void look_at_boundary(double time);
 
+  /// By the velocities half a part before and after, parts being @p h long: what the scheme
+  /// conserves with the elastic energy, where gamma = 1/2. Collective.
+  double energy_of_motion(double h) const;
+
   void take(const BlockVector &from, Vector &to) const;
   void give_back(const Vector &from, BlockVector &to) const;
 
@@ -64,9 +69,9 @@ private:
   bool is_set_up = false;
   double longest_step = 0.; ///< [s]
   Vector mass, u, v, a, force;
-  std::vector<unsigned int> held;   ///< own unknowns that are prescribed, by local number
-  std::vector<double> prescribed;   ///< their values at the time looked at last
-  std::vector<double> loads;        ///< of all own unknowns, likewise [N]
+  std::vector<unsigned int> held; ///< own unknowns that are prescribed, by local number
+  std::vector<double> prescribed; ///< their values at the time looked at last
+  std::vector<double> loads;      ///< of all own unknowns, likewise [N]
   double kinetic = 0., work = 0., work_before = 0.;
 };
 } // namespace stockwork

@@ -52,7 +52,8 @@ bool has_appeared(const Unknowns &previous, const Unknowns &now)
 void TimeScheme::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Time");
-  prm.declare_entry("Scheme", "auto", Patterns::Selection("auto|backward Euler|BDF2|Newmark|explicit"),
+  prm.declare_entry("Scheme", "auto",
+                    Patterns::Selection("auto|backward Euler|BDF2|Newmark|explicit"),
                     "auto: Newmark with inertia; BDF2 for consolidation without a fracture; else "
                     "backward Euler. explicit: Newmark's with beta = 0 and a mass lumped at the "
                     "nodes, for dry rock all of which is made of bonds; each step is divided into "

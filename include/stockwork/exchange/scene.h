@@ -110,6 +110,9 @@ struct Scene
   std::function<dealii::SymmetricTensor<2, 3>(const dealii::Point<dim> &, const RockProperties &)>
     in_situ_tensor = {};
 
+  /// Whether the deck moves a side of the domain. Empty: it moves none.
+  std::function<bool(dealii::types::boundary_id side)> moves_side = {};
+
   /// The law of the rock in a region, to be put inside another.
   std::function<const RockLaw &(dealii::types::material_id)> rock_law = {};
 };

@@ -290,7 +290,8 @@ void BondForces<dim>::evaluate(const LatticeField<dim> &u,
   for (const Span &row : swept)
     if (stretched != nullptr)
       for_each_block_of(
-        row, [&](const std::size_t site)
+        row,
+        [&](const std::size_t site)
         { watch<Lanes, n_registers>(u, site, limit, force, *stretched); },
         [&](const std::size_t site) { watch<double, 1>(u, site, limit, force, *stretched); });
     else

@@ -66,12 +66,9 @@ double BondSet<dim>::damage(const unsigned int site) const
   double gone = 0., all = 0.;
   for (const StencilBond<dim> &bond : stencil)
     all += bond.volume_fraction;
-  broken.for_each(number[site],
-                  [&](const unsigned int b)
-                  {
-                    gone += stencil[b].volume_fraction *
-                            zone->sites()[zone->far_end(site, b).site].volume;
-                  });
+  broken.for_each(
+    number[site], [&](const unsigned int b)
+    { gone += stencil[b].volume_fraction * zone->sites()[zone->far_end(site, b).site].volume; });
   return gone / all;
 }
 

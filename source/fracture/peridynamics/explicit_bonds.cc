@@ -7,7 +7,9 @@ namespace stockwork::peridynamics
 {
 namespace
 {
-constexpr unsigned int unlisted = dealii::numbers::invalid_unsigned_int;
+/// In place of a number among the listed sites.
+constexpr unsigned int unlisted = dealii::numbers::invalid_unsigned_int,
+                       never_listed = unlisted - 1;
 } // namespace
 
 
@@ -32,14 +34,18 @@ ExplicitBonds<dim>::ExplicitBonds(
   for (unsigned int k = 0; k < own_sites.size(); ++k)
   {
     std::vector<Bond> bonds;
-    bool whole = true;
+    bool is_whole = true, stays_whole = true;
     for (unsigned int b = 0; b < stencil.size(); ++b)
     {
       bonds.push_back(bond(own_sites[k], b));
-      whole = whole && bonds.back().stiffness == coefficients[b].stiffness &&
-              bonds.back().amplification == 1. && bonds.back().greatest == 0.;
+      const Bond &last = bonds.back();
+      const bool is_elastic = last.stiffness == coefficients[b].stiffness && last.greatest == 0.;
+      is_whole = is_whole && is_elastic && last.amplification == 1.;
+      stays_whole = stays_whole && is_elastic && last.amplification == 0.;
     }
-    if (whole)
+    if (stays_whole)
+      list_of[k] = never_listed;
+    if (is_whole || stays_whole)
       continue;
     list(k);
     listed.back().bonds = bonds;
@@ -90,6 +96,7 @@ void ExplicitBonds<dim>::find_box()
   for (unsigned int d = 0; d < dim; ++d)
   {
     u[d].assign(box.n_sites(), 0.);
+    u_before[d].assign(box.n_sites(), 0.);
     f[d].assign(box.n_sites(), 0.);
   }
 }
@@ -167,8 +174,8 @@ void ExplicitBonds<dim>::add_row_sums(Vector &sums) const
   for (unsigned int k = 0; k < own_sites.size(); ++k)
     for (unsigned int b = 0; b < stencil.size(); ++b)
     {
-      const double stiffness =
-        list_of[k] == unlisted ? coefficients[b].stiffness : listed[list_of[k]].bonds[b].stiffness;
+      const double stiffness = list_of[k] < never_listed ? listed[list_of[k]].bonds[b].stiffness
+                                                         : coefficients[b].stiffness;
       const dealii::Tensor<1, dim> &e = coefficients[b].direction;
       double of_components = 0.;
       for (unsigned int d = 0; d < dim; ++d)
@@ -208,15 +215,18 @@ void ExplicitBonds<dim>::add_listed_force(Listed &site, const bool breaks)
     const double stretch = bond.amplification * elongation / whole.length;
     if (breaks && stretch > softening.first && stretch > bond.greatest)
     {
-      // Half of the bond's energy is at each end.
-      const double of_unit_stretch = 0.25 * share * bond.stiffness * whole.length * whole.length /
-                                     (bond.amplification * bond.amplification);
-      energy += of_unit_stretch *
-                (softening.dissipated(stretch) - softening.dissipated(bond.greatest));
+      // What the scheme takes from the motion, by the mean force times the elongation gained, less
+      // what is stored: 1/2 k e_0 e_1 (D_1 - D_0), half of it at each end.
+      double before = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        before += whole.direction[d] * (u_before[d][place + strides[b]] - u_before[d][place]);
+      energy += 0.25 * share * bond.stiffness * before * elongation *
+                (softening.damage(stretch) - softening.damage(bond.greatest));
       bond.greatest = stretch;
     }
-    const double force =
-      bond.stiffness * (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.) * elongation;
+    const double force = bond.stiffness *
+                         (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.) *
+                         elongation;
     for (unsigned int d = 0; d < dim; ++d)
       sum[d] += force * whole.direction[d];
   }
@@ -228,6 +238,8 @@ void ExplicitBonds<dim>::add_listed_force(Listed &site, const bool breaks)
 template <int dim>
 void ExplicitBonds<dim>::forces(const Vector &displacement, const bool breaks, Vector &force)
 {
+  if (breaks)
+    std::swap(u, u_before);
   for (const Source &source : sources)
     for (unsigned int d = 0; d < dim; ++d)
     {

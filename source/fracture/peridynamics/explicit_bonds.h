@@ -20,10 +20,10 @@ public:
   /// What a bond is like at the start.
   struct Bond
   {
-    double stiffness;      ///< of what is left of it by volume, elastic; zero: absent or broken [N/m]
-    double amplification;  ///< stretch of a whole bond of the same energy, over its own; zero:
-                           ///< it never breaks
-    double greatest = 0.;  ///< stretch so far, of such a bond
+    double stiffness; ///< of what is left of it by volume, elastic; zero: absent or broken [N/m]
+    double amplification; ///< stretch of a whole bond of the same energy, over its own; zero:
+                          ///< it never breaks
+    double greatest = 0.; ///< stretch so far, of such a bond
   };
 
   /// @param bond of a site and a bond of the stencil
@@ -82,11 +82,11 @@ private:
   const unsigned int rank;
 
   LatticeBox<dim> box;
-  Place<dim> corner;                     ///< of the box
-  std::vector<unsigned int> own_sites;   ///< in the order of the box
-  std::vector<std::size_t> own_places;   ///< in the box
-  std::vector<std::ptrdiff_t> strides;   ///< of the bonds
-  std::vector<unsigned int> number;      ///< of own sites by place in the box; invalid: not own
+  Place<dim> corner;                   ///< of the box
+  std::vector<unsigned int> own_sites; ///< in the order of the box
+  std::vector<std::size_t> own_places; ///< in the box
+  std::vector<std::ptrdiff_t> strides; ///< of the bonds
+  std::vector<unsigned int> number;    ///< of own sites by place in the box; invalid: not own
 
   /// Where the displacement at a place of the box is from: a site, or its image.
   struct Source
@@ -100,9 +100,9 @@ private:
   std::vector<std::array<unsigned int, dim>> own_unknowns; ///< local numbers
 
   std::unique_ptr<BondForces<dim>> kernel;
-  LatticeField<dim> u, f;
+  LatticeField<dim> u, u_before, f;
   std::vector<Listed> listed;
-  std::vector<unsigned int> list_of; ///< of own sites; invalid: not listed
+  std::vector<unsigned int> list_of; ///< of own sites; or why it is not among them
   std::vector<std::size_t> stretched;
   double energy = 0.;
 };

@@ -21,11 +21,12 @@ void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
   if (!in_situ_is_zero)
     refuse("Newmark with a stress in situ");
   if (mesh_view.dof_handler.n_dofs() != dim * zone.peridynamic_sites().size())
-    throw EntryError("Fracture/peridynamics/Zone", std::to_string(parameters.boxes.size()) + " boxes",
-                     "a box that holds all of the domain with 'Time/Scheme = explicit', which moves "
-                     "bonds and no elements; of " +
-                       std::to_string(mesh_view.dof_handler.n_dofs() / dim) + " vertices " +
-                       std::to_string(zone.peridynamic_sites().size()) + " are in the zone");
+    throw EntryError(
+      "Fracture/peridynamics/Zone", std::to_string(parameters.boxes.size()) + " boxes",
+      "a box that holds all of the domain with 'Time/Scheme = explicit', which moves "
+      "bonds and no elements; of " +
+        std::to_string(mesh_view.dof_handler.n_dofs() / dim) + " vertices " +
+        std::to_string(zone.peridynamic_sites().size()) + " are in the zone");
   SofteningLaw law_of_bonds = softening;
   if (!parameters.growth)
     law_of_bonds.first = law_of_bonds.last = std::numeric_limits<double>::infinity();
@@ -85,8 +86,8 @@ bool Peridynamics<dim>::follow_explicit_bonds(const Collectives &collectives)
   return changed;
 }
 
-#define INSTANTIATE(dim)                                                           \
-  template void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &);     \
+#define INSTANTIATE(dim)                                                       \
+  template void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &); \
   template bool Peridynamics<dim>::follow_explicit_bonds(const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -22,11 +22,11 @@ struct Parameters
   double margin;                               ///< of the zone around the initial cracks, in cells
   std::vector<dealii::BoundingBox<dim>> boxes; ///< more of the zone
   std::vector<dealii::BoundingBox<dim>> unbreakable; ///< where no bond breaks
-  double cell_size;                            ///< wanted in the zone [m]; zero: as the mesh is
-  unsigned int zone_growth;                    ///< in cells, at once; zero: the zone stays
-  double cell_growth;                          ///< size over distance outside the zone
-  double stretch_factor;                       ///< of the critical stretch; NaN: the lattice's own
-  double softening; ///< last over first stretch of a bond that softens; 1: brittle
+  double cell_size;         ///< wanted in the zone [m]; zero: as the mesh is
+  unsigned int zone_growth; ///< in cells, at once; zero: the zone stays
+  double cell_growth;       ///< size over distance outside the zone
+  double stretch_factor;    ///< of the critical stretch; NaN: the lattice's own
+  double softening;         ///< last over first stretch of a bond that softens; 1: brittle
   bool surface_correction;
   bool effective_stretch; ///< bonds break by effective stress
   bool in_bonds;          ///< the pressure is part of the law of bonds
@@ -34,8 +34,8 @@ struct Parameters
   bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
   double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
   double friction = 0.;         ///< coefficient, of faces that touch
-  bool explicit_steps;    ///< 'Time/Scheme = explicit'
-  bool free_boundaries;   ///< the zone may reach to the boundary of the domain, which is dry
+  bool explicit_steps;          ///< 'Time/Scheme = explicit'
+  bool free_boundaries;         ///< the zone may reach to the boundary of the domain, which is dry
   bool growth;
   bool tracked;                               ///< bonds soften across the ways of cracks only
   std::map<std::string, std::string> reasons; ///< why what is 'auto' is what it is, by entry

@@ -122,7 +122,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
 {
   rank = collectives.rank();
   n_nodes = mesh_view.dof_handler.n_dofs() / mesh_view.dof_handler.get_fe().dofs_per_vertex;
-  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based,
+  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, scene.moves_side,
              parameters.free_boundaries, mesh_view, collectives);
   unbreakable.clear();
   if (!parameters.unbreakable.empty())

@@ -490,9 +490,9 @@ private:
   std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;
-  RowVersions row_versions; ///< by whole bonds and cells' normals
+  RowVersions row_versions;                           ///< by whole bonds and cells' normals
   std::unique_ptr<ExplicitBonds<dim>> explicit_bonds; ///< null: steps are not explicit
-  double energy_before_explicit = 0.; ///< dissipated before they were made [J/m]
+  double energy_before_explicit = 0.;                 ///< dissipated before they were made [J/m]
 
   // Committed.
   std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;

@@ -213,6 +213,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
                       const double spacing,
                       const std::vector<StencilBond<dim>> &stencil,
                       const bool with_rim,
+                      const std::function<bool(dealii::types::boundary_id)> &moves_side,
                       const bool free_boundaries,
                       const MeshView<dim> &mesh_view,
                       const Collectives &collectives)
@@ -229,7 +230,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
     if (h == 0.)
       find_spacing(shape, mesh_view, collectives);
   }
-  gather_sites(shape, with_rim ? 2 * reach : reach, mesh_view, collectives);
+  gather_sites(shape, with_rim ? 2 * reach : reach, moves_side, mesh_view, collectives);
   for (Site<dim> &site : all_sites)
     site.peridynamic = shape.contains(position(site.place), h);
   find_volumes();

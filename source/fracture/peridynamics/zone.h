@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <map>
 #include <vector>
@@ -85,6 +86,7 @@ public:
 
   /// @param spacing [m]; zero: the edge of the smallest cell in the zone
   /// @param with_rim whether the bonds of sites count that a bond leads to from the zone
+  /// @param moves_side whether a side of the domain is moved, and so no plane of symmetry
   /// @param free_boundaries whether a horizon may leave the domain through a boundary that is not a
   /// plane of symmetry, where bonds are absent then
   /// @throws InputError where cells in the zone differ, or a horizon leaves the domain and may not
@@ -92,6 +94,7 @@ public:
              double spacing,
              const std::vector<StencilBond<dim>> &stencil,
              const bool with_rim,
+             const std::function<bool(dealii::types::boundary_id)> &moves_side,
              const bool free_boundaries,
              const MeshView<dim> &mesh_view,
              const Collectives &collectives);
@@ -201,6 +204,7 @@ private:
   void find_spacing(const ZoneShape<dim> &, const MeshView<dim> &, const Collectives &);
   void gather_sites(const ZoneShape<dim> &,
                     unsigned int reach,
+                    const std::function<bool(dealii::types::boundary_id)> &moves_side,
                     const MeshView<dim> &,
                     const Collectives &);
   /// For a zone between the vertices `first` and `last`.

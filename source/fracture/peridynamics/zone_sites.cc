@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -73,13 +74,15 @@ template <int dim>
 void add_mirrors(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
                  const std::array<int, dim> &place,
                  const dealii::AffineConstraints<double> &constraints,
+                 const std::function<bool(dealii::types::boundary_id)> &moves_side,
                  std::vector<std::array<int, 3>> &mirrors)
 {
   const auto constrained = [&](const unsigned int v, const unsigned int d)
   { return constraints.is_constrained(cell->vertex_dof_index(v, d)); };
   const auto rolls = [&](const unsigned int f)
   {
-    bool all = cell->face(f)->at_boundary();
+    bool all =
+      cell->face(f)->at_boundary() && !(moves_side && moves_side(cell->face(f)->boundary_id()));
     for (const unsigned int v : cell->vertex_indices())
       if ((v >> f / 2 & 1) == f % 2)
         all &= constrained(v, f / 2);
@@ -164,6 +167,7 @@ void Zone<dim>::find_spacing(const ZoneShape<dim> &shape,
 template <int dim>
 void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
                              const unsigned int reach,
+                             const std::function<bool(dealii::types::boundary_id)> &moves_side,
                              const MeshView<dim> &mesh_view,
                              const Collectives &collectives)
 {
@@ -231,7 +235,7 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
                        : collectives.rank() | not_owner;
         mine.emplace(site.place, site);
       }
-      add_mirrors<dim>(cell, place, mesh_view.constraints, my_mirrors);
+      add_mirrors<dim>(cell, place, mesh_view.constraints, moves_side, my_mirrors);
     }
 
   refuse_odd_cells<dim>(collectives.gather(odd_cell), h);
@@ -297,12 +301,13 @@ void Zone<dim>::find_room(const Point<dim> &first,
 }
 
 
-#define INSTANTIATE(dim)                                                                   \
-  template void Zone<dim>::find_spacing(const ZoneShape<dim> &, const MeshView<dim> &,     \
-                                        const Collectives &);                              \
-  template void Zone<dim>::gather_sites(const ZoneShape<dim> &, unsigned int,              \
-                                        const MeshView<dim> &, const Collectives &);       \
-  template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int, \
+#define INSTANTIATE(dim)                                                                         \
+  template void Zone<dim>::find_spacing(const ZoneShape<dim> &, const MeshView<dim> &,           \
+                                        const Collectives &);                                    \
+  template void Zone<dim>::gather_sites(const ZoneShape<dim> &, unsigned int,                    \
+                                        const std::function<bool(dealii::types::boundary_id)> &, \
+                                        const MeshView<dim> &, const Collectives &);             \
+  template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int,       \
                                      const MeshView<dim> &, const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)
