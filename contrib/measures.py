@@ -6,6 +6,7 @@ A name is a path into summary.json (`errors/pore_pressure/final`), or one of
     minimum/COLUMN        and maximum/COLUMN, of all steps
     closure/QUANTITY      of contrib/closure.py
     direction             the slope of the fractures' diagonal [degrees]
+    late_direction        that of what it has grown by in the second half of the run
     fields/FIELD/minimum  and fields/FIELD/maximum, over the last fields that were written; of a tensor or a vector, over
                           its components (needs numpy)
 """
@@ -18,7 +19,8 @@ from results import read_statistics
 # What a name may begin with: numbers and groups of summary.json (source/base/run_summary.cc), and those from other files.
 BEGINNINGS = ("cells", "unknowns", "ranks", "steps", "rejected_steps", "nonlinear_iterations", "linear_iterations",
               "wall_seconds", "cpu_seconds", "peak_memory_bytes", "final", "errors", "fluid_balance", "warnings",
-              "rates", "minimum", "maximum", "closure", "direction", "fields")
+              "rates", "minimum", "maximum", "closure", "direction", "late_direction",
+              "fields")
 
 
 def with_measures(directory, summary, names):
@@ -37,6 +39,9 @@ def with_measures(directory, summary, names):
     if "direction" in kinds:
         final = summary["final"]
         found["direction"] = math.degrees(math.atan2(final["extent_y"], final["extent_x"]))
+    if "late_direction" in kinds:
+        rates = late_rates(read_statistics(directory))
+        found["late_direction"] = math.degrees(math.atan2(rates["extent_y"], rates["extent_x"]))
     if "fields" in kinds:
         found["fields"] = extremes(directory)
     return found

@@ -252,6 +252,31 @@ stockwork_case_test(NAME convergence/kgd/rotated/30/peridynamics/direction
   DECK prm/kgd/rotated/30/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=4 s" "Output/Fields=false"
   EXPECT "final/extent_x = 3.6 within 0.1" "final/extent_y = 2.1 within 0.1")
+# At any angle the fracture runs along the notch, within 3 degrees, and is that along the mesh: 7.06 m and 0.3983 MPa (9 s, on a path with
+# isotropic volumes).
+foreach(notch "7.5|4.5|10.5|0.991445 m, |0.130526 m" "15|12|18|0.965926 m, |0.258819 m"
+    "22.5|19.5|25.5|0.923880 m, |0.382683 m" "30|27|33|0.866025 m, |0.5 m")
+  string(REPLACE "|" ";" notch ${notch})
+  list(GET notch 0 angle)
+  list(GET notch 1 least)
+  list(GET notch 2 most)
+  list(GET notch 3 x)
+  list(GET notch 4 y)
+  stockwork_case_test(NAME convergence/kgd/rotated/path/${angle} LABELS nightly DECK prm/kgd/rotated/30/peridynamics.prm
+    SET "Resolution=coarse" "Time/End time=9 s" "Output/Fields=false" "Cracks/Open=-${x}-${y} -> ${x}${y}"
+    EXPECT "direction > ${least}" "direction < ${most}" "final/equivalent_length = 7.06 within 0.04"
+           "final/net_inlet_pressure = 3.983e5 within 0.04" "fluid_balance/relative_error < 1e-8")
+endforeach()
+# From a notch at 45 degrees to the greatest compression it turns into that, within 5 degrees, wherever the mesh lies: compression of 19 MPa at
+# 0 and at 22.5 degrees to it, 17 MPa across.
+stockwork_case_test(NAME convergence/kgd/rotated/turns/0 LABELS nightly DECK prm/kgd/rotated/30/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" "Verification/Reference=none" "In situ/Stress=-19 MPa, -17 MPa"
+      "Cracks/Open=-0.707107 m, -0.707107 m -> 0.707107 m, 0.707107 m"
+  EXPECT "late_direction > -5" "late_direction < 5" "fluid_balance/relative_error < 1e-8")
+stockwork_case_test(NAME convergence/kgd/rotated/turns/22.5 LABELS nightly DECK prm/kgd/rotated/30/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" "Verification/Reference=none" "In situ/Stress=-18.707107 MPa, -17.292893 MPa, -0.707107 MPa"
+      "Cracks/Open=-0.382683 m, -0.923880 m -> 0.382683 m, 0.923880 m"
+  EXPECT "late_direction > 17.5" "late_direction < 27.5" "fluid_balance/relative_error < 1e-8")
 # With a stress in situ that is 2 MPa greater along the notch than across it, net pressure, aperture and length are the same (the least
 # aperture is that of the piece at the tip).
 stockwork_same_test(NAME convergence/kgd/rotated/30/peridynamics/stress LABELS nightly

@@ -143,7 +143,10 @@ std::vector<typename Peridynamics<dim>::BondAcross> Peridynamics<dim>::bonds_acr
 /// its normal: of a uniform slip they would read up to 10 per cent as an opening, and of an opening
 /// as much as a slip. That is taken off. Traction and jump are adjoint, so the load on the faces
 /// has no part along them either. How much of a jump a piece reads stays as it is: its share of the
-/// bonds.
+/// bonds. What softens takes part by the stretch that it has, so broken bonds count; but in porous
+/// rock all bonds of a piece do, on a path. For those that break first in a process zone lean to
+/// one side, and what makes up for that alone pulls at the others by what the pores press with,
+/// which is more than their strength (doc/laboratory/peridynamics_paths.md).
 template <int dim>
 void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
 {
@@ -163,8 +166,8 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
     for (const BondAcross &bond : across)
     {
       const auto &[site, b] = bond.view;
-      if (!bonds.is_broken(site, b))
-        continue; // what softens takes part by the stretch that it has
+      if (!scene.has_pore_pressure && !bonds.is_broken(site, b))
+        continue;
       const Tensor<1, dim> &e = bond.direction;
       // Half of a bond belongs to each end.
       const double force =

@@ -75,6 +75,22 @@ struct FarEnd
   bool absent = false;
 };
 
+/// Of a box, the lower and the upper bound in each direction [m].
+template <int dim>
+using Bounds = std::array<std::array<double, 2>, dim>;
+
+/// The largest box that a zone may fill which is not to come nearer than a distance to any of the
+/// obstacles. It holds the zone itself, whatever is near that.
+/// @param obstacles known to this rank
+/// @param bounds in which to look
+/// @param distance [m]
+template <int dim>
+dealii::BoundingBox<dim> room_among(const std::vector<dealii::BoundingBox<dim>> &obstacles,
+                                    const dealii::BoundingBox<dim> &zone,
+                                    Bounds<dim> bounds,
+                                    double distance,
+                                    const Collectives &collectives);
+
 /// The lattice: vertices of the cells that are uniform in and around the zone, and which of them
 /// are peridynamic. The same on every rank, so that a horizon may cross any number of them; the
 /// zone is a thin one around the cracks.

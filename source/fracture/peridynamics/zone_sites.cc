@@ -250,6 +250,71 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
 
 
 template <int dim>
+dealii::BoundingBox<dim> room_among(const std::vector<dealii::BoundingBox<dim>> &obstacles,
+                                    const dealii::BoundingBox<dim> &zone,
+                                    Bounds<dim> bounds,
+                                    const double distance,
+                                    const Collectives &collectives)
+{
+  const double tolerance = 1e-6 * distance;
+  const auto away =
+    [&](const dealii::BoundingBox<dim> &cell, const unsigned int d, const unsigned int side)
+  {
+    return side == 0 ? zone.lower_bound(d) - cell.upper_bound(d)
+                     : cell.lower_bound(d) - zone.upper_bound(d);
+  };
+  const auto is_kept_away = [&](const dealii::BoundingBox<dim> &cell)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (cell.upper_bound(d) < bounds[d][0] - distance + tolerance ||
+          cell.lower_bound(d) > bounds[d][1] + distance - tolerance)
+        return true;
+    return false;
+  };
+  // Those that the zone would meet if it grew in one direction alone bound that. Of the others,
+  // some are no farther then; the rest bound the direction in which they are farthest.
+  for (const bool straight : {true, false})
+  {
+    Bounds<dim> new_bounds = bounds;
+    for (const dealii::BoundingBox<dim> &cell : obstacles)
+    {
+      double farthest = 0.;
+      unsigned int direction = 0, side = 0, n_directions = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const unsigned int s : {0u, 1u})
+        {
+          n_directions += away(cell, d, s) > distance - tolerance;
+          if (away(cell, d, s) > farthest)
+          {
+            farthest = away(cell, d, s);
+            direction = d;
+            side = s;
+          }
+        }
+      if (farthest == 0. || (straight ? n_directions != 1 : is_kept_away(cell)))
+        continue;
+      double &bound = new_bounds[direction][side];
+      bound = side == 0 ? std::max(bound, cell.upper_bound(direction) + distance)
+                        : std::min(bound, cell.lower_bound(direction) - distance);
+    }
+    for (auto &[lower, upper] : new_bounds)
+    {
+      lower = collectives.max(lower);
+      upper = collectives.min(upper);
+    }
+    bounds = new_bounds;
+  }
+  Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = std::min(zone.lower_bound(d), bounds[d][0]);
+    upper[d] = std::max(zone.upper_bound(d), bounds[d][1]);
+  }
+  return dealii::BoundingBox<dim>(std::make_pair(lower, upper));
+}
+
+
+template <int dim>
 void Zone<dim>::find_room(const Point<dim> &first,
                           const Point<dim> &last,
                           const unsigned int reach,
@@ -257,7 +322,8 @@ void Zone<dim>::find_room(const Point<dim> &first,
                           const Collectives &collectives)
 {
   const double rim = has_free_boundaries ? 0. : reach * h;
-  std::array<std::array<double, 2>, dim> bound;
+  Bounds<dim> bound;
+  std::vector<dealii::BoundingBox<dim>> odd_cells;
   for (unsigned int d = 0; d < dim; ++d)
     bound[d] = {{domain.lower_bound(d) + (mirrors[d][0] == no_mirror ? rim : 0.),
                  domain.upper_bound(d) - (mirrors[d][1] == no_mirror ? rim : 0.)}};
@@ -273,41 +339,24 @@ void Zone<dim>::find_room(const Point<dim> &first,
         suits = suits && std::abs(place - std::round(place)) < 1e-4 &&
                 std::abs(high[d] - low[d] - (high[0] - low[0])) < 1e-4 * h;
       }
-      if (suits)
-        continue;
-      // The bound is in the direction in which the cell is farthest from the zone.
-      double farthest = 0.;
-      unsigned int direction = 0, side = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (const unsigned int s : {0u, 1u})
-          if (const double away = s == 0 ? first[d] - high[d] : low[d] - last[d]; away > farthest)
-          {
-            farthest = away;
-            direction = d;
-            side = s;
-          }
-      if (farthest > 0. && side == 0)
-        bound[direction][0] = std::max(bound[direction][0], high[direction] + reach * h);
-      else if (farthest > 0.)
-        bound[direction][1] = std::min(bound[direction][1], low[direction] - reach * h);
+      if (!suits)
+        odd_cells.emplace_back(std::make_pair(low, high));
     }
-  Point<dim> lower, upper;
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    lower[d] = std::min(first[d], collectives.max(bound[d][0]));
-    upper[d] = std::max(last[d], collectives.min(bound[d][1]));
-  }
-  largest = dealii::BoundingBox<dim>(std::make_pair(lower, upper));
+  const dealii::BoundingBox<dim> zone_now(std::make_pair(first, last));
+  largest = room_among<dim>(odd_cells, zone_now, bound, reach * h, collectives);
 }
 
 
-#define INSTANTIATE(dim)                                                                         \
-  template void Zone<dim>::find_spacing(const ZoneShape<dim> &, const MeshView<dim> &,           \
-                                        const Collectives &);                                    \
-  template void Zone<dim>::gather_sites(const ZoneShape<dim> &, unsigned int,                    \
-                                        const std::function<bool(dealii::types::boundary_id)> &, \
-                                        const MeshView<dim> &, const Collectives &);             \
-  template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int,       \
+#define INSTANTIATE(dim)                                                                           \
+  template void Zone<dim>::find_spacing(const ZoneShape<dim> &, const MeshView<dim> &,             \
+                                        const Collectives &);                                      \
+  template void Zone<dim>::gather_sites(const ZoneShape<dim> &, unsigned int,                      \
+                                        const std::function<bool(dealii::types::boundary_id)> &,   \
+                                        const MeshView<dim> &, const Collectives &);               \
+  template dealii::BoundingBox<dim> room_among<dim>(const std::vector<dealii::BoundingBox<dim>> &, \
+                                                    const dealii::BoundingBox<dim> &, Bounds<dim>, \
+                                                    double, const Collectives &);                  \
+  template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int,         \
                                      const MeshView<dim> &, const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)
