@@ -131,6 +131,35 @@ stockwork_case_test(NAME convergence/peridynamics/bar_3d/state_based
   EXPECT "final/load > 4999999.999" "final/load < 5000000.001")
 stockwork_case_test(NAME convergence/peridynamics/bar_3d DECK tests/data/peridynamic_bar.prm
   EXPECT "final/load > 4999999.999" "final/load < 5000000.001")
+
+# Two layers with bonds where they meet: under a stress across them each has its own strain, to the last digit, on any
+# cells and with any horizon; along them, with 10 and 40 GPa, (E_1 + E_2)/(1 - nu^2)/2 strain 8 m = 80/3 MN, with an
+# error that halves with the cells.
+stockwork_case_test(NAME convergence/peridynamics/layers/across DECK tests/data/layered_bonds.prm LABELS quick
+  EXPECT "final/load = 19.2e6 within 1e-10")
+stockwork_case_test(NAME convergence/peridynamics/layers/across/horizon_4 DECK tests/data/layered_bonds.prm LABELS quick
+  SET "Resolution=medium" "Fracture/peridynamics/Horizon=4" EXPECT "final/load = 19.2e6 within 1e-10")
+stockwork_case_test(NAME convergence/peridynamics/layers/across/3d DECK tests/data/layered_bonds.prm LABELS quick
+  SET "Resolution=coarse" "Dimension=3" "Mesh/Box/Lower corner=0, 0, 0" "Mesh/Box/Upper corner=8 m, 4 m, 4 m" "Mesh/Box/Z spacing=0.5 m"
+      "Mesh/Region boxes=1: (4 m, 0, 0) to (8 m, 4 m, 4 m)" "Boundary conditions/Roller=left, bottom, top, front, back"
+      "Fracture/peridynamics/Zone=(2 m, 0, 0) to (6 m, 4 m, 4 m)" "Fracture/peridynamics/Horizon=2"
+  EXPECT "final/load = 38.4e6 within 1e-10")
+foreach(resolution "coarse|1.5e-3" "medium|7e-4" "fine|3.2e-4")
+  string(REPLACE "|" ";" resolution "${resolution}")
+  list(GET resolution 0 name)
+  list(GET resolution 1 bound)
+  stockwork_case_test(NAME convergence/peridynamics/layers/along/${name} DECK tests/data/layered_bonds.prm LABELS quick
+    SET "Resolution=${name}" "Mesh/Region boxes=1: (0, 4 m) to (8 m, 8 m)" "Boundary conditions/Roller=left, bottom"
+        "Fracture/peridynamics/Bond volumes=isotropic"
+    EXPECT "final/load = 26666666.7 within ${bound}")
+endforeach()
+# What bonds across a crack take is the integral of G_c along it, whatever the moduli: 0.8 m (100 + 300) J/m^2.
+stockwork_case_test(NAME convergence/peridynamics/layers/apart DECK tests/data/layers_apart.prm LABELS quick
+  EXPECT "final/dissipated_energy = 320 within 1e-9" "final/broken_length = 1.6 within 1e-9")
+stockwork_case_test(NAME convergence/peridynamics/layers/apart/stiffer DECK tests/data/layers_apart.prm LABELS quick
+  SET "Rock/Region 1/Young modulus=20 GPa"
+  EXPECT "final/dissipated_energy = 320 within 1e-9" "final/broken_length = 1.6 within 1e-9")
+
 # The closure as published opens the crack to 0.08 to 0.13 of the reference.
 stockwork_case_test(NAME convergence/sneddon/as_published/peridynamics
   DECK prm/sneddon/as_published/peridynamics.prm SET "Resolution=medium"

@@ -124,7 +124,7 @@ void Peridynamics<dim>::for_each_dilatation(
           if (zone.far_end(i, b).mirrored >> d & 1)
             functional[b][d] = -functional[b][d];
       const double factor = dilatation_factor(i);
-      use(family, functional, law.dilatation_modulus * volume * site.share * factor * factor);
+      use(family, functional, dilatation_modulus(i) * volume * site.share * factor * factor);
     }
 }
 
@@ -133,7 +133,7 @@ template <int dim>
 double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int bond) const
 {
   const unsigned int far = zone.far_end(site, bond).site;
-  const double whole = coefficients[bond].stiffness;
+  const double whole = coefficients[bond].stiffness * rock_of_bonds.modulus(site, bond);
   if (bonds.is_broken(site, bond))
     return is_nearly_detached(std::max(damage[site], damage[far])) ? remaining_share * whole : 0.;
   if (!parameters.surface_correction)
@@ -162,7 +162,7 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
         if (!bonds.is_broken(i, b))
           theta += coefficients[b].dilatation * elongation(i, b, u);
       theta *= dilatation_factor(i);
-      energy += 0.5 * law.dilatation_modulus * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
+      energy += 0.5 * dilatation_modulus(i) * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
                 zone.sites()[i].share * theta * theta;
     }
   for (const SofteningBond &bond : softening_bonds)

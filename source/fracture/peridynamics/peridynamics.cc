@@ -26,13 +26,6 @@ namespace
 {
 /// Of the stretch at which bonds soften, up to which the surface correction may make them stiffer.
 constexpr double relaxed = 0.5;
-
-std::string as_text(const double number)
-{
-  std::ostringstream stream;
-  stream << number;
-  return stream.str();
-}
 } // namespace
 
 
@@ -42,18 +35,6 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   , scene(scene)
   , stencil(horizon_stencil<dim>(parameters.horizon, parameters.volumes))
 {
-  const RockProperties &rock = scene.rock.main();
-  if (rock.stiffness)
-    throw EntryError("Rock/Law", "an anisotropic one",
-                     "'elastic' with 'Fracture/Model = peridynamics': bonds are as stiff in one "
-                     "direction as in another");
-  const double nu = bond_based_poisson_ratio(rock.plane_stress);
-  if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
-    throw EntryError("Rock/Poisson ratio", as_text(rock.poisson_ratio),
-                     (rock.plane_stress ? std::string("1/3") : std::string("0.25")) +
-                       " with bond-based peridynamics" +
-                       (rock.plane_stress ? " in plane stress" : "") +
-                       "; others with 'Bond law = state-based'");
   if (parameters.growth)
     needs::energy_release_rate(scene.rock, "peridynamics", "or 'Growth = false'");
   if (parameters.as_published && !parameters.tensor_fluid &&
@@ -80,7 +61,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.pore_pressure = requirements.fluid_in_pores = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
   requirements.may_grow = parameters.growth;
-  requirements.regional_rock = RegionalRock::none;
+  requirements.random_rock = true;
   // As seen in kgd/sun, kgd/toughness, minifrac and radial/toughness.
   requirements.time_of_step = dim == 2 ? 7.5 : 25.;
   requirements.memory_per_unknown = dim == 2 ? 12e3 : 48e3;
@@ -126,6 +107,11 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   regions.clear();
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     regions.push_back(cell->material_id());
+  rock_of_bonds.reinit(
+    zone, stencil, scene.rock, parameters.state_based,
+    [&](const unsigned int cell, const Point<dim> &centre)
+    { return scene.rock.at(regions[cell], centre); },
+    collectives);
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 
@@ -145,8 +131,9 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   else
   {
     cut_initial_cracks();
-    committed_bonds = committed_cracked = bonds.places();
-    cracked.set_broken(committed_bonds);
+    committed_bonds = bonds.places();
+    committed_cracked = cracked.places();
+    soften_cohesive_cracks();
     if constexpr (dim == 2)
       if (parameters.tracked)
       {
@@ -217,8 +204,8 @@ void Peridynamics<dim>::refresh_segments()
   {
     Segment<dim> &segment = all_segments[i];
     at_front.push_back(parameters.tracked ? segment.at_tip : is_at_front(zone, cells[i], segment));
-    if (scene.has_pore_pressure)
-      segment.share_of_pores = scene.rock.main().biot_coefficient;
+    if (scene.has_pore_pressure && zone.owns(cells[i].place))
+      segment.share_of_pores = biot_coefficient(i);
     // Unknowns are measured from the in-situ pressure.
     segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
     if (zone.owns(cells[i].place))
@@ -242,6 +229,13 @@ void Peridynamics<dim>::refresh_segments()
   if (parameters.in_bonds)
     open_by_bonds();
   find_changed_rows(damage_before, corrected_before, cells_before);
+}
+
+
+template <int dim>
+double Peridynamics<dim>::biot_coefficient(const unsigned int cell) const
+{
+  return scene.rock(regions[zone.active_cell_index(cells[cell].place)]).biot_coefficient;
 }
 
 
@@ -291,7 +285,8 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
   committed_softening.clear();
   for (SofteningBond &bond : softening_bonds)
   {
-    dissipated += energy_at_unit_stretch(bond.view) *
+    dissipated += relative_energy(bond.view.first, bond.view.second) *
+                  energy_at_unit_stretch(bond.view) *
                   (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
     bond.committed = bond.trial;
     committed_softening.push_back(
@@ -337,7 +332,7 @@ void Peridynamics<dim>::correct_faces()
     for (unsigned int b = 0; b < stencil.size(); ++b)
       if (!bonds.is_broken(site, b) &&
           (1. - bond_damage(site, b)) * elongation(site, b, displacement) >
-            relaxed * softening.first * coefficients[b].length)
+            relaxed * softening.first * relative_stretch(site, b) * coefficients[b].length)
         return false;
     return true;
   };

@@ -6,6 +6,7 @@
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
 #include "fracture/peridynamics/published_load.h"
+#include "fracture/peridynamics/rock_of_bonds.h"
 #include "fracture/peridynamics/row_versions.h"
 #include "fracture/peridynamics/softening.h"
 #include "fracture/peridynamics/tracked_paths.h"
@@ -84,12 +85,18 @@ private:
   void
   assemble(const StepContext &context, const dealii::IndexSet &rows, Sink &sink) const override;
 
-  /// Break the bonds that the initial open cracks pass through.
+  /// Break the bonds that the initial open cracks pass through. Those across cohesive ones hold,
+  /// but there is fluid between them from the start.
   void cut_initial_cracks();
 
-  /// Break the bonds that cross a plane where a crack is.
+  /// With the pressure in the bonds, nothing opens where bonds hold, and the fluid in a cohesive
+  /// crack would have no room that its pressure could hang on; so its bonds have softened a little.
+  void soften_cohesive_cracks();
+
+  /// The bonds that cross a plane where a crack is.
   void cut_along_plane(const dealii::Point<dim> &origin,
                        const dealii::Tensor<1, dim> &normal,
+                       bool is_open,
                        const std::function<bool(const dealii::Point<dim> &crossing)> &is_on_crack);
 
   /// The surface correction makes up for the bonds that sites have lost, where those that are left
@@ -127,6 +134,9 @@ private:
 
   /// Append the sites that a site's bonds lead to.
   void append_family(unsigned int site, std::vector<unsigned int> &sites) const;
+
+  /// In the cell of a segment that this rank owns.
+  double biot_coefficient(unsigned int cell) const;
 
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
   double in_situ_stretch(unsigned int site, unsigned int bond) const;
@@ -196,10 +206,20 @@ private:
                     const OfCells &of_cells,
                     const std::vector<Candidate> &candidates);
 
-  /// Elastic energy of a bond, all of its views, at stretch one [J/m].
+  /// Energy that a bond takes, over that of one in the rock outside of regions: of the rock where
+  /// it crosses a path, or at its middle.
+  double relative_energy(unsigned int site, unsigned int bond) const;
+
+  /// By this much a bond's critical stretch differs from that of one in the rock outside of
+  /// regions.
+  double relative_stretch(unsigned int site, unsigned int bond) const;
+
+  /// Elastic energy of a bond in the rock outside of regions, all of its views, at stretch one
+  /// [J/m].
   double energy_at_unit_stretch(const BondView &view) const;
 
-  /// Stretch, of a bond of the lattice's stiffness that has the same energy.
+  /// Stretch, of a bond of the lattice's stiffness in the rock outside of regions that has as much
+  /// of the energy that it takes.
   double equivalent_stretch(unsigned int site, unsigned int bond, double elongation) const;
 
   void assemble_softening(const State &state, Sink &sink) const;
@@ -350,6 +370,9 @@ private:
   /// See FractureSummary.
   std::string cost() const;
 
+  /// What bonds hold yet across cohesive cracks along which there are paths, as a length [m].
+  double length_that_holds() const;
+
   void write_bonds(FieldSink<dim> &sink) const;
 
   /// The bonds of cells of this size [m].
@@ -403,6 +426,13 @@ private:
   /// its ends, and counts if the end is peridynamic.
   double strain_energy(const std::vector<double> &u) const;
 
+  /// Of a site: its energy per volume is half of it times the dilatation squared [Pa].
+  double dilatation_modulus(unsigned int site) const
+  {
+    return rock_of_bonds.is_uniform() ? law.dilatation_modulus
+                                      : rock_of_bonds.dilatation_modulus(site);
+  }
+
   /// By `Surface correction`, of the dilatation of a site that has lost bonds: with it, a uniform
   /// expansion has the same dilatation as everywhere.
   double dilatation_factor(unsigned int site) const;
@@ -427,6 +457,7 @@ private:
   std::vector<StencilBond<dim>> stencil;
 
   Zone<dim> zone;
+  RockOfBonds<dim> rock_of_bonds;
   BondLaw law;
   std::vector<BondCoefficients<dim>> coefficients;
   double critical_stretch = 0.;

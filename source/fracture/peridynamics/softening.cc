@@ -64,14 +64,35 @@ double Peridynamics<dim>::energy_at_unit_stretch(const BondView &view) const
 }
 
 
+template <int dim>
+double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigned int bond) const
+{
+  if constexpr (dim == 2)
+    if (parameters.tracked && !rock_of_bonds.is_uniform())
+      if (const auto crossing = crossing_of(site, bond))
+        return rock_of_bonds.energy(paths.point(*crossing));
+  return rock_of_bonds.energy(site, bond);
+}
+
+
+template <int dim>
+double Peridynamics<dim>::relative_stretch(const unsigned int site, const unsigned int bond) const
+{
+  return rock_of_bonds.is_uniform()
+           ? 1.
+           : std::sqrt(relative_energy(site, bond) / rock_of_bonds.modulus(site, bond));
+}
+
+
 /// What breaks a bond is its energy; bonds beside a crack are stiffer.
 template <int dim>
 double Peridynamics<dim>::equivalent_stretch(const unsigned int site,
                                              const unsigned int bond,
                                              const double elongation) const
 {
-  return std::sqrt(stiffness(site, bond) / coefficients[bond].stiffness) * elongation /
-         coefficients[bond].length;
+  return std::sqrt(stiffness(site, bond) /
+                   (relative_energy(site, bond) * coefficients[bond].stiffness)) *
+         elongation / coefficients[bond].length;
 }
 
 
@@ -307,6 +328,8 @@ void Peridynamics<dim>::restore_softening()
   template const Peridynamics<dim>::SofteningBond *Peridynamics<dim>::softening_bond(              \
     unsigned int, unsigned int) const;                                                             \
   template double Peridynamics<dim>::bond_damage(unsigned int, unsigned int) const;                \
+  template double Peridynamics<dim>::relative_energy(unsigned int, unsigned int) const;            \
+  template double Peridynamics<dim>::relative_stretch(unsigned int, unsigned int) const;           \
   template double Peridynamics<dim>::energy_at_unit_stretch(const BondView &) const;               \
   template double Peridynamics<dim>::equivalent_stretch(unsigned int, unsigned int, double) const; \
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \

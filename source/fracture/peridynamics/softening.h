@@ -40,6 +40,12 @@ struct SofteningLaw
                            : last / kappa * (kappa - first) / (last - first);
   }
 
+  /// The stretch up to which damage comes.
+  double stretch_of(const double damage) const
+  {
+    return last * first / (last - damage * (last - first));
+  }
+
   /// Of damage times stretch by the stretch, where the stretch is the greatest so far.
   double slope(const double kappa) const
   {
@@ -49,7 +55,7 @@ struct SofteningLaw
   /// Stretch at which fluid gets into a cell.
   double when_wet() const
   {
-    return last * first / (last - wet_damage * (last - first));
+    return stretch_of(wet_damage);
   }
 
   /// Over that of a bond that broke at stretch one.
