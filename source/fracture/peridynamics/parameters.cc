@@ -70,7 +70,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "The stretch at which a bond is broken over the one at which it begins to "
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
-                    "that is spread over more cells. State-based bonds are always brittle.");
+                    "that is spread over more cells.");
   prm.declare_entry(
     "Critical stretch", "reduced by fluid", Patterns::Selection("reduced by fluid|of dry rock"),
     "reduced by fluid: by the work that the fluid does on the opening which a cell has when it is "
@@ -173,7 +173,9 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {false, "the deck gives no crack"};
   if (scene.crack_pressure == 0.)
     return {false, "the cracks are dry"};
-  if (p.state_based || p.softening == 1.)
+  if (p.state_based)
+    return {false, "bonds are state-based"};
+  if (p.softening == 1.)
     return {false, "bonds are brittle"};
   if (p.tensor_fluid)
     return {false, "the fluid is in the pores' elements"};
@@ -230,7 +232,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.stretch_factor <= 0.)
     throw bad("Critical stretch factor", "a number > 0");
   p.surface_correction = prm.get_bool("Surface correction");
-  p.softening = p.state_based ? 1. : prm.get_double("Softening");
+  p.softening = prm.get_double("Softening");
   if (p.softening > 1. && p.softening < 3.)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";

@@ -79,21 +79,30 @@ void Peridynamics<dim>::set_law(const double spacing)
   coefficients = bond_coefficients<dim>(stencil, law, spacing);
   strain_of_pressure = 1. / (dim * lattice_moduli<dim>(stencil, law, spacing).bulk());
   critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
+  softening.first = 1. / std::sqrt(parameters.softening);
+  softening.last = std::sqrt(parameters.softening);
+  BondLaw springs = law;
+  springs.dilatation_modulus = 0.;
+  // What bonds across a plane take that break at a stretch: as springs, and by their dilatation.
+  const auto energy_at = [&](const double stretch)
+  {
+    const double of_springs = crossing_energy<dim>(stencil, springs, spacing, stretch);
+    return of_springs + softening.share_of_squares() *
+                          (crossing_energy<dim>(stencil, law, spacing, stretch) - of_springs);
+  };
+  const double at_one = energy_at(1.);
+  energy_over_spring = at_one / crossing_energy<dim>(stencil, springs, spacing, 1.);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
-  const double held = crossing_energy<dim>(stencil, law, spacing, critical_stretch);
-  critical_stretch *= !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
-                      : parameters.softening > 1. && held > 0.
-                        ? std::sqrt(rock.energy_release_rate / held)
-                        : trapping_factor(parameters.horizon);
-  energy_over_spring =
-    std::pow(continuum_critical_stretch<dim>(rock, horizon) /
-               continuum_critical_stretch<dim>(rock, horizon, parameters.state_based),
-             2);
+  const double held = energy_at(critical_stretch);
+  critical_stretch *=
+    !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
+    : parameters.softening > 1. && held > 0.
+      ? std::sqrt(rock.energy_release_rate / held)
+      : trapping_factor(parameters.horizon, law.dilatation_modulus / rock.shear_modulus());
   softening.first = critical_stretch / std::sqrt(parameters.softening);
   softening.last = critical_stretch * std::sqrt(parameters.softening);
   // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
-  if (const double at_one = crossing_energy<dim>(stencil, law, spacing, 1.);
-      parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
+  if (parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
     relief_by_fluid = spacing * softening.when_wet() / softening.first / (2. * at_one);
 }
 
@@ -205,7 +214,10 @@ void Peridynamics<dim>::refresh_segments()
     Segment<dim> &segment = all_segments[i];
     at_front.push_back(parameters.tracked ? segment.at_tip : is_at_front(zone, cells[i], segment));
     if (scene.has_pore_pressure && zone.owns(cells[i].place))
+    {
+      segment.region = regions[zone.active_cell_index(cells[i].place)];
       segment.share_of_pores = biot_coefficient(i);
+    }
     // Unknowns are measured from the in-situ pressure.
     segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
     if (zone.owns(cells[i].place))

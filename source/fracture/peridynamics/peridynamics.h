@@ -224,6 +224,33 @@ private:
 
   void assemble_softening(const State &state, Sink &sink) const;
 
+  /// What of a bond is gone, and how that changes with its elongation.
+  struct Softened
+  {
+    double damage;        ///< D
+    double by_elongation; ///< of D [1/m]
+  };
+
+  /// Of softening bonds that are state-based, in a state whose displacements are known here.
+  Softened softened(const SofteningBond &bond, const State &state) const;
+
+  /// With them: what is left of a bond, 1 - D, is what counts of it in dilatations, and what these
+  /// do to its ends. See soft_dilatation.cc.
+  void assemble_soft_dilatation(const State &state, Sink &sink) const;
+
+  /// Number of the elongation that stands for the force of the dilatations, as far as it is lost,
+  /// of a state-based softening bond.
+  unsigned int unknown_of_lost_force(const unsigned int bond) const
+  {
+    return softening_bonds.size() + bond;
+  }
+
+  /// The functional of a site's dilatation, see for_each_dilatation().
+  /// @return the modulus
+  double find_dilatation(unsigned int site,
+                         std::vector<unsigned int> &family,
+                         std::vector<dealii::Tensor<1, dim>> &functional) const;
+
   // With the pressure in the bonds (pressure_in_bonds.cc).
 
   /// Strain of the lattice under a stress that has this traction on a fracture cell's plane, and is

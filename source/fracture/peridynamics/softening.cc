@@ -107,6 +107,9 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
                           .add(zone.position(from), 1e-4 * zone.spacing())
                           .add(zone.position(to), 1e-4 * zone.spacing())});
   }
+  if (parameters.state_based)
+    for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+      unknowns.push_back({Key().add(unknowns[n].key).add(1)});
   if (parameters.in_bonds)
     for (const ExtraUnknown &unknown : unknowns_of_faces())
       unknowns.push_back(unknown);
