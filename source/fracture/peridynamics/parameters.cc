@@ -30,8 +30,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "bond-based: springs, so that Poisson's ratio is 1/4 (1/3 in plane stress). "
                     "state-based: ordinary, linear; the force in a bond depends on the change of "
                     "volume at both its ends, too, which frees Poisson's ratio, couples nodes two "
-                    "horizons apart and makes the solution dearer. These bonds are brittle, "
-                    "whatever 'Softening' says.");
+                    "horizons apart and makes the solution dearer.");
   prm.declare_entry(
     "Bond volumes", "auto", Patterns::Selection("auto|exact|isotropic|full|ramp"),
     "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path', else "
@@ -64,8 +63,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Critical stretch factor", "", Patterns::Anything(),
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
-    "on the lattice grows at that rate, 0.986 for bonds that soften; for brittle ones 0.823 "
-    "with a horizon of 3, 0.851 with 4.");
+    "on the lattice grows at that rate: of bond-based bonds 0.986 for those that soften, and for "
+    "brittle ones 0.823 with a horizon of 3, 0.851 with 4; of state-based ones by the dilatation's "
+    "share of their energy.");
   prm.declare_entry("Softening", "4", Patterns::Double(1.),
                     "The stretch at which a bond is broken over the one at which it begins to "
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
