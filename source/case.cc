@@ -362,6 +362,8 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   network.parse_parameters(prm);
   network.set_fluid(rock.fluid().viscosity, rock.fluid().compressibility,
                     rock.main().permeability / rock.fluid().viscosity);
+  for (const types::material_id region : regions)
+    network.set_mobility(region, rock(region).permeability / rock.fluid().viscosity);
 
   scene.cracks = parse_initial_cracks<dim>(prm, geometry.lower(), geometry.upper());
   scene.domain_size = geometry.diameter();

@@ -396,6 +396,7 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
 
     Segment<dim> segment;
     segment.key = own_key;
+    segment.region = piece.region;
     const Point<dim> &from = pieces[span.first].ends[0];
     segment.centre = from + 0.5 * (pieces[span.last].ends[1] - from);
     segment.area = length(owned.crack, span);

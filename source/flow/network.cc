@@ -124,9 +124,9 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
   for (const Segment<dim> &segment : owned)
     mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
                     segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
-                    segment.pore_distance, segment.has_pressure_of_pores, segment.share_of_pores,
-                    segment.bare_aperture, segment.propped_conductivity, collectives.rank(),
-                    segment.at_tip, segment.neighbours});
+                    segment.region, segment.pore_distance, segment.has_pressure_of_pores,
+                    segment.share_of_pores, segment.bare_aperture, segment.propped_conductivity,
+                    collectives.rank(), segment.at_tip, segment.neighbours});
   network = collectives.gather(mine);
   std::stable_sort(network.begin(), network.end(),
                    [](const auto &a, const auto &b) { return a.key < b.key; });
@@ -324,12 +324,14 @@ double Network<dim>::leak_off_coefficient(const unsigned int segment) const
                                 s.size());
   // A cake is what fluid leaves that enters the rock; proppant lies where a well has cleaned up.
   const bool clean = s.propped_conductivity > 0. && leaks_into_pores(s);
+  const auto of_region = mobility_of_region.find(s.region);
+  const double mobility = of_region != mobility_of_region.end() ? of_region->second : rock_mobility;
   if (leak_off == LeakOff::resolved || clean)
-    return resolved_coefficient(rock_mobility, s.size(), s.pore_distance);
+    return resolved_coefficient(mobility, s.size(), s.pore_distance);
   if (leak_off != LeakOff::filter_cake)
     return 0.;
-  return s.rock_has_pore_pressure && rock_mobility > 0.
-           ? 1. / (1. / filter_cake_coefficient + s.pore_distance / rock_mobility)
+  return s.rock_has_pore_pressure && mobility > 0.
+           ? 1. / (1. / filter_cake_coefficient + s.pore_distance / mobility)
            : filter_cake_coefficient;
 }
 

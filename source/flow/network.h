@@ -60,6 +60,12 @@ public:
   /// @param rock_mobility k/mu of the rock, for leak-off that is resolved [m^2/(Pa s)]
   void set_fluid(double viscosity, double compressibility, double rock_mobility);
 
+  /// The same mobility in a region of the rock.
+  void set_mobility(const dealii::types::material_id region, const double mobility)
+  {
+    mobility_of_region[region] = mobility;
+  }
+
   /// What the scene says of pressures.
   /// @param given in all segments [Pa]; NaN: they are solved for
   /// @param in_situ_stress total, tension positive [Pa]: a new segment begins to open at it
@@ -429,7 +435,8 @@ private:
   double filter_cake_coefficient = 0.;
   double viscosity = std::numeric_limits<double>::quiet_NaN();
   double compressibility = 0.;
-  double rock_mobility = 0.;
+  double rock_mobility = 0.; ///< outside of regions
+  std::map<dealii::types::material_id, double> mobility_of_region;
   double given_pressure = std::numeric_limits<double>::quiet_NaN(); ///< in all segments [Pa]
   std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> in_situ_stress;
 

@@ -18,12 +18,13 @@ struct NetworkSegment
   double area = 0.;
   double in_situ_pore_pressure = 0.;
   bool rock_has_pore_pressure = false; ///< as unknowns
-  double pore_distance = 0.;           ///< see Segment [m]
-  bool has_pressure_of_pores = false;  ///< see Segment
-  double share_of_pores = 0.;          ///< see Segment
-  double bare_aperture = 0.;           ///< see Segment [m]
-  double propped_conductivity = 0.;    ///< see Segment [m^3]
-  unsigned int owner = 0;              ///< rank
+  dealii::types::material_id region = 0;
+  double pore_distance = 0.;          ///< see Segment [m]
+  bool has_pressure_of_pores = false; ///< see Segment
+  double share_of_pores = 0.;         ///< see Segment
+  double bare_aperture = 0.;          ///< see Segment [m]
+  double propped_conductivity = 0.;   ///< see Segment [m^3]
+  unsigned int owner = 0;             ///< rank
   bool at_tip = false;
   std::vector<typename Segment<dim>::Neighbour> neighbours;
   double initial_pressure = 0.; ///< from which an unknown pressure starts [Pa]; not gathered
@@ -37,9 +38,9 @@ struct NetworkSegment
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &key &centre &normal &area &in_situ_pore_pressure &rock_has_pore_pressure &pore_distance
-      &has_pressure_of_pores &share_of_pores &bare_aperture &propped_conductivity &owner &at_tip
-        &neighbours;
+    ar &key &centre &normal &area &in_situ_pore_pressure &rock_has_pore_pressure &region
+      &pore_distance &has_pressure_of_pores &share_of_pores &bare_aperture &propped_conductivity
+        &owner &at_tip &neighbours;
   }
 };
 

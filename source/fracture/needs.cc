@@ -32,6 +32,18 @@ void initial_crack(const Scene<dim> &scene, const std::string &model, const std:
 
 
 template <int dim>
+void cracks_without_proppant(const Scene<dim> &scene, const std::string &model)
+{
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    if (crack.kind == InitialCrack<dim>::Kind::propped)
+      throw EntryError(crack.entry, crack.text,
+                       "nothing (an empty entry)" +
+                         with(model, "whose cracks have nothing between their faces; "
+                                     "'cohesive_xfem' knows propped ones"));
+}
+
+
+template <int dim>
 void open_cracks(const Scene<dim> &scene, const std::string &model)
 {
   for (const InitialCrack<dim> &crack : scene.cracks)
@@ -55,32 +67,38 @@ void energy_release_rate(const Rock &rock, const std::string &model, const std::
 
 void energy_of_all_modes(const RockProperties &rock,
                          const std::string &model,
-                         const std::string &why)
+                         const std::string &why,
+                         const std::string &path)
 {
   if (!(std::abs(rock.shear_energy_release_rate - rock.energy_release_rate) >
         1e-6 * rock.energy_release_rate))
     return;
   std::ostringstream given;
   given << rock.shear_energy_release_rate << " J/m^2";
-  throw EntryError("Rock/Shear energy release rate", given.str(),
+  throw EntryError(path + "/Shear energy release rate", given.str(),
                    "nothing (an empty entry), or the critical one," + with(model, why) +
                      "; 'cohesive_xfem' takes one");
 }
 
 
-void no_given_strength(const RockProperties &rock, const std::string &model, const std::string &why)
+void no_given_strength(const RockProperties &rock,
+                       const std::string &model,
+                       const std::string &why,
+                       const std::string &path)
 {
   if (std::isnan(rock.tensile_strength))
     return;
   std::ostringstream given;
   given << 1e-6 * rock.tensile_strength << " MPa";
-  throw EntryError("Rock/Tensile strength", given.str(),
+  throw EntryError(path + "/Tensile strength", given.str(),
                    "nothing (an empty entry)" + with(model, why) + "; 'cohesive_xfem' takes one");
 }
 
 
 template void initial_crack(const Scene<2> &, const std::string &, const std::string &);
 template void initial_crack(const Scene<3> &, const std::string &, const std::string &);
+template void cracks_without_proppant(const Scene<2> &, const std::string &);
+template void cracks_without_proppant(const Scene<3> &, const std::string &);
 template void open_cracks(const Scene<2> &, const std::string &);
 template void open_cracks(const Scene<3> &, const std::string &);
 } // namespace stockwork::needs

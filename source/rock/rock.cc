@@ -241,6 +241,9 @@ RockProperties parse_properties(ParameterHandler &prm,
   const double toughness = get("Fracture toughness", dimension::toughness, nan);
   const double energy = get("Critical energy release rate", dimension::energy_release_rate, nan);
   const double from_toughness = toughness * toughness / rock.plane_modulus();
+  // Where the rock outside of a region slides at the energy at which it opens, so does the region.
+  const bool one_energy = std::isnan(rock.shear_energy_release_rate) ||
+                          rock.shear_energy_release_rate == rock.energy_release_rate;
   if (!std::isnan(toughness) && !std::isnan(energy) &&
       std::abs(energy - from_toughness) > 1e-3 * from_toughness)
     throw EntryError(path + "/Critical energy release rate",
@@ -253,8 +256,7 @@ RockProperties parse_properties(ParameterHandler &prm,
     rock.energy_release_rate = from_toughness;
   rock.shear_energy_release_rate =
     get("Shear energy release rate", dimension::energy_release_rate,
-        std::isnan(rock.shear_energy_release_rate) ? rock.energy_release_rate
-                                                   : rock.shear_energy_release_rate);
+        one_energy ? rock.energy_release_rate : rock.shear_energy_release_rate);
   parse_random_field(prm, path, rock);
   return rock;
 }

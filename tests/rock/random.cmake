@@ -52,6 +52,22 @@ foreach(model cohesive_xfem damage)
     SECOND_SET "Rock/Random field/Properties=" "Rock/Random field/Weibull modulus="
       "Rock/Random field/Lattice spacing=")
 endforeach()
+# The same with bonds, whose strength is not the rock's.
+set(of_bonds Resolution=coarse "Verification/Reference=none" "Time/End time=3 s" "Output/Fields=false"
+  "Rock/Random field/Properties=Young modulus, critical energy release rate" "Rock/Random field/Weibull modulus=10"
+  "Rock/Random field/Lattice spacing=0.8 m")
+foreach(closure conserving "in bonds")
+  string(REPLACE " " "_" name ${closure})
+  set(of_closure ${of_bonds} "Fracture/peridynamics/Closure=${closure}")
+  stockwork_same_test(NAME rock/random/peridynamics/${name}/ranks DECK prm/kgd/sun/peridynamics.prm SET ${of_closure}
+    RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error)
+  stockwork_same_test(NAME rock/random/peridynamics/${name}/uniform DECK prm/kgd/sun/peridynamics.prm SET ${of_closure}
+    "Rock/Random field/Weibull modulus=1e300" TOLERANCE 1e-8 IGNORE balance_error
+    SECOND_SET "Rock/Random field/Properties=" "Rock/Random field/Weibull modulus="
+      "Rock/Random field/Lattice spacing=")
+endforeach()
+stockwork_restart_test(NAME rock/random/peridynamics/restart DECK prm/kgd/sun/peridynamics.prm SET ${of_bonds}
+  RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error AFTER 12)
 stockwork_same_test(NAME rock/random/porous/uniform DECK tests/contract/rock.prm LABELS quick TOLERANCE 1e-12
   IGNORE balance_error
   SET "Verification/Reference=none" "Rock/Random field/Properties=Young modulus, permeability"

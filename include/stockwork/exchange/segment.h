@@ -93,6 +93,9 @@ struct Segment
   /// rock has no pore pressure unknowns: a constant, the in-situ pore pressure. Same rank as above.
   LinearFunctional pore_pressure;
 
+  /// Region of the rock around it.
+  dealii::types::material_id region = 0;
+
   /// How far from the segment, along its normal, the nodes are whose pressures make up
   /// `pore_pressure`, their mean with the same weights [m]. The pore pressure has a kink at a
   /// leaking fracture; elements that are smooth there see the pressure at this distance from it.

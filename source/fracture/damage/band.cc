@@ -407,6 +407,7 @@ Band<dim>::segments(const std::function<double(const Point<dim> &)> &in_situ_por
     const CrackCell<dim> &crack = cells[owned.number];
     Segment<dim> segment;
     segment.key = crack.key();
+    segment.region = crack.region;
     segment.centre = crack.middle();
     segment.normal = crack.normal;
     segment.area = crack.area();

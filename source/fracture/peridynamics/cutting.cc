@@ -9,16 +9,22 @@ namespace stockwork::peridynamics
 using dealii::Point;
 using dealii::Tensor;
 
+namespace
+{
+/// Of the bonds across a cohesive crack. With 'Softening = 4' they have lost a four-hundredth of
+/// their energy by it.
+constexpr double little_damage = 0.01;
+} // namespace
+
 
 template <int dim>
 void Peridynamics<dim>::cut_initial_cracks()
 {
   for (const auto &crack : scene.cracks)
   {
-    if (crack.kind != InitialCrack<dim>::Kind::open)
-      continue;
+    const bool is_open = crack.kind == InitialCrack<dim>::Kind::open;
     if (crack.disc)
-      cut_along_plane(crack.disc->centre, crack.disc->normal,
+      cut_along_plane(crack.disc->centre, crack.disc->normal, is_open,
                       [&](const Point<dim> &crossing)
                       {
                         // As at a tip: a bond right at the edge holds.
@@ -41,7 +47,7 @@ void Peridynamics<dim>::cut_initial_cracks()
         Tensor<1, dim> normal;
         normal[0] = -along[1] / length;
         normal[1] = along[0] / length;
-        cut_along_plane(start, normal,
+        cut_along_plane(start, normal, is_open,
                         [&](const Point<dim> &crossing)
                         {
                           const double place = (crossing - start) * along / length;
@@ -57,6 +63,7 @@ template <int dim>
 void Peridynamics<dim>::cut_along_plane(
   const Point<dim> &origin,
   const Tensor<1, dim> &normal,
+  const bool is_open,
   const std::function<bool(const Point<dim> &crossing)> &is_on_crack)
 {
   const double reach = same_place * zone.spacing();
@@ -69,15 +76,34 @@ void Peridynamics<dim>::cut_along_plane(
       const double s = (from - origin) * normal, t = (from + xi - origin) * normal;
       if ((s >= -reach) != (t >= -reach) && bonds.can_break(i, b) &&
           is_on_crack(from + s / (s - t) * xi))
-        bonds.set_broken(i, b);
+      {
+        if (is_open)
+          bonds.set_broken(i, b);
+        cracked.set_broken(i, b);
+      }
     }
+}
+
+
+template <int dim>
+void Peridynamics<dim>::soften_cohesive_cracks()
+{
+  if (!parameters.in_bonds || !std::isnan(scene.crack_pressure))
+    return;
+  for (const unsigned int i : zone.peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (cracked.is_broken(i, b) && !bonds.is_broken(i, b) &&
+          views_of(i, b).front() == BondView(i, b))
+        committed_softening.push_back(
+          {bonds.places(i, b), {{softening.stretch_of(little_damage), 0.}}});
+  restore_softening();
 }
 
 
 template <int dim>
 void Peridynamics<dim>::set_initial_normals()
 {
-  for (const FractureCell<dim> &cell : find_fracture_cells(zone, bonds))
+  for (const FractureCell<dim> &cell : find_fracture_cells(zone, cracked))
   {
     Point<dim> centre = zone.position(cell.place);
     for (unsigned int d = 0; d < dim; ++d)
@@ -98,8 +124,6 @@ void Peridynamics<dim>::set_initial_normals()
     };
     for (const auto &crack : scene.cracks)
     {
-      if (crack.kind != InitialCrack<dim>::Kind::open)
-        continue;
       if (crack.disc)
         consider(crack, crack.disc->normal);
       if constexpr (dim == 2)
@@ -114,10 +138,12 @@ void Peridynamics<dim>::set_initial_normals()
   }
 }
 
-#define INSTANTIATE(dim)                                                                          \
-  template void Peridynamics<dim>::cut_initial_cracks();                                          \
-  template void Peridynamics<dim>::cut_along_plane(                                               \
-    const Point<dim> &, const Tensor<1, dim> &, const std::function<bool(const Point<dim> &)> &); \
+#define INSTANTIATE(dim)                                     \
+  template void Peridynamics<dim>::cut_initial_cracks();     \
+  template void Peridynamics<dim>::cut_along_plane(          \
+    const Point<dim> &, const Tensor<1, dim> &, bool,        \
+    const std::function<bool(const Point<dim> &)> &);        \
+  template void Peridynamics<dim>::soften_cohesive_cracks(); \
   template void Peridynamics<dim>::set_initial_normals();
 INSTANTIATE(2)
 INSTANTIATE(3)

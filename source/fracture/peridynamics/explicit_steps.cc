@@ -39,7 +39,7 @@ void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
       if (never_breaks(site, bond))
         result.amplification = 0.;
       else if (result.stiffness > 0.)
-        result.amplification = std::sqrt(result.stiffness / whole_stiffness(site, bond));
+        result.amplification = equivalent_stretch(site, bond, coefficients[bond].length);
       if (const SofteningBond *softened = softening_bond(site, bond))
         result.greatest = softened->committed;
       return result;

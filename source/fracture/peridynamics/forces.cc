@@ -98,44 +98,43 @@ void Peridynamics<dim>::for_each_dilatation(
 {
   if (!parameters.state_based)
     return;
-  const double volume = dealii::Utilities::fixed_power<dim>(zone.spacing());
-  std::vector<unsigned int> family(stencil.size() + 1);
+  std::vector<unsigned int> family;
   std::vector<Tensor<1, dim>> functional;
   for (const auto *sites : {&zone.peridynamic_sites(), &zone.rim_sites()})
     for (const unsigned int i : *sites)
     {
-      const Site<dim> &site = zone.sites()[i];
       bool acts_here = has_rows(i);
-      family.back() = i;
       for (unsigned int b = 0; b < stencil.size(); ++b)
-      {
-        family[b] = zone.far_end(i, b).site;
-        acts_here = acts_here || has_rows(family[b]);
-      }
+        acts_here = acts_here || has_rows(zone.far_end(i, b).site);
       if (!acts_here)
         continue;
-      // Bonds that lead out of the zone hold.
-      dilatation_functional(
-        coefficients,
-        [&](const unsigned int b) { return site.peridynamic && bonds.is_broken(i, b); },
-        functional);
-      for (unsigned int b = 0; b < stencil.size(); ++b)
-        for (unsigned int d = 0; d < dim; ++d)
-          if (zone.far_end(i, b).mirrored >> d & 1)
-            functional[b][d] = -functional[b][d];
-      const double factor = dilatation_factor(i);
-      use(family, functional, law.dilatation_modulus * volume * site.share * factor * factor);
+      const double modulus = find_dilatation(i, family, functional);
+      use(family, functional, modulus);
     }
 }
 
 
 template <int dim>
-double Peridynamics<dim>::whole_stiffness(const unsigned int site, const unsigned int bond) const
+double Peridynamics<dim>::find_dilatation(const unsigned int i,
+                                          std::vector<unsigned int> &family,
+                                          std::vector<Tensor<1, dim>> &functional) const
 {
-  const FarEnd far = zone.far_end(site, bond);
-  return far.absent ? 0.
-                    : zone.sites()[site].volume * zone.sites()[far.site].volume *
-                        coefficients[bond].stiffness;
+  const Site<dim> &site = zone.sites()[i];
+  family.resize(stencil.size() + 1);
+  family.back() = i;
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+    family[b] = zone.far_end(i, b).site;
+  // Bonds that lead out of the zone hold.
+  dilatation_functional(
+    coefficients, [&](const unsigned int b) { return site.peridynamic && bonds.is_broken(i, b); },
+    functional);
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+    for (unsigned int d = 0; d < dim; ++d)
+      if (zone.far_end(i, b).mirrored >> d & 1)
+        functional[b][d] = -functional[b][d];
+  const double factor = dilatation_factor(i);
+  return dilatation_modulus(i) * dealii::Utilities::fixed_power<dim>(zone.spacing()) * site.share *
+         factor * factor;
 }
 
 
@@ -143,7 +142,8 @@ template <int dim>
 double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int bond) const
 {
   const unsigned int far = zone.far_end(site, bond).site;
-  const double whole = whole_stiffness(site, bond);
+  const double whole =
+    volume_share(site, bond) * coefficients[bond].stiffness * rock_of_bonds.modulus(site, bond);
   if (bonds.is_broken(site, bond))
     return is_nearly_detached(std::max(damage[site], damage[far])) ? remaining_share * whole : 0.;
   if (!parameters.surface_correction)
@@ -170,9 +170,9 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
       double theta = 0.;
       for (unsigned int b = 0; b < stencil.size(); ++b)
         if (!bonds.is_broken(i, b))
-          theta += coefficients[b].dilatation * elongation(i, b, u);
+          theta += (1. - bond_damage(i, b)) * coefficients[b].dilatation * elongation(i, b, u);
       theta *= dilatation_factor(i);
-      energy += 0.5 * law.dilatation_modulus * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
+      energy += 0.5 * dilatation_modulus(i) * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
                 zone.sites()[i].share * theta * theta;
     }
   for (const SofteningBond &bond : softening_bonds)
@@ -253,6 +253,8 @@ template <int dim>
 void Peridynamics<dim>::assemble(const StepContext &context, const State &state, Sink &sink) const
 {
   assemble_softening(state, sink);
+  if (parameters.state_based && !softening_bonds.empty())
+    assemble_soft_dilatation(state, sink);
   for (const PublishedLoad<dim> &load : published)
     load.assemble(state, sink);
   if (parameters.tensor_fluid)
@@ -279,9 +281,10 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;                      \
   template void Peridynamics<dim>::add_couplings(const Coupling &) const;                          \
   template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;                  \
-  template double Peridynamics<dim>::whole_stiffness(unsigned int, unsigned int) const;            \
   template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;             \
   template double Peridynamics<dim>::dilatation_factor(unsigned int) const;                        \
+  template double Peridynamics<dim>::find_dilatation(unsigned int, std::vector<unsigned int> &,    \
+                                                     std::vector<Tensor<1, dim>> &) const;         \
   template void Peridynamics<dim>::for_each_dilatation(                                            \
     const std::function<void(const std::vector<unsigned int> &,                                    \
                              const std::vector<Tensor<1, dim>> &, double)> &) const;               \

@@ -50,14 +50,15 @@ double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigne
   const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
   SymmetricTensor<2, dim> effective = scene.in_situ_stress(middle);
   if (scene.has_pore_pressure)
-    effective += rock.biot_coefficient * scene.in_situ_pore_pressure(middle) *
-                 dealii::unit_symmetric_tensor<dim>();
+    effective += (rock_of_bonds.is_uniform() ? rock.biot_coefficient
+                                             : rock_of_bonds.biot_coefficient(site, bond)) *
+                 scene.in_situ_pore_pressure(middle) * dealii::unit_symmetric_tensor<dim>();
   const SymmetricTensor<2, dim> strain =
     (effective -
      lambda / (dim * lambda + 2. * mu) * trace(effective) * dealii::unit_symmetric_tensor<dim>()) /
     (2. * mu);
   const Tensor<1, dim> &e = coefficients[bond].direction;
-  return e * (strain * e);
+  return e * (strain * e) / rock_of_bonds.modulus(site, bond);
 }
 
 
@@ -74,8 +75,8 @@ Peridynamics<dim>::pressure_stretch(const State &state, const Collectives &colle
   if (by_fluid > 0. && scene.has_pore_pressure)
   {
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
-      result[owned_cells[i]] =
-        -rock.biot_coefficient * by_fluid * value(owned_segments[i].pore_pressure, state.current);
+      result[owned_cells[i]] = -biot_coefficient(owned_cells[i]) * by_fluid *
+                               value(owned_segments[i].pore_pressure, state.current);
     collectives.sum(result);
   }
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -128,7 +129,8 @@ double Peridynamics<dim>::added_stretch(const unsigned int site,
 {
   return parameters.in_bonds
            ? fractured_stretch(site, bond, shares_of(site, bond, false), of_cells.strain)
-           : in_situ_stretch(site, bond) + relief_at(site, bond, of_cells.relief);
+           : in_situ_stretch(site, bond) +
+               relief_at(site, bond, of_cells.relief) / rock_of_bonds.modulus(site, bond);
 }
 
 
@@ -157,7 +159,8 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       return rounded(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
                      softening.first);
     };
-    const double most = most_of_cells + (parameters.in_bonds ? 0. : in_situ_stretch(i, b));
+    const double most = most_of_cells / rock_of_bonds.modulus(i, b) +
+                        (parameters.in_bonds ? 0. : in_situ_stretch(i, b));
     if (ratio_with(most) < least || softening_bond(i, b) != nullptr)
       return;
     const double ratio = ratio_with(added_stretch(i, b, of_cells));
@@ -200,7 +203,8 @@ void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
     const auto [stretch, site, bond] = candidates[k];
     if (bonds.is_broken(site, bond))
       continue; // the image of another
-    dissipated += energy_at_unit_stretch({site, bond}) * std::pow(stretch * critical_stretch, 2);
+    dissipated += relative_energy(site, bond) * energy_at_unit_stretch({site, bond}) *
+                  std::pow(stretch * critical_stretch, 2);
     bonds.set_broken(site, bond);
     cracked.set_broken(site, bond);
   }

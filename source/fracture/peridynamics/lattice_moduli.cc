@@ -114,14 +114,16 @@ continuum_critical_stretch(const RockProperties &rock, const double horizon, con
   return std::sqrt(rock.energy_release_rate / (stiffness * horizon));
 }
 
-double trapping_factor(const unsigned int m)
+double trapping_factor(const unsigned int m, const double dilatation)
 {
   const double driving_force = m <= 2   ? 1.785
                                : m == 3 ? 1.477
                                : m == 4 ? 1.38
                                : m == 5 ? 1.215
                                         : 1. + 0.157 * 36. / (m * m);
-  return 1. / std::sqrt(driving_force);
+  // Through the forces at Poisson's ratios of 0.15, 0.25 and 0.35, those of plane strain.
+  const double more = (1. + dilatation) / (2. * (2. + dilatation)) - 0.25;
+  return 1. / std::sqrt(1. + (driving_force - 1.) * (1. + (1.35 - 1.2 * more) * more / 0.477));
 }
 
 #define STOCKWORK_INSTANTIATE(dim)                                                             \

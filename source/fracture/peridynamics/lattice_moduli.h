@@ -75,8 +75,10 @@ double continuum_critical_stretch(const RockProperties &rock,
 /// found by growing a crack in a large lattice (tests/unit/peridynamics_trapping_test.cc), the same
 /// for isotropic volumes from m = 3 on. A study that took J from a domain integral in smaller
 /// bodies found 1.31 (m = 3, rising with the body) and 1.17 (4). State-based, m = 3: 1.33 at
-/// Poisson's ratio 0.15, 1.60 at 0.35; not in the factor. In 3-D the same is taken: a crack
-/// through a slab of four cells then takes 0.84 G_c (m = 3; 0.90 in a plane).
-double trapping_factor(const unsigned int m);
+/// Poisson's ratio 0.15, 1.60 at 0.35; between, and for other m, the excess over one is taken to
+/// change alike. In 3-D the same is taken: a crack through a slab of four cells then takes 0.84 G_c
+/// (m = 3; 0.90 in a plane).
+/// @param dilatation BondLaw::dilatation_modulus over the shear modulus
+double trapping_factor(const unsigned int m, const double dilatation = 0.);
 
 } // namespace stockwork::peridynamics

@@ -1,6 +1,7 @@
 // What bonds cannot do: refused, foreseen, or noticed while it happens.
 #include "fracture/peridynamics/peridynamics.h"
 
+#include "fracture/peridynamics/lattice_moduli.h"
 #include "stockwork/base/error.h"
 #include "stockwork/fracture/needs.h"
 #include "verification/analytical/kgd.h"
@@ -67,14 +68,41 @@ std::vector<std::pair<Point<dim>, Tensor<1, dim>>> flat_parts(const InitialCrack
 template <int dim>
 void Peridynamics<dim>::refuse_what_bonds_do_not_know() const
 {
-  needs::open_cracks(scene, "peridynamics");
-  if (!parameters.growth)
-    return;
-  needs::no_given_strength(
-    scene.rock.main(), "peridynamics",
-    "where the strength follows from the energy release rate and the cells' size");
-  needs::energy_of_all_modes(scene.rock.main(), "peridynamics",
-                             "whose bonds break by their stretch, whatever the mode");
+  needs::cracks_without_proppant(scene, "peridynamics");
+  for (unsigned int region = 0; region <= Rock::max_regions; ++region)
+  {
+    const RockProperties &rock = scene.rock(region);
+    const std::string path =
+      region == 0 ? std::string("Rock") : "Rock/Region " + std::to_string(region);
+    if (rock.stiffness)
+      throw EntryError(path + "/Law", "an anisotropic one",
+                       "'elastic' with 'Fracture/Model = peridynamics': bonds are as stiff in one "
+                       "direction as in another");
+    const double nu = bond_based_poisson_ratio(rock.plane_stress);
+    if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
+      throw EntryError(
+        path + "/Poisson ratio", text(rock.poisson_ratio),
+        std::string(rock.plane_stress ? "1/3" : "0.25") + " with bond-based peridynamics" +
+          (rock.plane_stress ? " in plane stress" : "") + "; others with 'Bond law = state-based'");
+    if (parameters.as_published &&
+        (rock.is_random() || rock.young_modulus != scene.rock.main().young_modulus ||
+         rock.biot_coefficient != scene.rock.main().biot_coefficient))
+      throw EntryError("Fracture/peridynamics/Closure", "as published",
+                       "'conserving' or 'in bonds' where the rock differs from place to place, "
+                       "which the paper does not have");
+    if (!parameters.growth)
+      continue;
+    needs::no_given_strength(
+      rock, "peridynamics",
+      "where the strength follows from the energy release rate and the cells' size", path);
+    needs::energy_of_all_modes(rock, "peridynamics",
+                               "whose bonds break by their stretch, whatever the mode", path);
+    if (rock.is_random() && rock.random->varies(RandomField::tensile_strength))
+      throw EntryError(path + "/Random field/Properties", "one with 'tensile strength'",
+                       "a list without it with the fracture model 'peridynamics', where the "
+                       "strength follows from the energy release rate and the cells' size; "
+                       "'cohesive_xfem' and 'damage' take it");
+  }
 }
 
 

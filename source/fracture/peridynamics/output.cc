@@ -44,12 +44,32 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
                     softening.dissipated(softening_bonds[n].trial)) /
                    scene.rock.main().energy_release_rate;
     result.length = paths.length() + half_process_zones();
-    result.broken_length = 2. * elastic - result.length;
+    result.broken_length = 2. * elastic - result.length - length_that_holds();
   }
   result.dissipated_energy = dissipated;
   result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));
   result.cost = cost();
   return result;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::length_that_holds() const
+{
+  double energy = 0.;
+  if constexpr (dim == 2)
+    for (const BondAcross &bond : crossing_bonds)
+      if (const auto &[site, b] = bond.view;
+          !bonds.is_broken(site, b) &&
+          scene.cracks[bond.crossing.path].kind != InitialCrack<dim>::Kind::open &&
+          !paths.end_at(bond.crossing) && views_of(site, b).front() == bond.view)
+      {
+        const SofteningBond *softened = softening_bond(site, b);
+        energy += energy_at_unit_stretch(bond.view) *
+                  (softening.first * softening.last -
+                   (softened != nullptr ? softening.separation(softened->trial) : 0.));
+      }
+  return energy / scene.rock.main().energy_release_rate;
 }
 
 
@@ -130,16 +150,17 @@ void Peridynamics<dim>::write_bonds(FieldSink<dim> &sink) const
           (parameters.written == Parameters<dim>::Bonds::broken && !broken))
         continue; // seen from the other end
       const Point<dim> from = zone.position(zone.sites()[i].place);
-      const double stretch =
-        displacement.size() == dim * zone.sites().size()
-          ? elongation(i, b, displacement) / coefficients[b].length / critical_stretch
-          : 0.;
+      const double stretch = displacement.size() == dim * zone.sites().size()
+                               ? elongation(i, b, displacement) / coefficients[b].length /
+                                   critical_stretch / relative_stretch(i, b)
+                               : 0.;
       sink.add_bond(from, from + coefficients[b].length * coefficients[b].direction,
                     {{"broken", broken ? 1. : 0.}, {"stretch", stretch}});
     }
 }
 
 #define INSTANTIATE(dim)                                                                         \
+  template double Peridynamics<dim>::length_that_holds() const;                                  \
   template std::string Peridynamics<dim>::cost() const;                                          \
   template FractureSummary Peridynamics<dim>::summary(const State &, const Collectives &) const; \
   template void Peridynamics<dim>::write_bonds(FieldSink<dim> &) const;                          \

@@ -30,8 +30,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "bond-based: springs, so that Poisson's ratio is 1/4 (1/3 in plane stress). "
                     "state-based: ordinary, linear; the force in a bond depends on the change of "
                     "volume at both its ends, too, which frees Poisson's ratio, couples nodes two "
-                    "horizons apart and makes the solution dearer. These bonds are brittle, "
-                    "whatever 'Softening' says.");
+                    "horizons apart and makes the solution dearer.");
   prm.declare_entry(
     "Bond volumes", "auto", Patterns::Selection("auto|exact|isotropic|full|ramp"),
     "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path', else "
@@ -67,13 +66,14 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Critical stretch factor", "", Patterns::Anything(),
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
-    "on the lattice grows at that rate, 0.986 for bonds that soften; for brittle ones 0.823 "
-    "with a horizon of 3, 0.851 with 4.");
+    "on the lattice grows at that rate: of bond-based bonds 0.986 for those that soften, and for "
+    "brittle ones 0.823 with a horizon of 3, 0.851 with 4; of state-based ones by the dilatation's "
+    "share of their energy.");
   prm.declare_entry("Softening", "4", Patterns::Double(1.),
                     "The stretch at which a bond is broken over the one at which it begins to "
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
-                    "that is spread over more cells. State-based bonds are always brittle.");
+                    "that is spread over more cells.");
   prm.declare_entry(
     "Critical stretch", "reduced by fluid", Patterns::Selection("reduced by fluid|of dry rock"),
     "reduced by fluid: by the work that the fluid does on the opening which a cell has when it is "
@@ -177,7 +177,9 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {false, "the deck gives no crack"};
   if (scene.crack_pressure == 0.)
     return {false, "the cracks are dry"};
-  if (p.state_based || p.softening == 1.)
+  if (p.state_based)
+    return {false, "bonds are state-based"};
+  if (p.softening == 1.)
     return {false, "bonds are brittle"};
   if (p.tensor_fluid)
     return {false, "the fluid is in the pores' elements"};
@@ -236,7 +238,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.stretch_factor <= 0.)
     throw bad("Critical stretch factor", "a number > 0");
   p.surface_correction = prm.get_bool("Surface correction");
-  p.softening = p.state_based ? 1. : prm.get_double("Softening");
+  p.softening = prm.get_double("Softening");
   if (p.softening > 1. && p.softening < 3.)
     throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";

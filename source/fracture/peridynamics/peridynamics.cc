@@ -26,13 +26,6 @@ namespace
 {
 /// Of the stretch at which bonds soften, up to which the surface correction may make them stiffer.
 constexpr double relaxed = 0.5;
-
-std::string as_text(const double number)
-{
-  std::ostringstream stream;
-  stream << number;
-  return stream.str();
-}
 } // namespace
 
 
@@ -42,18 +35,6 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   , scene(scene)
   , stencil(horizon_stencil<dim>(parameters.horizon, parameters.volumes))
 {
-  const RockProperties &rock = scene.rock.main();
-  if (rock.stiffness)
-    throw EntryError("Rock/Law", "an anisotropic one",
-                     "'elastic' with 'Fracture/Model = peridynamics': bonds are as stiff in one "
-                     "direction as in another");
-  const double nu = bond_based_poisson_ratio(rock.plane_stress);
-  if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
-    throw EntryError("Rock/Poisson ratio", as_text(rock.poisson_ratio),
-                     (rock.plane_stress ? std::string("1/3") : std::string("0.25")) +
-                       " with bond-based peridynamics" +
-                       (rock.plane_stress ? " in plane stress" : "") +
-                       "; others with 'Bond law = state-based'");
   if (parameters.growth)
     needs::energy_release_rate(scene.rock, "peridynamics", "or 'Growth = false'");
   if (parameters.as_published && !parameters.tensor_fluid &&
@@ -80,7 +61,7 @@ Requirements Peridynamics<dim>::requirements() const
   requirements.pore_pressure = requirements.fluid_in_pores = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
   requirements.may_grow = parameters.growth;
-  requirements.regional_rock = RegionalRock::none;
+  requirements.random_rock = true;
   // As seen in kgd/sun, kgd/toughness, minifrac and radial/toughness.
   requirements.time_of_step = dim == 2 ? 7.5 : 25.;
   requirements.memory_per_unknown = dim == 2 ? 12e3 : 48e3;
@@ -98,21 +79,30 @@ void Peridynamics<dim>::set_law(const double spacing)
   coefficients = bond_coefficients<dim>(stencil, law, spacing);
   strain_of_pressure = 1. / (dim * lattice_moduli<dim>(stencil, law, spacing).bulk());
   critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
+  softening.first = 1. / std::sqrt(parameters.softening);
+  softening.last = std::sqrt(parameters.softening);
+  BondLaw springs = law;
+  springs.dilatation_modulus = 0.;
+  // What bonds across a plane take that break at a stretch: as springs, and by their dilatation.
+  const auto energy_at = [&](const double stretch)
+  {
+    const double of_springs = crossing_energy<dim>(stencil, springs, spacing, stretch);
+    return of_springs + softening.share_of_squares() *
+                          (crossing_energy<dim>(stencil, law, spacing, stretch) - of_springs);
+  };
+  const double at_one = energy_at(1.);
+  energy_over_spring = at_one / crossing_energy<dim>(stencil, springs, spacing, 1.);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
-  const double held = crossing_energy<dim>(stencil, law, spacing, critical_stretch);
-  critical_stretch *= !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
-                      : parameters.softening > 1. && held > 0.
-                        ? std::sqrt(rock.energy_release_rate / held)
-                        : trapping_factor(parameters.horizon);
-  energy_over_spring =
-    std::pow(continuum_critical_stretch<dim>(rock, horizon) /
-               continuum_critical_stretch<dim>(rock, horizon, parameters.state_based),
-             2);
+  const double held = energy_at(critical_stretch);
+  critical_stretch *=
+    !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
+    : parameters.softening > 1. && held > 0.
+      ? std::sqrt(rock.energy_release_rate / held)
+      : trapping_factor(parameters.horizon, law.dilatation_modulus / rock.shear_modulus());
   softening.first = critical_stretch / std::sqrt(parameters.softening);
   softening.last = critical_stretch * std::sqrt(parameters.softening);
   // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
-  if (const double at_one = crossing_energy<dim>(stencil, law, spacing, 1.);
-      parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
+  if (parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
     relief_by_fluid = spacing * softening.when_wet() / softening.first / (2. * at_one);
 }
 
@@ -134,6 +124,11 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   regions.clear();
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     regions.push_back(cell->material_id());
+  rock_of_bonds.reinit(
+    zone, stencil, scene.rock, parameters.state_based,
+    [&](const unsigned int cell, const Point<dim> &centre)
+    { return scene.rock.at(regions[cell], centre); },
+    collectives);
   bonds.reinit(zone, stencil);
   cracked.reinit(zone, stencil);
 
@@ -153,8 +148,9 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   else
   {
     cut_initial_cracks();
-    committed_bonds = committed_cracked = bonds.places();
-    cracked.set_broken(committed_bonds);
+    committed_bonds = bonds.places();
+    committed_cracked = cracked.places();
+    soften_cohesive_cracks();
     if constexpr (dim == 2)
       if (parameters.tracked)
       {
@@ -227,8 +223,11 @@ void Peridynamics<dim>::refresh_segments()
   {
     Segment<dim> &segment = all_segments[i];
     at_front.push_back(parameters.tracked ? segment.at_tip : is_at_front(zone, cells[i], segment));
-    if (scene.has_pore_pressure)
-      segment.share_of_pores = scene.rock.main().biot_coefficient;
+    if (scene.has_pore_pressure && zone.owns(cells[i].place))
+    {
+      segment.region = regions[zone.active_cell_index(cells[i].place)];
+      segment.share_of_pores = biot_coefficient(i);
+    }
     // Unknowns are measured from the in-situ pressure.
     segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
     if (zone.owns(cells[i].place))
@@ -252,6 +251,13 @@ void Peridynamics<dim>::refresh_segments()
   if (parameters.in_bonds)
     open_by_bonds();
   find_changed_rows(damage_before, corrected_before, cells_before);
+}
+
+
+template <int dim>
+double Peridynamics<dim>::biot_coefficient(const unsigned int cell) const
+{
+  return scene.rock(regions[zone.active_cell_index(cells[cell].place)]).biot_coefficient;
 }
 
 
@@ -301,7 +307,8 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
   committed_softening.clear();
   for (SofteningBond &bond : softening_bonds)
   {
-    dissipated += energy_at_unit_stretch(bond.view) *
+    dissipated += relative_energy(bond.view.first, bond.view.second) *
+                  energy_at_unit_stretch(bond.view) *
                   (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
     bond.committed = bond.trial;
     committed_softening.push_back(
@@ -347,7 +354,7 @@ void Peridynamics<dim>::correct_faces()
     for (unsigned int b = 0; b < stencil.size(); ++b)
       if (!bonds.is_broken(site, b) &&
           (1. - bond_damage(site, b)) * elongation(site, b, displacement) >
-            relaxed * softening.first * coefficients[b].length)
+            relaxed * softening.first * relative_stretch(site, b) * coefficients[b].length)
         return false;
     return true;
   };

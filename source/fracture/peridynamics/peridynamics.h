@@ -7,6 +7,7 @@
 #include "fracture/peridynamics/fracture_cells.h"
 #include "fracture/peridynamics/parameters.h"
 #include "fracture/peridynamics/published_load.h"
+#include "fracture/peridynamics/rock_of_bonds.h"
 #include "fracture/peridynamics/row_versions.h"
 #include "fracture/peridynamics/softening.h"
 #include "fracture/peridynamics/tracked_paths.h"
@@ -97,12 +98,18 @@ private:
            (unbreakable[site] || unbreakable[zone.far_end(site, bond).site]);
   }
 
-  /// Break the bonds that the initial open cracks pass through.
+  /// Break the bonds that the initial open cracks pass through. Those across cohesive ones hold,
+  /// but there is fluid between them from the start.
   void cut_initial_cracks();
 
-  /// Break the bonds that cross a plane where a crack is.
+  /// With the pressure in the bonds, nothing opens where bonds hold, and the fluid in a cohesive
+  /// crack would have no room that its pressure could hang on; so its bonds have softened a little.
+  void soften_cohesive_cracks();
+
+  /// The bonds that cross a plane where a crack is.
   void cut_along_plane(const dealii::Point<dim> &origin,
                        const dealii::Tensor<1, dim> &normal,
+                       bool is_open,
                        const std::function<bool(const dealii::Point<dim> &crossing)> &is_on_crack);
 
   /// The surface correction makes up for the bonds that sites have lost, where those that are left
@@ -140,6 +147,9 @@ private:
 
   /// Append the sites that a site's bonds lead to.
   void append_family(unsigned int site, std::vector<unsigned int> &sites) const;
+
+  /// In the cell of a segment that this rank owns.
+  double biot_coefficient(unsigned int cell) const;
 
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
   double in_situ_stretch(unsigned int site, unsigned int bond) const;
@@ -209,13 +219,50 @@ private:
                     const OfCells &of_cells,
                     const std::vector<Candidate> &candidates);
 
-  /// Elastic energy of a bond, all of its views, at stretch one [J/m].
+  /// Energy that a bond takes, over that of one in the rock outside of regions: of the rock where
+  /// it crosses a path, or at its middle.
+  double relative_energy(unsigned int site, unsigned int bond) const;
+
+  /// By this much a bond's critical stretch differs from that of one in the rock outside of
+  /// regions.
+  double relative_stretch(unsigned int site, unsigned int bond) const;
+
+  /// Elastic energy of a bond in the rock outside of regions, all of its views, at stretch one
+  /// [J/m].
   double energy_at_unit_stretch(const BondView &view) const;
 
-  /// Stretch, of a bond of the lattice's stiffness that has the same energy.
+  /// Stretch, of a bond of the lattice's stiffness in the rock outside of regions that has as much
+  /// of the energy that it takes.
   double equivalent_stretch(unsigned int site, unsigned int bond, double elongation) const;
 
   void assemble_softening(const State &state, Sink &sink) const;
+
+  /// What of a bond is gone, and how that changes with its elongation.
+  struct Softened
+  {
+    double damage;        ///< D
+    double by_elongation; ///< of D [1/m]
+  };
+
+  /// Of softening bonds that are state-based, in a state whose displacements are known here.
+  Softened softened(const SofteningBond &bond, const State &state) const;
+
+  /// With them: what is left of a bond, 1 - D, is what counts of it in dilatations, and what these
+  /// do to its ends. See soft_dilatation.cc.
+  void assemble_soft_dilatation(const State &state, Sink &sink) const;
+
+  /// Number of the elongation that stands for the force of the dilatations, as far as it is lost,
+  /// of a state-based softening bond.
+  unsigned int unknown_of_lost_force(const unsigned int bond) const
+  {
+    return softening_bonds.size() + bond;
+  }
+
+  /// The functional of a site's dilatation, see for_each_dilatation().
+  /// @return the modulus
+  double find_dilatation(unsigned int site,
+                         std::vector<unsigned int> &family,
+                         std::vector<dealii::Tensor<1, dim>> &functional) const;
 
   // With the pressure in the bonds (pressure_in_bonds.cc).
 
@@ -363,6 +410,9 @@ private:
   /// See FractureSummary.
   std::string cost() const;
 
+  /// What bonds hold yet across cohesive cracks along which there are paths, as a length [m].
+  double length_that_holds() const;
+
   void write_bonds(FieldSink<dim> &sink) const;
 
   // By explicit steps (explicit_steps.cc).
@@ -421,12 +471,24 @@ private:
   /// little of the broken ones.
   double stiffness(unsigned int site, unsigned int bond) const;
 
-  /// That of a bond of the lattice, by what of both ends' volumes is rock [N/m].
-  double whole_stiffness(unsigned int site, unsigned int bond) const;
+  /// By how much less there is to a bond where its ends have less than a cell of rock; zero: it is
+  /// absent.
+  double volume_share(const unsigned int site, const unsigned int bond) const
+  {
+    const FarEnd far = zone.far_end(site, bond);
+    return far.absent ? 0. : zone.sites()[site].volume * zone.sites()[far.site].volume;
+  }
 
   /// Of the bonds under displacements of all sites [J/m]: half of that of a bond belongs to each of
   /// its ends, and counts if the end is peridynamic.
   double strain_energy(const std::vector<double> &u) const;
+
+  /// Of a site: its energy per volume is half of it times the dilatation squared [Pa].
+  double dilatation_modulus(unsigned int site) const
+  {
+    return rock_of_bonds.is_uniform() ? law.dilatation_modulus
+                                      : rock_of_bonds.dilatation_modulus(site);
+  }
 
   /// By `Surface correction`, of the dilatation of a site that has lost bonds: with it, a uniform
   /// expansion has the same dilatation as everywhere.
@@ -452,6 +514,7 @@ private:
   std::vector<StencilBond<dim>> stencil;
 
   Zone<dim> zone;
+  RockOfBonds<dim> rock_of_bonds;
   BondLaw law;
   std::vector<BondCoefficients<dim>> coefficients;
   double critical_stretch = 0.;

@@ -107,7 +107,7 @@ Peridynamics<dim>::fractured_stretch(const unsigned int site,
   double stretch = 0.;
   for (const auto &[cell, share] : shares)
     stretch += share * (e * (strain[cell] * e));
-  // The field is that of the intact lattice; bonds beside a crack are stiffer.
+  // The stress is that of the intact lattice; bonds beside a crack, or of other rock, are stiffer.
   return stretch * coefficients[bond].stiffness / stiffness(site, bond);
 }
 
@@ -247,7 +247,7 @@ void Peridynamics<dim>::open_by_bonds()
     segment.share_of_pores = 0.;
     if (!scene.has_pore_pressure)
       continue;
-    segment.taken_from_pores = own.biot_coefficient = scene.rock.main().biot_coefficient;
+    segment.taken_from_pores = own.biot_coefficient = biot_coefficient(i);
     own.pores = parameters.tracked ? &pores_of_pieces[i] : &segment.pore_pressure;
   }
   // Of each dof, what it adds to the jumps, and the force of the stress in situ.
@@ -269,14 +269,16 @@ void Peridynamics<dim>::open_by_bonds()
       if (faces_of[cell] == nullptr)
         continue;
       const double in_situ = in_situ_is_zero ? 0. : e * (released[cell] * e);
+      // By a stress as much as in the lattice the bond is the longer the softer it is.
+      const double longer = length / rock_of_bonds.modulus(i, b);
       std::array<double, 3> sums{{0., 0., share * force * in_situ}};
       for (unsigned int m = 0; m < n; ++m)
       {
         Faces::Mode &mode = faces_of[cell]->modes[m];
         sums[m] = share * force * (e * (modes[cell][m] * e));
-        mode.constant += sums[m] * length * in_situ;
+        mode.constant += sums[m] * longer * in_situ;
         for (unsigned int k = 0; k < n; ++k)
-          mode.of_tractions[k] += sums[m] * length * (e * (modes[cell][k] * e));
+          mode.of_tractions[k] += sums[m] * longer * (e * (modes[cell][k] * e));
       }
       const auto add = [&](const dealii::types::global_dof_index dof, const double direction)
       {

@@ -58,9 +58,29 @@ double Peridynamics<dim>::energy_at_unit_stretch(const BondView &view) const
 {
   double energy = 0.;
   for (const auto &[s, b] : views_of(view.first, view.second))
-    energy += 0.25 * zone.sites()[s].share * whole_stiffness(s, b) * coefficients[b].length *
-              coefficients[b].length;
+    energy += 0.25 * zone.sites()[s].share * volume_share(s, b) * coefficients[b].stiffness *
+              coefficients[b].length * coefficients[b].length;
   return energy_over_spring * energy;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigned int bond) const
+{
+  if constexpr (dim == 2)
+    if (parameters.tracked && !rock_of_bonds.is_uniform())
+      if (const auto crossing = crossing_of(site, bond))
+        return rock_of_bonds.energy(paths.point(*crossing));
+  return rock_of_bonds.energy(site, bond);
+}
+
+
+template <int dim>
+double Peridynamics<dim>::relative_stretch(const unsigned int site, const unsigned int bond) const
+{
+  return rock_of_bonds.is_uniform()
+           ? 1.
+           : std::sqrt(relative_energy(site, bond) / rock_of_bonds.modulus(site, bond));
 }
 
 
@@ -70,7 +90,8 @@ double Peridynamics<dim>::equivalent_stretch(const unsigned int site,
                                              const unsigned int bond,
                                              const double elongation) const
 {
-  const double whole = whole_stiffness(site, bond);
+  const double whole =
+    volume_share(site, bond) * relative_energy(site, bond) * coefficients[bond].stiffness;
   return whole > 0.
            ? std::sqrt(stiffness(site, bond) / whole) * elongation / coefficients[bond].length
            : 0.;
@@ -90,6 +111,9 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
                           .add(zone.position(from), 1e-4 * zone.spacing())
                           .add(zone.position(to), 1e-4 * zone.spacing())});
   }
+  if (parameters.state_based)
+    for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+      unknowns.push_back({Key().add(unknowns[n].key).add(1)});
   if (parameters.in_bonds)
     for (const ExtraUnknown &unknown : unknowns_of_faces())
       unknowns.push_back(unknown);
@@ -311,6 +335,8 @@ void Peridynamics<dim>::restore_softening()
   template const Peridynamics<dim>::SofteningBond *Peridynamics<dim>::softening_bond(              \
     unsigned int, unsigned int) const;                                                             \
   template double Peridynamics<dim>::bond_damage(unsigned int, unsigned int) const;                \
+  template double Peridynamics<dim>::relative_energy(unsigned int, unsigned int) const;            \
+  template double Peridynamics<dim>::relative_stretch(unsigned int, unsigned int) const;           \
   template double Peridynamics<dim>::energy_at_unit_stretch(const BondView &) const;               \
   template double Peridynamics<dim>::equivalent_stretch(unsigned int, unsigned int, double) const; \
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \

@@ -136,12 +136,29 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
 }
 
 
-Tensor<1, 2> TrackedPaths::left(const Crossing &crossing) const
+unsigned int TrackedPaths::piece_at(const Crossing &crossing) const
 {
   const Path &path = paths[crossing.path];
   unsigned int piece = 0;
   while (piece + 1 < path.n_pieces() && path.begin(piece + 1) < crossing.arc)
     ++piece;
+  return piece;
+}
+
+
+Point<2> TrackedPaths::point(const Crossing &crossing) const
+{
+  const Path &path = paths[crossing.path];
+  const unsigned int piece = piece_at(crossing);
+  const double share = (crossing.arc - path.begin(piece)) / path.length(piece);
+  return path.point(piece) + share * (path.point(piece + 1) - path.point(piece));
+}
+
+
+Tensor<1, 2> TrackedPaths::left(const Crossing &crossing) const
+{
+  const Path &path = paths[crossing.path];
+  const unsigned int piece = piece_at(crossing);
   const Tensor<1, 2> along = path.point(piece + 1) - path.point(piece);
   return Tensor<1, 2>({-along[1], along[0]}) / along.norm();
 }

@@ -54,6 +54,8 @@ public:
   /// Of the line from a to b, nearest to its middle; nothing if it crosses no path.
   std::optional<Crossing> crossing(const dealii::Point<2> &a, const dealii::Point<2> &b) const;
 
+  dealii::Point<2> point(const Crossing &crossing) const;
+
   /// Unit normal of the piece that is crossed there, to its left.
   dealii::Tensor<1, 2> left(const Crossing &crossing) const;
 
@@ -173,6 +175,9 @@ private:
     /// Arc at which a piece begins [m].
     double begin(unsigned int piece) const;
   };
+
+  /// Number of the piece that is crossed there.
+  unsigned int piece_at(const Crossing &crossing) const;
 
   const Growth &at(const End &end) const
   {

@@ -359,8 +359,9 @@ Peridynamics<dim>::stress_of_elements(const unsigned int site) const
                       (2. * zone.spacing());
   }
   const RockProperties &rock = scene.rock.main();
-  return rock.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
-         2. * rock.shear_modulus() * strain;
+  return rock_of_bonds.modulus(site) *
+         (rock.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
+          2. * rock.shear_modulus() * strain);
 }
 
 

@@ -198,6 +198,13 @@ public:
     return owned_cells.count(cell) != 0;
   }
 
+  /// Lower corners of the cells of the lattice that this rank owns, in the zone and around it, with
+  /// their active cell indices.
+  const std::map<Place<dim>, unsigned int> &cells_of_this_rank() const
+  {
+    return owned_cells;
+  }
+
   /// Active cell index of a cell that this rank owns.
   unsigned int active_cell_index(const Place<dim> &cell) const
   {

@@ -1,0 +1,166 @@
+// State-based bonds that soften: of a bond of which 1 - D is left, so much counts in the
+// dilatations of its ends, and so much of what these dilatations do to the bond's ends. Where the
+// bond is broken nothing is left, as of one that has been taken out:
+//
+//   theta = sum g (1 - D) e,   force on the ends of a bond  (1 - D) (k e + A V g (theta + theta')).
+//
+// Both x = D e and the force that is lost, over k, y = D A V g (theta + theta')/k, are unknowns, so
+// that the matrix of bonds that hold stays as it is.
+#include "fracture/peridynamics/peridynamics.h"
+
+#include <algorithm>
+#include <map>
+
+namespace stockwork::peridynamics
+{
+using dealii::Tensor;
+
+
+template <int dim>
+typename Peridynamics<dim>::Softened
+Peridynamics<dim>::softened(const SofteningBond &softening_bond, const State &state) const
+{
+  const auto &[site, bond] = softening_bond.view;
+  const FarEnd end = zone.far_end(site, bond);
+  double elongated = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    elongated +=
+      coefficients[bond].direction[d] *
+      ((end.mirrored >> d & 1 ? -1. : 1.) * state.current.bulk(zone.sites()[end.site].dofs[d]) -
+       state.current.bulk(zone.sites()[site].dofs[d]));
+  const double by_elongation = equivalent_stretch(site, bond, 1.);
+  const double stretch =
+    by_elongation * (elongated + softening_bond.offset * coefficients[bond].length);
+  const double kappa = maximum_stretch(softening_bond, stretch);
+  const double damage = softening.damage(kappa);
+  const bool softens = stretch > softening_bond.committed;
+  return {damage, softens
+                    ? (softening.slope(kappa) - damage) / kappa * damage_relaxation * by_elongation
+                    : 0.};
+}
+
+
+template <int dim>
+void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink) const
+{
+  struct Dilatation
+  {
+    std::vector<unsigned int> family;
+    std::vector<Tensor<1, dim>> functional;
+    double modulus, theta;
+    std::vector<std::pair<unsigned int, double>> soft; ///< number of each softening bond, and its g
+  };
+  std::map<unsigned int, Dilatation> of_sites;
+  for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+    for (const auto &[s, b] :
+         views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
+      of_sites[s].soft.emplace_back(n, coefficients[b].dilatation);
+
+  LocalSystem local;
+  for (auto &[site, of_site] : of_sites)
+  {
+    of_site.modulus = find_dilatation(site, of_site.family, of_site.functional);
+    const bool acts_here = std::any_of(of_site.family.begin(), of_site.family.end(),
+                                       [this](const unsigned int k) { return has_rows(k); });
+    if (!acts_here)
+      continue;
+    of_site.theta = 0.;
+    local.extra.clear();
+    for (const auto &[n, g] : of_site.soft)
+    {
+      of_site.theta -= g * state.current.extra[n];
+      local.extra.push_back(n);
+    }
+    // On the family, what does not count.
+    for (unsigned int k = 0; k < of_site.family.size(); ++k)
+    {
+      const auto &dofs = zone.sites()[of_site.family[k]].dofs;
+      for (unsigned int d = 0; d < dim; ++d)
+        of_site.theta += of_site.functional[k][d] * state.current.bulk(dofs[d]);
+      if (!has_rows(of_site.family[k]))
+        continue;
+      local.bulk.assign(dofs.begin(), dofs.end());
+      local.reinit();
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int m = 0; m < of_site.soft.size(); ++m)
+        {
+          const auto &[n, g] = of_site.soft[m];
+          local.matrix(d, dim + m) = -of_site.modulus * of_site.functional[k][d] * g;
+          local.residual(d) += local.matrix(d, dim + m) * state.current.extra[n];
+        }
+      sink.add(local);
+    }
+  }
+
+  // On the ends of bonds, what is not left of the force.
+  for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+  {
+    const auto &[site, bond] = softening_bonds[n].view;
+    const double k = stiffness(site, bond), y = state.current.extra[unknown_of_lost_force(n)];
+    for (const auto &[s, b] : views_of(site, bond))
+      if (has_rows(s))
+      {
+        local.bulk.assign(zone.sites()[s].dofs.begin(), zone.sites()[s].dofs.end());
+        local.extra.assign(1, unknown_of_lost_force(n));
+        local.reinit();
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          local.matrix(d, dim) = k * zone.sites()[s].share * coefficients[b].direction[d];
+          local.residual(d) = local.matrix(d, dim) * y;
+        }
+        sink.add(local);
+      }
+    if (zone.sites()[site].owner != rank)
+      continue;
+
+    const Softened now = softened(softening_bonds[n], state);
+    const FarEnd end = zone.far_end(site, bond);
+    const double g = coefficients[bond].dilatation;
+    std::map<dealii::types::global_dof_index, double> by_dof;
+    std::map<unsigned int, double> by_extra{{unknown_of_lost_force(n), k}};
+    double force = 0.; // of the dilatations of both ends
+    for (const unsigned int s : {site, end.site})
+    {
+      const Dilatation &of_site = of_sites.at(s);
+      const double factor = g * of_site.modulus / zone.sites()[s].share;
+      force += factor * of_site.theta;
+      for (unsigned int i = 0; i < of_site.family.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          by_dof[zone.sites()[of_site.family[i]].dofs[d]] -=
+            now.damage * factor * of_site.functional[i][d];
+      for (const auto &[m, of_other] : of_site.soft)
+        by_extra[m] += now.damage * factor * of_other;
+    }
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double e = coefficients[bond].direction[d] * force * now.by_elongation;
+      by_dof[zone.sites()[site].dofs[d]] += e;
+      by_dof[zone.sites()[end.site].dofs[d]] -= end.mirrored >> d & 1 ? -e : e;
+    }
+    local.bulk.clear();
+    local.extra.clear();
+    for (const auto &entry : by_dof)
+      local.bulk.push_back(entry.first);
+    for (const auto &entry : by_extra)
+      local.extra.push_back(entry.first);
+    local.reinit();
+    const unsigned int row =
+      by_dof.size() + std::distance(by_extra.begin(), by_extra.find(unknown_of_lost_force(n)));
+    unsigned int column = 0;
+    for (const auto &entry : by_dof)
+      local.matrix(row, column++) = entry.second;
+    for (const auto &entry : by_extra)
+      local.matrix(row, column++) = entry.second;
+    local.residual(row) = k * y - now.damage * force;
+    sink.add(local);
+  }
+}
+
+#define INSTANTIATE(dim)                                                                  \
+  template Peridynamics<dim>::Softened Peridynamics<dim>::softened(const SofteningBond &, \
+                                                                   const State &) const;  \
+  template void Peridynamics<dim>::assemble_soft_dilatation(const State &, Sink &) const;
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics
