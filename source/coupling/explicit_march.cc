@@ -1,5 +1,7 @@
 #include "coupling/explicit_march.h"
 
+#include "base/ghost_values.h"
+
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -41,7 +43,9 @@ ExplicitMarch<dim>::ExplicitMarch(RunContext &run,
 template <int dim>
 void ExplicitMarch<dim>::take(const BlockVector &from, Vector &to) const
 {
-  const double *const values = from.block(0).trilinos_vector()[0]; // own ones come first
+  BlockVector owned = system.owned_vector();
+  copy_owned(owned, from);
+  const double *const values = owned.block(0).trilinos_vector()[0];
   std::copy(values, values + to.locally_owned_size(), to.begin());
 }
 
@@ -194,6 +198,21 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
 
 
 template <int dim>
+void ExplicitMarch<dim>::refuse_loose_loads() const
+{
+  double loose = 0.;
+  for (const unsigned int i : rock.detached())
+    if (loads[i] != 0. || std::binary_search(held.begin(), held.end(), i))
+      loose = 1.;
+  if (system.collectives().max(loose) > 0.)
+    throw SolveError(
+      "What is loaded has come off: a node on a side that is pulled or held has lost "
+      "nearly all of its bonds, and the load would move nothing but it. Let none break "
+      "there ('Fracture/peridynamics/Unbreakable')");
+}
+
+
+template <int dim>
 double ExplicitMarch<dim>::energy_of_motion(const double h) const
 {
   double energy = 0.;
@@ -234,7 +253,9 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
   for (const unsigned int i : held)
     v.local_element(i) = a.local_element(i) = 0.;
   // A jump of the loads, or another length of the parts, is another energy by this measure.
-  const double jump = energy_of_motion(h) - kinetic;
+  // After a restart, there is none.
+  const double jump = knows_energy ? energy_of_motion(h) - kinetic : 0.;
+  knows_energy = true;
   double done = 0.;
   std::vector<double> held_force(held.size());
   for (unsigned int part = 0; part < n_parts; ++part)
@@ -274,6 +295,7 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
   work_before = 0.;
   if (!std::isfinite(kinetic))
     throw SolveError("explicit steps have run out of bounds");
+  refuse_loose_loads();
   give_back(u, unknowns.bulk);
   give_back(v, velocity);
   give_back(a, acceleration);

@@ -18,6 +18,12 @@ class ExplicitMarch
 public:
   ExplicitMarch(RunContext &run, CoupledSystem<dim> &system, ExplicitRock &rock, double gamma);
 
+  /// The run starts here, at rest.
+  void begin()
+  {
+    knows_energy = true;
+  }
+
   /// The displacement at which the rock holds the loads of a time, and nothing breaks.
   /// @throws SolveError
   void find_equilibrium(double time, Unknowns &unknowns);
@@ -54,6 +60,9 @@ private:
   /// What the boundary prescribes at a time, and the loads then.
   void look_at_boundary(double time);
 
+  /// @throws SolveError where a load acts on what the rock does not hold any more. Collective.
+  void refuse_loose_loads() const;
+
   /// By the velocities half a part before and after, parts being @p h long: what the scheme
   /// conserves with the elastic energy, where gamma = 1/2. Collective.
   double energy_of_motion(double h) const;
@@ -73,5 +82,6 @@ private:
   std::vector<double> prescribed; ///< their values at the time looked at last
   std::vector<double> loads;      ///< of all own unknowns, likewise [N]
   double kinetic = 0., work = 0., work_before = 0.;
+  bool knows_energy = false; ///< `kinetic` is that at the end of the last step
 };
 } // namespace stockwork

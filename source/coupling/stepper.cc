@@ -209,6 +209,8 @@ void Stepper<dim>::make_explicit_march()
 template <int dim>
 void Stepper<dim>::start(const double time)
 {
+  if (march)
+    march->begin();
   if (scheme.starts_in_equilibrium())
     march->find_equilibrium(time, committed);
 }

@@ -3,6 +3,8 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <vector>
+
 namespace stockwork
 {
 /// Rock that is moved by explicit steps, all of it a model's own: no matrix is formed, and what
@@ -29,5 +31,8 @@ public:
   /// @param displacement with current ghost values
   /// @param breaks let first break what this displacement breaks
   virtual void forces(const Vector &displacement, bool breaks, Vector &force) = 0;
+
+  /// Own unknowns, by local number, that hardly anything holds any more.
+  virtual std::vector<unsigned int> detached() const = 0;
 };
 } // namespace stockwork

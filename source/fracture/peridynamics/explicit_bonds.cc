@@ -261,6 +261,26 @@ void ExplicitBonds<dim>::forces(const Vector &displacement, const bool breaks, V
 
 
 template <int dim>
+std::vector<unsigned int> ExplicitBonds<dim>::detached() const
+{
+  constexpr double hardly = 0.05; // of the stiffness at the start
+  std::vector<unsigned int> result;
+  for (const Listed &site : listed)
+  {
+    double left = 0., all = 0.;
+    for (const Bond &bond : site.bonds)
+    {
+      all += bond.stiffness;
+      left += bond.stiffness * (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.);
+    }
+    if (left < hardly * all)
+      result.insert(result.end(), own_unknowns[site.own].begin(), own_unknowns[site.own].end());
+  }
+  return result;
+}
+
+
+template <int dim>
 std::vector<typename ExplicitBonds<dim>::Softened> ExplicitBonds<dim>::softened() const
 {
   std::vector<Softened> result;

@@ -39,6 +39,8 @@ public:
   void add_row_sums(Vector &sums) const override;
   void forces(const Vector &displacement, bool breaks, Vector &force) override;
 
+  std::vector<unsigned int> detached() const override;
+
   /// A bond that has begun to soften, or has broken.
   struct Softened
   {

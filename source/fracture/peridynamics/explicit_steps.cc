@@ -9,17 +9,33 @@
 
 namespace stockwork::peridynamics
 {
+namespace
+{
+void refuse_explicit(const std::string &allowed)
+{
+  throw EntryError("Time/Scheme", "explicit", allowed);
+}
+} // namespace
+
+
+template <int dim>
+void Peridynamics<dim>::check_explicit_steps() const
+{
+  if (!parameters.explicit_steps)
+    return;
+  if (parameters.state_based)
+    refuse_explicit("Newmark with 'Bond law = state-based'");
+  if (scene.crack_pressure != 0.)
+    refuse_explicit(
+      "Newmark with a fluid in the cracks; dry ones have 'Cracks/Fluid pressure = 0 Pa'");
+}
+
+
 template <int dim>
 void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
 {
-  const auto refuse = [](const std::string &allowed)
-  { throw EntryError("Time/Scheme", "explicit", allowed); };
-  if (parameters.state_based)
-    refuse("Newmark with 'Bond law = state-based'");
-  if (scene.crack_pressure != 0.)
-    refuse("Newmark with a fluid in the cracks; dry ones have 'Cracks/Fluid pressure = 0 Pa'");
   if (!in_situ_is_zero)
-    refuse("Newmark with a stress in situ");
+    refuse_explicit("Newmark with a stress in situ");
   if (mesh_view.dof_handler.n_dofs() != dim * zone.peridynamic_sites().size())
     throw EntryError(
       "Fracture/peridynamics/Zone", std::to_string(parameters.boxes.size()) + " boxes",
@@ -87,6 +103,7 @@ bool Peridynamics<dim>::follow_explicit_bonds(const Collectives &collectives)
 }
 
 #define INSTANTIATE(dim)                                                       \
+  template void Peridynamics<dim>::check_explicit_steps() const;               \
   template void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &); \
   template bool Peridynamics<dim>::follow_explicit_bonds(const Collectives &);
 INSTANTIATE(2)

@@ -33,8 +33,8 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "horizons apart and makes the solution dearer.");
   prm.declare_entry(
     "Bond volumes", "auto", Patterns::Selection("auto|exact|isotropic|full|ramp"),
-    "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path', else "
-    "exact. exact: its intersection with "
+    "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path' or "
+    "'Time/Scheme = explicit', else exact. exact: its intersection with "
     "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
     "direction in the small. full: all of it if its centre is inside. ramp: a "
     "share that falls linearly over the last cell; the least accurate.");
@@ -46,8 +46,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "Boxes that are peridynamic besides, where cracks shall grow: "
                     "'(0, -2 m) to (30 m, 2 m); …' [m].");
   prm.declare_entry("Unbreakable", "", Patterns::Anything(),
-                    "Boxes none of whose nodes has a bond that breaks, such as beside grips and "
-                    "impacts: '(0, -8 mm) to (32 mm, -7 mm); …' [m].");
+                    "Boxes none of whose nodes has a bond that breaks, such as beside grips, loads "
+                    "and impacts, where bonds are stretched more than inside: "
+                    "'(0, -8 mm) to (32 mm, -7 mm); …' [m].");
   prm.declare_entry(
     "Zone growth", default_zone_growth, Patterns::Integer(0),
     "Cells by which the zone is enlarged ahead of a fracture when less than the "
@@ -257,11 +258,13 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   }
   p.as_published = prm.get("Closure") == "as published";
   p.in_bonds = prm.get("Closure") == "in bonds";
+  p.explicit_steps = entry_of_time(prm, "Scheme") == "explicit";
   if (prm.get("Bond volumes") == "auto")
   {
-    prm.set("Bond volumes", p.tracked ? "isotropic" : "exact");
-    p.reasons["Bond volumes"] =
-      p.tracked ? "a path may have any direction" : "where no path is tracked";
+    prm.set("Bond volumes", p.tracked || p.explicit_steps ? "isotropic" : "exact");
+    p.reasons["Bond volumes"] = p.tracked          ? "a path may have any direction"
+                                : p.explicit_steps ? "cracks and waves may have any direction"
+                                                   : "where no path is tracked";
   }
   const std::string volumes = prm.get("Bond volumes");
   p.volumes = volumes == "isotropic" ? VolumeRule::isotropic
@@ -283,7 +286,6 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.friction > 0. && (dim != 2 || !p.in_bonds))
     throw bad("Friction coefficient",
               dim != 2 ? "0 in three dimensions" : "0, or 'Closure = in bonds'");
-  p.explicit_steps = entry_of_time(prm, "Scheme") == "explicit";
   p.free_boundaries = !p.state_based && scene.crack_pressure == 0.;
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");

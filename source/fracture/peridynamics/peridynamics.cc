@@ -45,6 +45,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   if (parameters.boxes.empty())
     needs::initial_crack(scene, "peridynamics", "or the box of its 'Zone'");
   refuse_what_bonds_do_not_know();
+  check_explicit_steps();
   shape.cracks = scene.cracks;
   shape.boxes = parameters.boxes;
   shape.margin = parameters.margin;

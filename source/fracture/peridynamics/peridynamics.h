@@ -417,6 +417,9 @@ private:
 
   // By explicit steps (explicit_steps.cc).
 
+  /// @throws InputError where they cannot be
+  void check_explicit_steps() const;
+
   /// @throws InputError where not all of the rock is bonds
   void make_explicit_bonds(const MeshView<dim> &mesh_view);
 
