@@ -200,13 +200,18 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
 template <int dim>
 void ExplicitMarch<dim>::refuse_loose_loads() const
 {
+  const auto is_moved = [&](const unsigned int i)
+  {
+    const auto found = std::lower_bound(held.begin(), held.end(), i);
+    return found != held.end() && *found == i && prescribed[found - held.begin()] != 0.;
+  };
   double loose = 0.;
   for (const unsigned int i : rock.detached())
-    if (loads[i] != 0. || std::binary_search(held.begin(), held.end(), i))
+    if (loads[i] != 0. || is_moved(i))
       loose = 1.;
   if (system.collectives().max(loose) > 0.)
     throw SolveError(
-      "What is loaded has come off: a node on a side that is pulled or held has lost "
+      "What is loaded has come off: a node on a side that is pulled or moved has lost "
       "nearly all of its bonds, and the load would move nothing but it. Let none break "
       "there ('Fracture/peridynamics/Unbreakable')");
 }
