@@ -39,6 +39,6 @@ stockwork_case_test(NAME convergence/explicit/pmma_strip/straight DECK prm/dry/p
 # In three dimensions, on any number of ranks.
 set(deck tests/data/explicit_disc.prm)
 stockwork_case_test(NAME convergence/explicit/disc DECK ${deck} SET "Output/Fields=false"
-  EXPECT "final/energy_balance_error < 1e-4" "final/dissipated_energy > 10")
-stockwork_same_test(NAME convergence/explicit/disc.2ranks DECK ${deck} SET "Output/Fields=false" "Time/End time=0.5e-3 s"
+  EXPECT "final/energy_balance_error < 1e-4" "final/dissipated_energy > 1")
+stockwork_same_test(NAME convergence/explicit/disc.2ranks DECK ${deck} SET "Output/Fields=false"
   RANKS 1,2 TOLERANCE 1e-9 IGNORE "balance_error")
