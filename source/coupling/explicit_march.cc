@@ -30,11 +30,11 @@ constexpr double equilibrium_tolerance = 1e-8;
 template <int dim>
 ExplicitMarch<dim>::ExplicitMarch(RunContext &run,
                                   CoupledSystem<dim> &system,
-                                  ExplicitRock &rock,
+                                  FractureModel<dim> &model,
                                   const double gamma)
   : run(run)
   , system(system)
-  , rock(rock)
+  , model(model)
   , gamma(gamma)
 {
 }
@@ -86,25 +86,26 @@ void ExplicitMarch<dim>::find_masses()
 template <int dim>
 void ExplicitMarch<dim>::set_up()
 {
-  if (is_set_up)
+  if (model.explicit_rock() == rock)
     return;
-  is_set_up = true;
+  rock = model.explicit_rock();
   const MeshView<dim> mesh = system.mesh_view();
-  IndexSet seen = rock.seen();
+  IndexSet seen = rock->seen();
   IndexSet of_cells;
   DoFTools::extract_locally_relevant_dofs(mesh.dof_handler, of_cells);
   seen.add_indices(of_cells);
   for (Vector *vector : {&mass, &u, &v, &a, &force})
     vector->reinit(mesh.dof_handler.locally_owned_dofs(), seen, run.communicator);
-  rock.set_layout(u);
+  rock->set_layout(u);
   find_masses();
 
+  held.clear();
   for (const auto i : mesh.dof_handler.locally_owned_dofs())
     if (mesh.constraints.is_constrained(i))
       held.push_back(u.get_partitioner()->global_to_local(i));
 
   Vector sums(u);
-  rock.add_row_sums(sums);
+  rock->add_row_sums(sums);
   double greatest = 0.;
   std::vector<bool> is_held(u.locally_owned_size(), false);
   for (const unsigned int i : held)
@@ -144,7 +145,7 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
   for (unsigned int k = 0; k < held.size(); ++k)
     u.local_element(held[k]) = prescribed[k];
   u.update_ghost_values();
-  rock.forces(u, false, force);
+  rock->forces(u, false, force);
   Vector right_side(u), change(u);
   right_side.zero_out_ghost_values();
   for (unsigned int i = 0; i < loads.size(); ++i)
@@ -175,7 +176,7 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
                           equilibrium_tolerance * size);
     try
     {
-      SolverCG<Vector>(control).solve(Stiffness{rock, held}, change, right_side,
+      SolverCG<Vector>(control).solve(Stiffness{*rock, held}, change, right_side,
                                       PreconditionIdentity());
     }
     catch (const SolverControl::NoConvergence &)
@@ -188,7 +189,7 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
   u.zero_out_ghost_values();
   u += change;
   u.update_ghost_values();
-  rock.forces(u, false, force);
+  rock->forces(u, false, force);
   double stored = 0.;
   for (unsigned int i = 0; i < loads.size(); ++i)
     stored -= 0.5 * u.local_element(i) * force.local_element(i);
@@ -206,7 +207,7 @@ void ExplicitMarch<dim>::refuse_loose_loads() const
     return found != held.end() && *found == i && prescribed[found - held.begin()] != 0.;
   };
   double loose = 0.;
-  for (const unsigned int i : rock.detached())
+  for (const unsigned int i : rock->detached())
     if (loads[i] != 0. || is_moved(i))
       loose = 1.;
   if (system.collectives().max(loose) > 0.)
@@ -251,7 +252,7 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
   const double h = dt / n_parts;
   const unsigned int n = u.locally_owned_size();
   u.update_ghost_values();
-  rock.forces(u, false, force);
+  rock->forces(u, false, force);
   for (unsigned int i = 0; i < n; ++i)
     a.local_element(i) = (force.local_element(i) + loads_before[i]) / mass.local_element(i);
   // Unknowns that are held follow the boundary, and no mass of theirs moves.
@@ -280,7 +281,7 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
       u.local_element(held[k]) = (1. - t) * prescribed_before[k] + t * prescribed[k];
     }
     u.update_ghost_values();
-    rock.forces(u, true, force);
+    rock->forces(u, true, force);
     for (unsigned int k = 0; k < held.size(); ++k)
       done -= 0.5 * (held_force[k] + force.local_element(held[k])) *
               (prescribed[k] - prescribed_before[k]) / n_parts;

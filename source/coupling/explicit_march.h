@@ -8,15 +8,18 @@ namespace stockwork
 /// Moves rock by explicit steps, Newmark's scheme with beta = 0 (Newmark 1959; with gamma = 1/2
 /// that of central differences):
 ///
-///   u_1 = u_0 + h v_0 + h^2/2 a_0 ,   M a_1 = f(u_1) + loads ,   v_1 = v_0 + h ((1-gamma) a_0 +
-///   gamma a_1)
+///   u_1 = u_0 + h v_0 + h^2/2 a_0 ,   M a_1 = f(u_1) + loads ,
+///   v_1 = v_0 + h ((1-gamma) a_0 + gamma a_1)
 ///
 /// with the mass M lumped at the nodes. Stable for h omega < sqrt(2/gamma) (Hughes 1987, sec. 9.1).
 template <int dim>
 class ExplicitMarch
 {
 public:
-  ExplicitMarch(RunContext &run, CoupledSystem<dim> &system, ExplicitRock &rock, double gamma);
+  ExplicitMarch(RunContext &run,
+                CoupledSystem<dim> &system,
+                FractureModel<dim> &model,
+                double gamma);
 
   /// The run starts here, at rest.
   void begin()
@@ -28,7 +31,8 @@ public:
   /// @throws SolveError
   void find_equilibrium(double time, Unknowns &unknowns);
 
-  /// Go on by a step, in equal parts that are stable. Collective.
+  /// Go on by a step, in equal parts that are stable; loads and what moves the boundary change
+  /// linearly meanwhile. Collective.
   /// @return how many parts
   unsigned int advance(double time,
                        double dt,
@@ -72,11 +76,11 @@ private:
 
   RunContext &run;
   CoupledSystem<dim> &system;
-  ExplicitRock &rock;
+  FractureModel<dim> &model;
   const double gamma;
 
-  bool is_set_up = false;
-  double longest_step = 0.; ///< [s]
+  ExplicitRock *rock = nullptr; ///< of the mesh that everything below belongs to
+  double longest_step = 0.;     ///< [s]
   Vector mass, u, v, a, force;
   std::vector<unsigned int> held; ///< own unknowns that are prescribed, by local number
   std::vector<double> prescribed; ///< their values at the time looked at last

@@ -198,11 +198,10 @@ void Stepper<dim>::make_explicit_march()
 {
   if (march || !scheme.is_explicit())
     return;
-  ExplicitRock *const rock = model.explicit_rock();
-  if (rock == nullptr)
+  if (model.explicit_rock() == nullptr)
     throw EntryError("Time/Scheme", "explicit",
                      "Newmark, or 'Fracture/Model = peridynamics' with bonds in all of the domain");
-  march = std::make_unique<ExplicitMarch<dim>>(run, system, *rock, scheme.newmark_gamma());
+  march = std::make_unique<ExplicitMarch<dim>>(run, system, model, scheme.newmark_gamma());
 }
 
 

@@ -52,12 +52,13 @@ bool has_appeared(const Unknowns &previous, const Unknowns &now)
 void TimeScheme::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Time");
-  prm.declare_entry("Scheme", "auto",
-                    Patterns::Selection("auto|backward Euler|BDF2|Newmark|explicit"),
-                    "auto: Newmark with inertia; BDF2 for consolidation without a fracture; else "
-                    "backward Euler. explicit: Newmark's with beta = 0 and a mass lumped at the "
-                    "nodes, for dry rock all of which is made of bonds; each step is divided into "
-                    "as many as are stable, which takes no matrix.");
+  prm.declare_entry(
+    "Scheme", "auto", Patterns::Selection("auto|backward Euler|BDF2|Newmark|explicit"),
+    "auto: Newmark with inertia; BDF2 for consolidation without a fracture; else "
+    "backward Euler. explicit: Newmark's with beta = 0 and a mass lumped at the "
+    "nodes, for dry rock all of which is made of bonds; each step is divided into "
+    "as many as are stable, which takes no matrix. Loads are those of its beginning "
+    "and end, and linear between: a pulse takes steps that are shorter.");
   prm.declare_entry("Inertia", "off", Patterns::Selection("off|on"),
                     "Accelerations of rock and fluid together (u-p form).");
   prm.declare_entry("Start", "at rest", Patterns::Selection("at rest|in equilibrium"),

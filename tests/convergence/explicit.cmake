@@ -5,13 +5,13 @@
 set(deck tests/data/pulled_plate.prm)
 stockwork_case_test(NAME convergence/explicit/pulled_plate DECK ${deck}
   SET "Resolution=fine" "Fracture/peridynamics/Growth=false"
-  EXPECT "final/stored_energy = 100 within 0.006" "final/kinetic_energy < 1e-12"
+  EXPECT "final/stored_energy = 100 within 0.005" "final/kinetic_energy < 1e-12"
          "final/energy_balance_error < 1e-12")
 # Pulled slowly enough for the cells, it moves as by implicit steps with a consistent mass.
 stockwork_same_test(NAME convergence/explicit/pulled_plate/newmark DECK ${deck}
   SET "Resolution=medium" "Fracture/peridynamics/Growth=false" "Fracture/peridynamics/Bond volumes=isotropic"
     "Time/Start=at rest" "Time/Initial step=2e-5 s" "Boundary conditions/Normal traction=right: 5e8*t"
-  SECOND_SET "Time/Scheme=Newmark" TOLERANCE 3e-3 IGNORE "error")
+  SECOND_SET "Time/Scheme=Newmark" TOLERANCE 1e-3 IGNORE "error")
 # What is pulled must not come off, and be flung away.
 stockwork_stop_test(NAME convergence/explicit/pulled_plate/comes_off DECK ${deck} SET "Resolution=coarse"
   SAYS "What is loaded has come off")
@@ -19,10 +19,10 @@ stockwork_stop_test(NAME convergence/explicit/pulled_plate/comes_off DECK ${deck
 # A plate with a notch, pulled suddenly: work, strain energy, energy of the motion and what bonds dissipate balance.
 set(deck tests/data/explicit_notch.prm)
 stockwork_case_test(NAME convergence/explicit/notch DECK ${deck}
-  EXPECT "final/energy_balance_error < 1e-4" "final/dissipated_energy > 1"
+  EXPECT "final/energy_balance_error < 1e-10" "final/dissipated_energy > 1"
          "final/kinetic_energy > 100")
 stockwork_case_test(NAME convergence/explicit/notch/brittle DECK ${deck} SET "Fracture/peridynamics/Softening=1"
-  EXPECT "final/energy_balance_error < 1e-4" "final/kinetic_energy > 100")
+  EXPECT "final/energy_balance_error < 1e-10" "final/kinetic_energy > 100")
 stockwork_same_test(NAME convergence/explicit/notch.2ranks DECK ${deck} RANKS 1,2 TOLERANCE 1e-9
   IGNORE "balance_error")
 stockwork_restart_test(NAME convergence/explicit/notch/restart DECK ${deck} RANKS 1,2 AFTER 84 TOLERANCE 1e-9
@@ -31,7 +31,7 @@ stockwork_restart_test(NAME convergence/explicit/notch/restart DECK ${deck} RANK
 # A strip of PMMA that stores 2.3 G_c forks (Bleyer et al. 2017: from about twice G_c on); with 1.1 G_c one arm runs straight on.
 stockwork_case_test(NAME convergence/explicit/pmma_strip/forks DECK prm/dry/pmma_strip/0.040/peridynamics.prm
   SET "Resolution=medium" "Time/End time=2e-5 s" "Output/Fields=false"
-  EXPECT "final/forks = 1 within 0" "final/energy_balance_error < 1e-4" "final/extent_y > 3.5e-3")
+  EXPECT "final/forks = 1 within 0" "final/energy_balance_error < 1e-5" "final/extent_y > 3.5e-3")
 stockwork_case_test(NAME convergence/explicit/pmma_strip/straight DECK prm/dry/pmma_strip/0.028/peridynamics.prm
   LABELS nightly
   SET "Resolution=medium" "Output/Fields=false"
@@ -39,6 +39,6 @@ stockwork_case_test(NAME convergence/explicit/pmma_strip/straight DECK prm/dry/p
 # In three dimensions, on any number of ranks.
 set(deck tests/data/explicit_disc.prm)
 stockwork_case_test(NAME convergence/explicit/disc DECK ${deck} SET "Output/Fields=false"
-  EXPECT "final/energy_balance_error < 1e-4" "final/dissipated_energy > 1")
+  EXPECT "final/energy_balance_error < 1e-10" "final/dissipated_energy > 15")
 stockwork_same_test(NAME convergence/explicit/disc.2ranks DECK ${deck} SET "Output/Fields=false"
   RANKS 1,2 TOLERANCE 1e-9 IGNORE "balance_error")

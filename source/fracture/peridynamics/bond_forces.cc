@@ -33,6 +33,26 @@ inline void store(const Value &value, double *const to)
 {
   std::memcpy(to, &value, sizeof(Value));
 }
+
+/// n registers of sites that follow one another, and what their displacement is.
+template <int dim, typename Value, int n>
+struct SitesInARow
+{
+  static constexpr int width = sizeof(Value) / sizeof(double); ///< sites in a register
+
+  SitesInARow(const LatticeField<dim> &u, const std::size_t first)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      at[d] = u[d].data() + first;
+      for (int r = 0; r < n; ++r)
+        load(own[d][r], at[d] + r * width);
+    }
+  }
+
+  std::array<const double *, dim> at; ///< of the first site, by component
+  Value own[dim][n];
+};
 } // namespace
 
 template <int dim>
@@ -191,15 +211,10 @@ void BondForces<dim>::sweep(const LatticeField<dim> &u,
                             const std::size_t first,
                             LatticeField<dim> &force) const
 {
-  constexpr int width = sizeof(Value) / sizeof(double);
-  std::array<const double *, dim> at;
-  Value own[dim][n], sum[dim][n] = {};
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    at[d] = u[d].data() + first;
-    for (int r = 0; r < n; ++r)
-      load(own[d][r], at[d] + r * width);
-  }
+  const SitesInARow<dim, Value, n> sites(u, first);
+  const auto &[at, own] = sites;
+  constexpr int width = SitesInARow<dim, Value, n>::width;
+  Value sum[dim][n] = {};
   for (const Pair &pair : pairs)
     for (int r = 0; r < n; ++r)
     {
@@ -240,15 +255,10 @@ void BondForces<dim>::watch(const LatticeField<dim> &u,
                             LatticeField<dim> &force,
                             std::vector<std::size_t> &stretched) const
 {
-  constexpr int width = sizeof(Value) / sizeof(double);
-  std::array<const double *, dim> at;
-  Value own[dim][n], sum[dim][n] = {}, greatest[n] = {};
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    at[d] = u[d].data() + first;
-    for (int r = 0; r < n; ++r)
-      load(own[d][r], at[d] + r * width);
-  }
+  const SitesInARow<dim, Value, n> sites(u, first);
+  const auto &[at, own] = sites;
+  constexpr int width = SitesInARow<dim, Value, n>::width;
+  Value sum[dim][n] = {}, greatest[n] = {};
   for (const Pair &pair : pairs)
     for (int r = 0; r < n; ++r)
     {

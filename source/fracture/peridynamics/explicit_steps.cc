@@ -25,6 +25,9 @@ void Peridynamics<dim>::check_explicit_steps() const
     return;
   if (parameters.state_based)
     refuse_explicit("Newmark with 'Bond law = state-based'");
+  if (parameters.in_bonds || parameters.as_published || parameters.tensor_fluid)
+    refuse_explicit("Newmark, or 'Fracture/peridynamics/Closure = conserving' and 'Fluid = "
+                    "network': there is no fluid");
   if (scene.crack_pressure != 0.)
     refuse_explicit(
       "Newmark with a fluid in the cracks; dry ones have 'Cracks/Fluid pressure = 0 Pa'");
@@ -37,12 +40,11 @@ void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
   if (!in_situ_is_zero)
     refuse_explicit("Newmark with a stress in situ");
   if (mesh_view.dof_handler.n_dofs() != dim * zone.peridynamic_sites().size())
-    throw EntryError(
-      "Fracture/peridynamics/Zone", std::to_string(parameters.boxes.size()) + " boxes",
-      "a box that holds all of the domain with 'Time/Scheme = explicit', which moves "
-      "bonds and no elements; of " +
-        std::to_string(mesh_view.dof_handler.n_dofs() / dim) + " vertices " +
-        std::to_string(zone.peridynamic_sites().size()) + " are in the zone");
+    refuse_explicit(
+      "Newmark, or a 'Fracture/peridynamics/Zone' that holds all of the domain: explicit "
+      "steps move bonds and no elements, and of " +
+      std::to_string(mesh_view.dof_handler.n_dofs() / dim) + " vertices " +
+      std::to_string(zone.peridynamic_sites().size()) + " are in the zone");
   SofteningLaw law_of_bonds = softening;
   if (!parameters.growth)
     law_of_bonds.first = law_of_bonds.last = std::numeric_limits<double>::infinity();

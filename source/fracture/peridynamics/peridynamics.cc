@@ -128,6 +128,20 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
         parameters.unbreakable.begin(), parameters.unbreakable.end(),
         [&](const auto &box)
         { return box.point_inside(zone.position(site.place), same_place * zone.spacing()); }));
+  for (const auto &box : parameters.unbreakable)
+    if (std::none_of(zone.peridynamic_sites().begin(), zone.peridynamic_sites().end(),
+                     [&](const unsigned int i) {
+                       return box.point_inside(zone.position(zone.sites()[i].place),
+                                               same_place * zone.spacing());
+                     }) &&
+        parameters.zone_growth == 0)
+    {
+      std::ostringstream text;
+      text << "(" << box.get_boundary_points().first << ") to (" << box.get_boundary_points().second
+           << ")";
+      throw EntryError("Fracture/peridynamics/Unbreakable", text.str(),
+                       "boxes that hold nodes of the peridynamic zone");
+    }
   regions.clear();
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     regions.push_back(cell->material_id());
@@ -344,7 +358,7 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
       committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
                                                                     cells[i].normal.end_raw()));
   correct_faces();
-  return enlarge_zone();
+  return !parameters.explicit_steps && enlarge_zone(); // it is all of the rock already
 }
 
 
