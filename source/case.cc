@@ -324,7 +324,8 @@ bool can_audit_energy(const Case<dim> &the_case)
                the_case.control.start_time +
                0.01 * i * (the_case.control.end_time - the_case.control.start_time)) > 0.;
   return !the_case.elements.has_pore_pressure && the_case.in_situ.is_zero() &&
-         (the_case.scene.cracks.empty() || the_case.scene.crack_pressure == 0.) &&
+         (the_case.scene.cracks.empty() || the_case.scene.crack_pressure == 0. ||
+          (the_case.scheme.is_explicit() && !std::isnan(the_case.scene.crack_pressure))) &&
          (the_case.scheme.kind() == TimeScheme::Kind::newmark
             ? !moved || the_case.scheme.is_explicit()
             : moved && the_case.boundary_conditions.loads().empty());

@@ -97,6 +97,8 @@ void ExplicitMarch<dim>::set_up()
   for (Vector *vector : {&mass, &u, &v, &a, &force})
     vector->reinit(mesh.dof_handler.locally_owned_dofs(), seen, run.communicator);
   rock->set_layout(u);
+  work_in_rock = is_new ? 0. : rock->work();
+  is_new = false;
   find_masses();
 
   held.clear();
@@ -142,6 +144,10 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
   set_up();
   look_at_boundary(time);
   u = 0.;
+  u.update_ghost_values();
+  Vector loads_in_rock(u);
+  rock->forces(u, false, loads_in_rock);
+  u.zero_out_ghost_values();
   for (unsigned int k = 0; k < held.size(); ++k)
     u.local_element(held[k]) = prescribed[k];
   u.update_ghost_values();
@@ -161,11 +167,12 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
       rock.forces(x, false, result);
       x.zero_out_ghost_values();
       for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
-        result.local_element(i) = -result.local_element(i);
+        result.local_element(i) = loads_in_rock.local_element(i) - result.local_element(i);
       for (const unsigned int i : held)
         result.local_element(i) = 0.;
     }
     ExplicitRock &rock;
+    const Vector &loads_in_rock;
     const std::vector<unsigned int> &held;
   };
   change = 0.;
@@ -176,7 +183,7 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
                           equilibrium_tolerance * size);
     try
     {
-      SolverCG<Vector>(control).solve(Stiffness{*rock, held}, change, right_side,
+      SolverCG<Vector>(control).solve(Stiffness{*rock, loads_in_rock, held}, change, right_side,
                                       PreconditionIdentity());
     }
     catch (const SolverControl::NoConvergence &)
@@ -192,7 +199,7 @@ void ExplicitMarch<dim>::find_equilibrium(const double time, Unknowns &unknowns)
   rock->forces(u, false, force);
   double stored = 0.;
   for (unsigned int i = 0; i < loads.size(); ++i)
-    stored -= 0.5 * u.local_element(i) * force.local_element(i);
+    stored += 0.5 * u.local_element(i) * (loads_in_rock.local_element(i) - force.local_element(i));
   work_before = system.collectives().sum(stored);
   give_back(u, unknowns.bulk);
 }
@@ -297,6 +304,8 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
   }
   u.zero_out_ghost_values();
   kinetic = energy_of_motion(h);
+  done += rock->work() - work_in_rock;
+  work_in_rock = rock->work();
   work = system.collectives().sum(done) + jump + work_before;
   work_before = 0.;
   if (!std::isfinite(kinetic))

@@ -24,7 +24,7 @@ public:
   /// The run starts here, at rest.
   void begin()
   {
-    knows_energy = true;
+    knows_energy = is_new = true;
   }
 
   /// The displacement at which the rock holds the loads of a time, and nothing breaks.
@@ -46,8 +46,8 @@ public:
     return kinetic;
   }
 
-  /// Of loads and of what moves the boundary, in the last step; in the first one also what it took
-  /// to reach equilibrium, slowly, and of a jump of the loads [J; J/m].
+  /// Of loads, of what moves the boundary and of pressure in cracks, in the last step; in the first
+  /// one also what it took to reach equilibrium, slowly, and of a jump of the loads [J; J/m].
   double work_of_step() const
   {
     return work;
@@ -86,6 +86,8 @@ private:
   std::vector<double> prescribed; ///< their values at the time looked at last
   std::vector<double> loads;      ///< of all own unknowns, likewise [N]
   double kinetic = 0., work = 0., work_before = 0.;
+  double work_in_rock = 0.;  ///< ExplicitRock::work() at the end of the last step, on this rank
   bool knows_energy = false; ///< `kinetic` is that at the end of the last step
+  bool is_new = false;       ///< no step yet: what the rock's own loads have done is to be counted
 };
 } // namespace stockwork

@@ -36,6 +36,26 @@ stockwork_case_test(NAME convergence/explicit/pmma_strip/straight DECK prm/dry/p
   LABELS nightly
   SET "Resolution=medium" "Output/Fields=false"
   EXPECT "final/forks < 0.5" "final/extent_x > 8e-3" "final/extent_y < 8e-4")
+# A given pressure in a crack: the volume that it holds (Sneddon), which the bond lattice has to a few per cent, and in equilibrium nothing
+# moves. The work is p dV, and on any number of ranks the same.
+set(deck tests/data/explicit_pressure.prm)
+stockwork_case_test(NAME convergence/explicit/pressure DECK ${deck} SET "Resolution=coarse"
+  EXPECT "final/error_fracture_volume < 0.03" "final/energy_balance_error < 1e-12" "final/kinetic_energy < 1e-12")
+stockwork_case_test(NAME convergence/explicit/pressure/turned DECK ${deck}
+  SET "Resolution=medium" "Cracks/Open=-0.8910065 m, -0.4539905 m -> 0.8910065 m, 0.4539905 m"
+  EXPECT "final/error_fracture_volume < 0.03" "final/energy_balance_error < 1e-12")
+# A notch under a pressure of 1.8 G_c, put on at once, forks (dry/bridge); under one of 0.4 G_c it does not grow.
+set(deck prm/dry/bridge)
+stockwork_case_test(NAME convergence/explicit/bridge/forks DECK ${deck}/1/peridynamics.prm
+  SET "Resolution=medium" "Time/End time=2.5e-3 s" "Output/Fields=false"
+  EXPECT "final/forks = 1 within 0" "final/energy_balance_error < 1e-5" "final/extent_y > 1.5")
+stockwork_case_test(NAME convergence/explicit/bridge/holds DECK ${deck}/0.45/peridynamics.prm
+  SET "Resolution=medium" "Output/Fields=false"
+  EXPECT "final/dissipated_energy < 1e-12" "final/energy_balance_error < 1e-10")
+stockwork_same_test(NAME convergence/explicit/bridge.2ranks DECK ${deck}/1/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=2e-3 s" "Output/Fields=false" RANKS 1,2 TOLERANCE 1e-9 IGNORE "balance_error")
+stockwork_restart_test(NAME convergence/explicit/bridge/restart DECK ${deck}/1/peridynamics.prm
+  SET "Resolution=coarse" "Time/End time=1.6e-3 s" "Output/Fields=false" RANKS 1,2 AFTER 60 TOLERANCE 1e-9 IGNORE "balance_error")
 # In three dimensions, on any number of ranks.
 set(deck tests/data/explicit_disc.prm)
 stockwork_case_test(NAME convergence/explicit/disc DECK ${deck} SET "Output/Fields=false"

@@ -19,11 +19,13 @@ ExplicitBonds<dim>::ExplicitBonds(
   const std::vector<StencilBond<dim>> &stencil,
   const BondLaw &law,
   const SofteningLaw &softening,
+  const double by_fluid,
   const std::function<Bond(unsigned int site, unsigned int bond)> &bond,
   const unsigned int rank)
   : zone(zone)
   , stencil(stencil)
   , softening(softening)
+  , by_fluid(by_fluid)
   , coefficients(bond_coefficients<dim>(stencil, law, zone.spacing()))
   , rank(rank)
 {
@@ -50,6 +52,8 @@ ExplicitBonds<dim>::ExplicitBonds(
     list(k);
     listed.back().bonds = bonds;
   }
+  is_wet.assign(box.n_sites(), false);
+  work_of_fluid = stored_by_fluid();
 }
 
 
@@ -165,6 +169,11 @@ void ExplicitBonds<dim>::set_layout(const Vector &vector)
     for (unsigned int d = 0; d < dim; ++d)
       own_unknowns.back()[d] = partitioner.global_to_local(zone.sites()[site].dofs[d]);
   }
+  if (by_fluid != 0.)
+  {
+    wetness.reinit(vector);
+    find_wet_sites();
+  }
 }
 
 
@@ -193,7 +202,21 @@ void ExplicitBonds<dim>::list(const unsigned int own)
   list_of[own] = listed.size();
   listed.push_back({own, {}});
   for (const BondCoefficients<dim> &bond : coefficients)
-    listed.back().bonds.push_back({bond.stiffness, 1.});
+    listed.back().bonds.push_back({bond.stiffness, 1., 0., by_fluid});
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::find_wet_sites()
+{
+  wetness.zero_out_ghost_values();
+  for (const Listed &site : listed)
+    for (const Bond &bond : site.bonds)
+      if (bond.stiffness > 0. && softening.damage(bond.greatest) >= 1.)
+        wetness.local_element(own_unknowns[site.own][0]) = 1.;
+  wetness.update_ghost_values();
+  for (const Source &source : sources)
+    is_wet[source.place] = wetness.local_element(source.local[0]) > 0.;
 }
 
 
@@ -212,21 +235,31 @@ void ExplicitBonds<dim>::add_listed_force(Listed &site, const bool breaks)
     double elongation = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       elongation += whole.direction[d] * (u[d][place + strides[b]] - u[d][place]);
-    const double stretch = bond.amplification * elongation / whole.length;
+    // The pressure of the fluid is worth this elongation, see pressure_in_bonds.cc.
+    const double of_fluid = bond.by_fluid * whole.length;
+    const double damage_before = bond.greatest > 0. ? softening.damage(bond.greatest) : 0.;
+    const double effective =
+      elongation + (damage_before > 0. || feels_fluid(place, b) ? of_fluid : 0.);
+    const double stretch = bond.amplification * effective / whole.length;
+    double damage = damage_before;
     if (breaks && stretch > softening.first && stretch > bond.greatest)
     {
-      // What the scheme takes from the motion, by the mean force times the elongation gained, less
-      // what is stored: 1/2 k e_0 e_1 (D_1 - D_0), half of it at each end.
-      double before = 0.;
+      bond.greatest = stretch;
+      damage = softening.damage(stretch);
+    }
+    if (breaks && damage > 0. && (damage != damage_before || of_fluid != 0.))
+    {
+      double before = effective - elongation;
       for (unsigned int d = 0; d < dim; ++d)
         before += whole.direction[d] * (u_before[d][place + strides[b]] - u_before[d][place]);
-      energy += 0.25 * share * bond.stiffness * before * elongation *
-                (softening.damage(stretch) - softening.damage(bond.greatest));
-      bond.greatest = stretch;
+      // What the scheme takes from the motion, by the mean force times the elongation gained, less
+      // what is stored: 1/2 k e_0 e_1 (D_1 - D_0), half of it at each end. With fluid elongations
+      // are effective ones, and the fluid does p dV, V = k D e l / (C11 + (d-1) C12).
+      const double half = 0.5 * share * bond.stiffness;
+      energy += 0.5 * half * before * effective * (damage - damage_before);
+      work_of_fluid += half * of_fluid * (damage * effective - damage_before * before);
     }
-    const double force = bond.stiffness *
-                         (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.) *
-                         elongation;
+    const double force = bond.stiffness * ((1. - damage) * elongation - damage * of_fluid);
     for (unsigned int d = 0; d < dim; ++d)
       sum[d] += force * whole.direction[d];
   }
@@ -246,13 +279,15 @@ void ExplicitBonds<dim>::forces(const Vector &displacement, const bool breaks, V
       const double value = displacement.local_element(source.local[d]);
       u[d][source.place] = source.mirrored >> d & 1 ? -value : value;
     }
-  kernel->evaluate(u, f, softening.first, breaks ? &stretched : nullptr);
+  kernel->evaluate(u, f, softening.first - std::max(0., by_fluid), breaks ? &stretched : nullptr);
   if (breaks)
     for (const std::size_t place : stretched)
       if (list_of[number[place]] == unlisted)
         list(number[place]);
   for (Listed &site : listed)
     add_listed_force(site, breaks);
+  if (breaks && by_fluid != 0.)
+    find_wet_sites();
   for (unsigned int k = 0; k < own_sites.size(); ++k)
     for (unsigned int d = 0; d < dim; ++d)
       force.local_element(own_unknowns[k][d]) =
@@ -277,6 +312,20 @@ std::vector<unsigned int> ExplicitBonds<dim>::detached() const
       result.insert(result.end(), own_unknowns[site.own].begin(), own_unknowns[site.own].end());
   }
   return result;
+}
+
+
+template <int dim>
+double ExplicitBonds<dim>::stored_by_fluid() const
+{
+  double stored = 0.;
+  for (const Listed &site : listed)
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (const Bond &bond = site.bonds[b]; bond.greatest > 0.)
+        stored += 0.25 * zone.sites()[own_sites[site.own]].share * bond.stiffness *
+                  softening.damage(bond.greatest) *
+                  std::pow(bond.by_fluid * coefficients[b].length, 2);
+  return stored;
 }
 
 

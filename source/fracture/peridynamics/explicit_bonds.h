@@ -13,6 +13,10 @@ namespace stockwork::peridynamics
 /// stencil (BondForces); the others, beside cracks and free boundaries, have a list of their bonds.
 /// A bond has its history at both ends, and both see the same elongation, so no rank tells another
 /// what has broken.
+///
+/// Brittle bonds may have fluid of a given pressure in all cracks: it is part of their law, see
+/// pressure_in_bonds.cc. Of whole bonds it counts for those of *wet* sites, which have a broken
+/// one.
 template <int dim>
 class ExplicitBonds : public ExplicitRock
 {
@@ -20,17 +24,22 @@ public:
   /// What a bond is like at the start.
   struct Bond
   {
-    double stiffness; ///< of what is left of it by volume, elastic; zero: absent or broken [N/m]
+    double stiffness; ///< of what is left of it by volume, elastic; zero: absent, or broken where
+                      ///< no fluid pushes [N/m]
     double amplification; ///< stretch of a whole bond of the same energy, over its own; zero:
                           ///< it never breaks
     double greatest = 0.; ///< stretch so far, of such a bond
+    double by_fluid = 0.; ///< stretch that the pressure in the cracks makes good for
   };
 
+  /// @param by_fluid stretch that the pressure in the cracks makes good for, of a bond of the
+  /// lattice
   /// @param bond of a site and a bond of the stencil
   ExplicitBonds(const Zone<dim> &zone,
                 const std::vector<StencilBond<dim>> &stencil,
                 const BondLaw &law,
                 const SofteningLaw &softening,
+                double by_fluid,
                 const std::function<Bond(unsigned int site, unsigned int bond)> &bond,
                 unsigned int rank);
 
@@ -38,6 +47,11 @@ public:
   void set_layout(const Vector &vector) override;
   void add_row_sums(Vector &sums) const override;
   void forces(const Vector &displacement, bool breaks, Vector &force) override;
+
+  double work() const override
+  {
+    return work_of_fluid;
+  }
 
   std::vector<unsigned int> detached() const override;
 
@@ -63,6 +77,9 @@ public:
     return energy;
   }
 
+  /// By the fluid's pressure, in what is broken, on this rank's sites [J; J/m in 2-D].
+  double stored_by_fluid() const;
+
 private:
   /// A site whose bonds are not all whole and elastic.
   struct Listed
@@ -77,9 +94,19 @@ private:
   void list(unsigned int own);
   void add_listed_force(Listed &site, bool breaks);
 
+  /// Let each rank know which of the sites that it sees are wet.
+  void find_wet_sites();
+
+  /// Whether a whole bond feels the fluid: one of its ends is wet.
+  bool feels_fluid(const std::size_t place, const unsigned int bond) const
+  {
+    return by_fluid != 0. && (is_wet[place] || is_wet[place + strides[bond]]);
+  }
+
   const Zone<dim> &zone;
   const std::vector<StencilBond<dim>> stencil;
   const SofteningLaw softening;
+  const double by_fluid;
   const std::vector<BondCoefficients<dim>> coefficients;
   const unsigned int rank;
 
@@ -106,6 +133,8 @@ private:
   std::vector<Listed> listed;
   std::vector<unsigned int> list_of; ///< of own sites; or why it is not among them
   std::vector<std::size_t> stretched;
-  double energy = 0.;
+  std::vector<bool> is_wet; ///< of the places of the box, before what the last displacement broke
+  Vector wetness;           ///< of the sites, at the unknowns of their first component
+  double energy = 0., work_of_fluid = 0.;
 };
 } // namespace stockwork::peridynamics

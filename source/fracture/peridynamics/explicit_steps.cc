@@ -25,12 +25,15 @@ void Peridynamics<dim>::check_explicit_steps() const
     return;
   if (parameters.state_based)
     refuse_explicit("Newmark with 'Bond law = state-based'");
-  if (parameters.in_bonds || parameters.as_published || parameters.tensor_fluid)
-    refuse_explicit("Newmark, or 'Fracture/peridynamics/Closure = conserving' and 'Fluid = "
-                    "network': there is no fluid");
-  if (scene.crack_pressure != 0.)
-    refuse_explicit(
-      "Newmark with a fluid in the cracks; dry ones have 'Cracks/Fluid pressure = 0 Pa'");
+  if (std::isnan(scene.crack_pressure))
+    refuse_explicit("Newmark with fluid whose pressure is to be found; a given one is "
+                    "'Cracks/Fluid pressure', and in dry cracks 0 Pa");
+  if (parameters.as_published || parameters.tensor_fluid)
+    refuse_explicit("Newmark, or 'Fracture/peridynamics/Closure = auto' and 'Fluid = network': no "
+                    "fluid flows");
+  if (scene.crack_pressure != 0. && parameters.softening > 1.)
+    refuse_explicit("Newmark, or brittle bonds ('Fracture/peridynamics/Softening = 1'): those that "
+                    "soften have no given pressure in explicit steps");
 }
 
 
@@ -47,13 +50,22 @@ void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
       std::to_string(zone.peridynamic_sites().size()) + " are in the zone");
   SofteningLaw law_of_bonds = softening;
   if (!parameters.growth)
-    law_of_bonds.first = law_of_bonds.last = std::numeric_limits<double>::infinity();
+    law_of_bonds.first = law_of_bonds.last = std::numeric_limits<double>::max();
   energy_before_explicit = committed_energy;
   explicit_bonds = std::make_unique<ExplicitBonds<dim>>(
-    zone, stencil, law, law_of_bonds,
+    zone, stencil, law, law_of_bonds, stretch_of_given_pressure(),
     [this](const unsigned int site, const unsigned int bond)
     {
       typename ExplicitBonds<dim>::Bond result{stiffness(site, bond), 1.};
+      // Of the lattice's stress; what the surface correction adds does not push.
+      result.by_fluid =
+        stretch_of_given_pressure() / rock_of_bonds.modulus(site, bond) / correction(site, bond);
+      if (result.by_fluid != 0. && bonds.is_broken(site, bond))
+      {
+        result.stiffness = correction(site, bond) * uncorrected_stiffness(site, bond);
+        result.greatest = std::numeric_limits<double>::infinity();
+        return result;
+      }
       if (never_breaks(site, bond))
         result.amplification = 0.;
       else if (result.stiffness > 0.)
@@ -67,7 +79,41 @@ void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
 
 
 template <int dim>
-bool Peridynamics<dim>::follow_explicit_bonds(const Collectives &collectives)
+double Peridynamics<dim>::stretch_of_given_pressure() const
+{
+  return scene.crack_pressure * strain_of_pressure;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::open_explicit_bonds()
+{
+  crossed.reinit(zone, stencil, cells, parameters.horizon);
+  std::vector<double> volumes(cells.size(), 0.);
+  for (const unsigned int i : zone.peridynamic_sites())
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (bonds.is_broken(i, b))
+      {
+        // Half of a bond belongs to each end.
+        const double length = coefficients[b].length, modulus = rock_of_bonds.modulus(i, b),
+                     effective = elongation(i, b, displacement) +
+                                 stretch_of_given_pressure() / modulus * length,
+                     volume = 0.5 * zone.sites()[i].share * uncorrected_stiffness(i, b) * length *
+                              effective * strain_of_pressure;
+        for (const auto &[cell, share] : crossed.of(i, b, true))
+          volumes[cell] += share * volume;
+      }
+  for (unsigned int k = 0; k < owned_cells.size(); ++k)
+  {
+    // What it does to the rock, bonds do.
+    owned_segments[k].opening = LinearFunctional();
+    owned_segments[k].opening.constant = volumes[owned_cells[k]] / owned_segments[k].area;
+  }
+}
+
+
+template <int dim>
+bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collectives &collectives)
 {
   dissipated = energy_before_explicit + collectives.sum(explicit_bonds->dissipated());
   std::map<BondView, double> greatest;
@@ -101,13 +147,21 @@ bool Peridynamics<dim>::follow_explicit_bonds(const Collectives &collectives)
   passes = 1; // what commit() keeps is new
   if (changed)
     refresh_segments();
-  return changed;
+  if (stretch_of_given_pressure() == 0.)
+    return changed;
+  stored_by_fluid = collectives.sum(explicit_bonds->stored_by_fluid());
+  displacement = zone.displacement(state.current.bulk, collectives);
+  open_explicit_bonds();
+  warn_of_pressure(state);
+  return true;
 }
 
 #define INSTANTIATE(dim)                                                       \
   template void Peridynamics<dim>::check_explicit_steps() const;               \
   template void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &); \
-  template bool Peridynamics<dim>::follow_explicit_bonds(const Collectives &);
+  template double Peridynamics<dim>::stretch_of_given_pressure() const;        \
+  template void Peridynamics<dim>::open_explicit_bonds();                      \
+  template bool Peridynamics<dim>::follow_explicit_bonds(const State &, const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

@@ -141,14 +141,22 @@ double Peridynamics<dim>::find_dilatation(const unsigned int i,
 template <int dim>
 double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int bond) const
 {
+  if (!bonds.is_broken(site, bond))
+    return correction(site, bond) * uncorrected_stiffness(site, bond);
   const unsigned int far = zone.far_end(site, bond).site;
-  const double whole =
-    volume_share(site, bond) * coefficients[bond].stiffness * rock_of_bonds.modulus(site, bond);
-  if (bonds.is_broken(site, bond))
-    return is_nearly_detached(std::max(damage[site], damage[far])) ? remaining_share * whole : 0.;
+  return is_nearly_detached(std::max(damage[site], damage[far]))
+           ? remaining_share * uncorrected_stiffness(site, bond)
+           : 0.;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::correction(const unsigned int site, const unsigned int bond) const
+{
   if (!parameters.surface_correction)
-    return whole;
-  return 2. / (share_left(corrected_damage[site]) + share_left(corrected_damage[far])) * whole;
+    return 1.;
+  const unsigned int far = zone.far_end(site, bond).site;
+  return 2. / (share_left(corrected_damage[site]) + share_left(corrected_damage[far]));
 }
 
 
@@ -281,6 +289,7 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;                      \
   template void Peridynamics<dim>::add_couplings(const Coupling &) const;                          \
   template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;                  \
+  template double Peridynamics<dim>::correction(unsigned int, unsigned int) const;                 \
   template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;             \
   template double Peridynamics<dim>::dilatation_factor(unsigned int) const;                        \
   template double Peridynamics<dim>::find_dilatation(unsigned int, std::vector<unsigned int> &,    \

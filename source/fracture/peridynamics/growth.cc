@@ -219,7 +219,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   Verdict verdict;
   if (parameters.explicit_steps)
   {
-    if (parameters.growth && follow_explicit_bonds(collectives))
+    if ((parameters.growth || stretch_of_given_pressure() != 0.) &&
+        follow_explicit_bonds(state, collectives))
       verdict.kind = Verdict::Kind::topology_changed;
     return verdict;
   }

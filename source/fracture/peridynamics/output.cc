@@ -47,7 +47,8 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
     result.broken_length = 2. * elastic - result.length - length_that_holds();
   }
   result.dissipated_energy = dissipated;
-  result.stored_energy = strain_energy(zone.displacement(state.current.bulk, collectives));
+  result.stored_energy =
+    strain_energy(zone.displacement(state.current.bulk, collectives)) + stored_by_fluid;
   result.cost = cost();
   return result;
 }

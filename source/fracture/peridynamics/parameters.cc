@@ -251,14 +251,24 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     p.reasons["Tracking"] = why;
   }
   p.tracked = prm.get("Tracking") == "path";
+  p.explicit_steps = entry_of_time(prm, "Scheme") == "explicit";
+  const bool explicit_fluid = p.explicit_steps && scene.crack_pressure != 0.;
+  if (p.explicit_steps && p.tracked)
+    throw bad("Tracking", "none with 'Time/Scheme = explicit'");
   if (prm.get("Closure") == "auto")
   {
-    prm.set("Closure", p.tracked ? "in bonds" : "conserving");
-    p.reasons["Closure"] = p.tracked ? "for a path" : "where no path is tracked";
+    prm.set("Closure", p.tracked || explicit_fluid ? "in bonds" : "conserving");
+    p.reasons["Closure"] = p.tracked        ? "for a path"
+                           : explicit_fluid ? "where steps are explicit"
+                                            : "where no path is tracked";
   }
   p.as_published = prm.get("Closure") == "as published";
   p.in_bonds = prm.get("Closure") == "in bonds";
-  p.explicit_steps = entry_of_time(prm, "Scheme") == "explicit";
+  if (p.explicit_steps && p.in_bonds != explicit_fluid)
+    throw bad("Closure", explicit_fluid ? "auto or in bonds with 'Time/Scheme = explicit'"
+                                        : "auto or conserving where explicit steps move dry rock");
+  if (p.explicit_steps)
+    p.in_bonds = false; // their pressure is ExplicitBonds' affair, and has no unknowns
   if (prm.get("Bond volumes") == "auto")
   {
     prm.set("Bond volumes", p.tracked || p.explicit_steps ? "isotropic" : "exact");
@@ -286,7 +296,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.friction > 0. && (dim != 2 || !p.in_bonds))
     throw bad("Friction coefficient",
               dim != 2 ? "0 in three dimensions" : "0, or 'Closure = in bonds'");
-  p.free_boundaries = !p.state_based && scene.crack_pressure == 0.;
+  p.free_boundaries = !p.state_based && (scene.crack_pressure == 0. || p.explicit_steps);
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
   if (p.softening > 1. && prm.get("Bonds per pass") != default_bonds_per_pass)

@@ -194,6 +194,12 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   refresh_segments();
   if (parameters.explicit_steps)
     make_explicit_bonds(mesh_view);
+  if (explicit_bonds && stretch_of_given_pressure() != 0.)
+  {
+    displacement.assign(dim * zone.sites().size(), 0.); // until the next step
+    stored_by_fluid = collectives.sum(explicit_bonds->stored_by_fluid());
+    open_explicit_bonds();
+  }
 }
 
 

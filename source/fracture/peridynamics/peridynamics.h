@@ -423,9 +423,16 @@ private:
   /// @throws InputError where not all of the rock is bonds
   void make_explicit_bonds(const MeshView<dim> &mesh_view);
 
+  /// Of a bond of the lattice, by the pressure that the deck gives the fluid in all cracks, as of
+  /// a uniform stress.
+  double stretch_of_given_pressure() const;
+
   /// Bonds are what they have become.
-  /// @return whether the fracture has grown
-  bool follow_explicit_bonds(const Collectives &collectives);
+  /// @return whether segments are others than before
+  bool follow_explicit_bonds(const State &state, const Collectives &collectives);
+
+  /// Apertures are what broken bonds enclose, by `displacement`.
+  void open_explicit_bonds();
 
   /// The bonds of cells of this size [m].
   void set_law(double spacing);
@@ -467,12 +474,22 @@ private:
   /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
   double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
 
-  /// Of a bond, force per elongation [N/m]. Where bonds are broken the others are stiffer by V over
-  /// the mean of V_left of both ends, so that a free face is not too soft (Le and Bobaru 2018, the
-  /// volume method), once a tip has left them behind: near it, bonds are stretched, and to make
-  /// them stiffer then would add energy, 5 % of G_c. A site with hardly any bond left keeps a
+  /// Of a bond, force per elongation [N/m], corrected. A site with hardly any bond left keeps a
   /// little of the broken ones.
   double stiffness(unsigned int site, unsigned int bond) const;
+
+  /// Where bonds are broken the others are stiffer by V over the mean of V_left of both ends, so
+  /// that a free face is not too soft (Le and Bobaru 2018, the volume method), once a tip has left
+  /// them behind: near it, bonds are stretched, and to make them stiffer then would add energy, 5 %
+  /// of G_c.
+  double correction(unsigned int site, unsigned int bond) const;
+
+  /// Of a bond that holds, by the rock there is to it [N/m].
+  double uncorrected_stiffness(const unsigned int site, const unsigned int bond) const
+  {
+    return volume_share(site, bond) * coefficients[bond].stiffness *
+           rock_of_bonds.modulus(site, bond);
+  }
 
   /// By how much less there is to a bond where its ends have less than a cell of rock; zero: it is
   /// absent.
@@ -558,6 +575,7 @@ private:
   std::vector<std::string> messages;
   RowVersions row_versions;                           ///< by whole bonds and cells' normals
   std::unique_ptr<ExplicitBonds<dim>> explicit_bonds; ///< null: steps are not explicit
+  double stored_by_fluid = 0.;                        ///< in broken explicit bonds [J; J/m in 2-D]
   double energy_before_explicit = 0.;                 ///< dissipated before they were made [J/m]
 
   // Committed.
