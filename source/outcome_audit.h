@@ -22,6 +22,10 @@ struct Outcome
   double inlet_pressure = 0.;    ///< total, at the end [Pa]
   double minimum_pressure = 0.;  ///< total, of all segments at the end [Pa]
 
+  double least_opening = 0., greatest_opening = 0.; ///< of faces of cracks, at any step [m]
+  double energy_error = 0.; ///< of the balance of energy, over the work done, at the end; of
+                            ///< explicit steps
+
   // Of what 'Physics = auto' has left out, the greatest of those that were looked at.
   double kinetic_share = 0.; ///< energy that the rock's motion would have, over what it stores
   double strength_used = 0.; ///< share of the strength that the rock would have
@@ -41,7 +45,8 @@ struct Outcome
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &maximum_tip_speed &last_length &last_time &kinetic_share &strength_used;
+    archive &maximum_tip_speed &last_length &last_time &kinetic_share &strength_used &least_opening
+      &greatest_opening;
   }
 
 private:

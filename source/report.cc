@@ -147,10 +147,13 @@ void Report<dim>::observe_energy(const State &state,
   values["external_work"] = external_work;
   values["stored_energy"] = energy.stored + summary.stored_energy;
   if (external_work > 0.)
+  {
     values["energy_balance_error"] =
       std::abs(external_work - values["stored_energy"] - energy.kinetic -
                summary.dissipated_energy - not_stored_in_rock) /
       external_work;
+    shown.energy_error = values["energy_balance_error"];
+  }
   if (external_work > 0. && values.count("rock_dissipated_energy") != 0)
     values["energy_step_error"] =
       std::abs(values["rock_dissipated_energy"] - not_stored_in_rock) / external_work;
@@ -202,6 +205,8 @@ void Report<dim>::observe_fluid(const State &state, Values &values)
     const auto [least, greatest] = std::minmax_element(apertures.begin(), apertures.end());
     values["minimum_aperture"] = *least;
     values["maximum_aperture"] = *greatest;
+    shown.least_opening = std::min(shown.least_opening, *least);
+    shown.greatest_opening = std::max(shown.greatest_opening, *greatest);
   }
   const auto wells = network.wells(stepper.last_context(), state, system.collectives());
   if (!wells.empty())

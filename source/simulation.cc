@@ -263,13 +263,13 @@ void Simulation<dim>::check_rock(ParameterHandler &prm) const
   NonlinearRock<dim> *const rock = system.nonlinear_rock();
   if (rock == nullptr)
     return;
-  std::string replaced;
+  std::pair<std::string, types::material_id> replaced; // law and region
   bool flows = false;
   for (const auto &cell : system.bulk_dofs().active_cell_iterators())
     if (cell->is_locally_owned() && rock->answers(cell) &&
         the_case.model->role(cell).skip_stiffness != nullptr)
     {
-      replaced = rock->laws.name(cell->material_id());
+      replaced = {rock->laws.name(cell->material_id()), cell->material_id()};
       flows = rock->law(cell).n_history() == 0;
     }
   if (Utilities::MPI::max(flows ? 1 : 0, run.communicator) == 1)
@@ -278,9 +278,12 @@ void Simulation<dim>::check_rock(ParameterHandler &prm) const
                      "nothing (an empty entry) where the fracture model '" + the_case.model_name +
                        "' provides the stiffness of the rock itself: the elements do not know the "
                        "stress there");
-  for (const std::string &law : Utilities::MPI::all_gather(run.communicator, replaced))
-    if (!law.empty())
-      throw EntryError("Rock/Law", law,
+  for (const auto &[law, number] : Utilities::MPI::all_gather(run.communicator, replaced))
+    if (const std::string region = "Region " + std::to_string(number); !law.empty())
+      throw EntryError(number == 0 || value_of(prm, {"Rock", region}, "Law").empty()
+                         ? "Rock/Law"
+                         : "Rock/" + region + "/Law",
+                       law,
                        "elastic where the fracture model '" + the_case.model_name +
                          "' provides the stiffness of the rock itself: give the region that it "
                          "works in, or all rock, the law 'elastic', or take a model whose cracks "

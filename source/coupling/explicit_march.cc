@@ -22,6 +22,10 @@ namespace
 {
 /// Of the longest step that is stable. The bound of the frequency is safe already.
 constexpr double share_of_stable_step = 0.95;
+/// More in a step of the run are a mistake in the deck: the run would say nothing for hours.
+constexpr double most_parts = 1e7;
+/// How far loads may be off a straight line within a step of the run, over the greatest.
+constexpr double quick_load = 0.02;
 /// Of the residual of the loads, in equilibrium.
 constexpr double equilibrium_tolerance = 1e-8;
 } // namespace
@@ -122,6 +126,21 @@ void ExplicitMarch<dim>::set_up()
 
 
 template <int dim>
+unsigned int ExplicitMarch<dim>::n_parts(const double dt)
+{
+  set_up();
+  const double n = std::max(1., std::ceil(dt / longest_step - 1e-9));
+  if (!(n <= most_parts))
+    throw EntryError("Time/Initial step", to_string(dt, dimension::time),
+                     "at most " + to_string(most_parts * longest_step, dimension::time) +
+                       ", ten million explicit steps of " +
+                       to_string(longest_step, dimension::time) +
+                       ", the longest that are stable with these cells");
+  return static_cast<unsigned int>(n);
+}
+
+
+template <int dim>
 void ExplicitMarch<dim>::look_at_boundary(const double time)
 {
   const BlockVector residual = system.residual_at_rest(time);
@@ -134,6 +153,35 @@ void ExplicitMarch<dim>::look_at_boundary(const double time)
   prescribed.clear();
   for (const unsigned int i : held)
     prescribed.push_back(values.block(0).trilinos_vector()[0][i]);
+  const auto is_number = [](const double x) { return std::isfinite(x); };
+  const bool are_numbers = std::all_of(loads.begin(), loads.end(), is_number) &&
+                           std::all_of(prescribed.begin(), prescribed.end(), is_number);
+  if (system.collectives().max(are_numbers ? 0. : 1.) > 0.)
+    throw SolveError("What 'Boundary conditions' says at t = " + to_string(time, dimension::time) +
+                     " is not a number everywhere");
+}
+
+
+template <int dim>
+void ExplicitMarch<dim>::warn_of_quick_loads(const std::vector<double> &before,
+                                             const std::vector<double> &between)
+{
+  if (warned_of_quick_loads)
+    return;
+  double off = 0., greatest = 0.;
+  for (unsigned int i = 0; i < loads.size(); ++i)
+  {
+    off = std::max(off, std::abs(between[i] - 0.5 * (before[i] + loads[i])));
+    greatest = std::max({greatest, std::abs(before[i]), std::abs(between[i]), std::abs(loads[i])});
+  }
+  off = system.collectives().max(off);
+  greatest = system.collectives().max(greatest);
+  warned_of_quick_loads = off > quick_load * greatest;
+  if (warned_of_quick_loads)
+    run.warn("Loads change within a step of the run: in its middle one is " +
+             to_string(100. * off / greatest, dimension::number) +
+             " % of the greatest load off the line from beginning to end, which explicit steps "
+             "follow. Take shorter ones ('Time/Initial step').");
 }
 
 
@@ -248,14 +296,21 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
 {
   set_up();
   look_at_boundary(time);
-  const std::vector<double> loads_before = loads, prescribed_before = prescribed;
+  const std::vector<double> loads_before = loads;
+  look_at_boundary(time + 0.5 * dt);
+  const std::vector<double> loads_between = loads;
   look_at_boundary(time + dt);
+  warn_of_quick_loads(loads_before, loads_between);
   u.zero_out_ghost_values();
   take(unknowns.bulk, u);
   take(velocity, v);
+  // What is moved starts from where it is: a displacement that the deck has jump takes the step.
+  std::vector<double> prescribed_before;
+  for (const unsigned int i : held)
+    prescribed_before.push_back(u.local_element(i));
 
   const auto scope = run.timers.scope("explicit steps");
-  const unsigned int n_parts = std::max(1, static_cast<int>(std::ceil(dt / longest_step - 1e-9)));
+  const unsigned int n_parts = this->n_parts(dt);
   const double h = dt / n_parts;
   const unsigned int n = u.locally_owned_size();
   u.update_ghost_values();

@@ -31,6 +31,10 @@ public:
   /// @throws SolveError
   void find_equilibrium(double time, Unknowns &unknowns);
 
+  /// Into how many a step of the run is divided. Collective.
+  /// @throws EntryError where they are too many to be meant
+  unsigned int n_parts(double dt);
+
   /// Go on by a step, in equal parts that are stable; loads and what moves the boundary change
   /// linearly meanwhile. Collective.
   /// @return how many parts
@@ -64,6 +68,9 @@ private:
   /// What the boundary prescribes at a time, and the loads then.
   void look_at_boundary(double time);
 
+  /// Where the loads of now, and those before and halfway, are on no line. Collective.
+  void warn_of_quick_loads(const std::vector<double> &before, const std::vector<double> &between);
+
   /// @throws SolveError where a load acts on what the rock does not hold any more. Collective.
   void refuse_loose_loads() const;
 
@@ -87,6 +94,7 @@ private:
   std::vector<double> loads;      ///< of all own unknowns, likewise [N]
   double kinetic = 0., work = 0., work_before = 0.;
   double work_in_rock = 0.;  ///< ExplicitRock::work() at the end of the last step, on this rank
+  bool warned_of_quick_loads = false;
   bool knows_energy = false; ///< `kinetic` is that at the end of the last step
   bool is_new = false;       ///< no step yet: what the rock's own loads have done is to be counted
 };

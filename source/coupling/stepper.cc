@@ -48,10 +48,17 @@ void StepControl::parse_parameters(ParameterHandler &prm)
     const std::string text = prm.get(entry);
     if (text.empty())
       return otherwise;
-    const double value = parse_quantity(text, dimension);
-    if (!range.contains(value))
-      throw EntryError("Time/" + entry, text, range.text(dimension));
-    return value;
+    try
+    {
+      const double value = parse_quantity(text, dimension);
+      if (range.contains(value))
+        return value;
+    }
+    catch (const InputError &error)
+    {
+      throw EntryError("Time/" + entry, text, range.text(dimension) + " (" + error.what() + ")");
+    }
+    throw EntryError("Time/" + entry, text, range.text(dimension));
   };
   prm.enter_subsection("Time");
   start_time = get_quantity(prm, "Start time", dimension::time);
@@ -202,6 +209,7 @@ void Stepper<dim>::make_explicit_march()
     throw EntryError("Time/Scheme", "explicit",
                      "Newmark, or 'Fracture/Model = peridynamics' with bonds in all of the domain");
   march = std::make_unique<ExplicitMarch<dim>>(run, system, model, scheme.newmark_gamma());
+  march->n_parts(std::min(control.initial_step, control.end_time - control.start_time));
 }
 
 

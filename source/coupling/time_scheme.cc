@@ -58,7 +58,8 @@ void TimeScheme::declare_parameters(ParameterHandler &prm)
     "backward Euler. explicit: Newmark's with beta = 0 and a mass lumped at the "
     "nodes, for dry rock all of which is made of bonds; each step is divided into "
     "as many as are stable, which takes no matrix. Loads are those of its beginning "
-    "and end, and linear between: a pulse takes steps that are shorter.");
+    "and end, and linear between: a pulse takes steps that are shorter. What is moved "
+    "goes on from where it is: if the deck has it jump, it takes the first step.");
   prm.declare_entry("Inertia", "off", Patterns::Selection("off|on"),
                     "Accelerations of rock and fluid together (u-p form).");
   prm.declare_entry("Start", "at rest", Patterns::Selection("at rest|in equilibrium"),

@@ -359,14 +359,22 @@ void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
                          "boxes that hold some of the mesh: this one lies beside it");
   const std::size_t n_regions = region_boxes.size();
   std::vector<unsigned int> n_held(n_regions + side_boxes.size(), 0); // cells, then faces
+  const auto count = [&](const auto &boxes, const std::size_t first, const Point<dim> &point)
+  {
+    for (std::size_t i = boxes.size(); i-- > 0;)
+      if (boxes[i].box.point_inside(point))
+      {
+        ++n_held[first + i]; // the last one, which is on top
+        return;
+      }
+  };
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      for (unsigned int i = 0; i < n_regions; ++i)
-        n_held[i] += region_boxes[i].box.point_inside(cell->center());
+      count(region_boxes, 0, cell->center());
       for (const unsigned int f : cell->face_indices())
-        for (unsigned int i = 0; i < side_boxes.size() && cell->face(f)->at_boundary(); ++i)
-          n_held[n_regions + i] += side_boxes[i].box.point_inside(cell->face(f)->center());
+        if (cell->face(f)->at_boundary())
+          count(side_boxes, n_regions, cell->face(f)->center());
     }
   Utilities::MPI::sum(n_held, triangulation.get_communicator(), n_held);
   const auto refuse_empty =
@@ -374,9 +382,11 @@ void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
   {
     for (unsigned int i = 0; i < boxes.size(); ++i)
       if (n_held[first + i] == 0)
-        throw EntryError("Mesh/" + name, boxes[i].label + ": " + text(boxes[i].box),
-                         "boxes that hold the centre of a " + of +
-                           ": this one lies beside the mesh, or is smaller than its cells");
+        throw EntryError(
+          "Mesh/" + name, boxes[i].label + ": " + text(boxes[i].box),
+          "boxes that hold the centre of a " + of +
+            ": this one lies beside the mesh, is smaller than its cells, or lies beneath "
+            "later ones");
   };
   refuse_empty(region_boxes, 0, "Region boxes", "cell");
   refuse_empty(side_boxes, n_regions, "Side boxes", "face of the boundary");

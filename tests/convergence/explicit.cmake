@@ -12,6 +12,17 @@ stockwork_same_test(NAME convergence/explicit/pulled_plate/newmark DECK ${deck}
   SET "Resolution=medium" "Fracture/peridynamics/Growth=false" "Fracture/peridynamics/Bond volumes=isotropic"
     "Time/Start=at rest" "Time/Initial step=2e-5 s" "Boundary conditions/Normal traction=right: 5e8*t"
   SECOND_SET "Time/Scheme=Newmark" TOLERANCE 1e-3 IGNORE "error")
+# Layers that do not contract, E/(1 - nu^2) = 11.25 and 45 GPa over 1 m each: 1/2 (1 MPa)^2 (1 m/11.25 GPa + 1 m/45 GPa) m.
+stockwork_case_test(NAME convergence/explicit/pulled_plate/layers DECK ${deck}
+  SET "Resolution=fine" "Fracture/peridynamics/Growth=false" "Boundary conditions/Roller=left, bottom, top"
+    "Mesh/Region boxes=1: (1 m, 0) to (2 m, 1 m)" "Rock/Region 1/Young modulus=40 GPa"
+  EXPECT "final/stored_energy = 55.5556 within 0.005" "final/kinetic_energy < 1e-12"
+         "final/energy_balance_error < 1e-12")
+# A side that is moved at once is moved in the first step of the run, and its work counts.
+stockwork_case_test(NAME convergence/explicit/pulled_plate/jump DECK ${deck}
+  SET "Resolution=coarse" "Fracture/peridynamics/Growth=false" "Time/Start=at rest"
+    "Boundary conditions/Normal traction=" "Boundary conditions/Displacement x=right: 1 mm"
+  EXPECT "final/external_work > 1" "final/energy_balance_error < 1e-10")
 # What is pulled must not come off, and be flung away.
 stockwork_stop_test(NAME convergence/explicit/pulled_plate/comes_off DECK ${deck} SET "Resolution=coarse"
   SAYS "What is loaded has come off")
@@ -56,6 +67,19 @@ stockwork_same_test(NAME convergence/explicit/bridge.2ranks DECK ${deck}/1/perid
   SET "Resolution=coarse" "Time/End time=2e-3 s" "Output/Fields=false" RANKS 1,2 TOLERANCE 1e-9 IGNORE "balance_error")
 stockwork_restart_test(NAME convergence/explicit/bridge/restart DECK ${deck}/1/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=1.6e-3 s" "Output/Fields=false" RANKS 1,2 AFTER 60 TOLERANCE 1e-9 IGNORE "balance_error")
+# The load has a ramp that a step of the run is longer than.
+stockwork_case_test(NAME convergence/explicit/notch/quick_load DECK tests/data/explicit_notch.prm
+  SET "Time/Initial step=1e-3 s" "Time/Maximum step=1e-3 s"
+  WARNS "Loads change within a step of the run" EXPECT "final/energy_balance_error < 1e-10")
+stockwork_stop_test(NAME convergence/explicit/notch/no_number DECK tests/data/explicit_notch.prm
+  SET "Boundary conditions/Normal traction=top: 1e6/t" SAYS "is not a number everywhere")
+# Nothing keeps faces apart, and a notch that is pressed shut is said to overlap.
+stockwork_case_test(NAME convergence/explicit/notch/pressed DECK tests/data/explicit_notch.prm
+  SET "Boundary conditions/Roller=left, bottom" "Boundary conditions/Normal traction=top: -1e6" "Time/End time=8e-4 s"
+  WARNS "faces of cracks stay apart" EXPECT "final/maximum_aperture < 0")
+# Nor may a row of nodes that keep the bonds along it.
+stockwork_stop_test(NAME convergence/explicit/notch/row_comes_off DECK tests/data/explicit_notch.prm
+  SET "Fracture/peridynamics/Unbreakable=" SAYS "What is loaded has come off")
 # In three dimensions, on any number of ranks.
 set(deck tests/data/explicit_disc.prm)
 stockwork_case_test(NAME convergence/explicit/disc DECK ${deck} SET "Output/Fields=false"

@@ -302,14 +302,21 @@ std::vector<unsigned int> ExplicitBonds<dim>::detached() const
   std::vector<unsigned int> result;
   for (const Listed &site : listed)
   {
-    double left = 0., all = 0.;
-    for (const Bond &bond : site.bonds)
+    // A row that comes off keeps the bonds along it.
+    for (unsigned int d = 0; d < dim; ++d)
     {
-      all += bond.stiffness;
-      left += bond.stiffness * (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.);
+      double left = 0., all = 0.;
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+      {
+        const Bond &bond = site.bonds[b];
+        const double stiffness =
+          bond.stiffness * coefficients[b].direction[d] * coefficients[b].direction[d];
+        all += stiffness;
+        left += stiffness * (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.);
+      }
+      if (left < hardly * all)
+        result.push_back(own_unknowns[site.own][d]);
     }
-    if (left < hardly * all)
-      result.insert(result.end(), own_unknowns[site.own].begin(), own_unknowns[site.own].end());
   }
   return result;
 }

@@ -40,8 +40,6 @@ void Peridynamics<dim>::check_explicit_steps() const
 template <int dim>
 void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
 {
-  if (!in_situ_is_zero)
-    refuse_explicit("Newmark with a stress in situ");
   if (mesh_view.dof_handler.n_dofs() != dim * zone.peridynamic_sites().size())
     refuse_explicit(
       "Newmark, or a 'Fracture/peridynamics/Zone' that holds all of the domain: explicit "

@@ -133,6 +133,10 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
 {
   double worst = equal_stress * strength();
   std::string message;
+  const std::string closure =
+    "'Fracture/peridynamics/Closure = in bonds'" +
+    std::string(parameters.state_based ? " with 'Fracture/peridynamics/Bond law = bond-based'"
+                                       : "");
   for (const InitialCrack<dim> &crack : scene.cracks)
     for (const auto &[middle, normal] : flat_parts(crack))
     {
@@ -152,8 +156,7 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
           (shear > 1e-6 * unequal ? ", with a shear stress of " + megapascals(shear) : "") +
           ". Bonds ahead of the crack feel the difference, and hold " + megapascals(strength()) +
           " with cells of " + text(spacing) + " m. With more than " + text(hopeless_stress) +
-          " times that, runs fail in their first step. Use 'Fracture/peridynamics/Closure = in "
-          "bonds', a smaller difference" +
+          " times that, runs fail in their first step. Use " + closure + ", a smaller difference" +
           (dim == 2 ? ", smaller cells, or 'cohesive_xfem'." : " or smaller cells."));
       message =
         "The in-situ stress along the crack '" + crack.text + "', " + megapascals(along) +
@@ -163,8 +166,7 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
         megapascals(strength()) + " with cells of " + text(spacing) + " m, is " +
         (unequal > strength() ? "less" : "little more") +
         ": expect pressures and lengths that are wrong by ten per cent and more, or no " +
-        "convergence. Use 'Fracture/peridynamics/Closure = in bonds'" +
-        (dim == 2 ? " or 'cohesive_xfem'." : ".");
+        "convergence. Use " + closure + (dim == 2 ? " or 'cohesive_xfem'." : ".");
     }
   if (!message.empty())
     messages.push_back(message);

@@ -4,6 +4,7 @@
 #include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
 #include "mesh/box_list.h"
+#include "mesh/interpret_entry.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -228,10 +229,22 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (!(p.margin >= p.horizon + 1.))
     throw bad("Margin", "at least " + std::to_string(p.horizon + 1) +
                           " cells: every bond that a crack cuts joins two peridynamic nodes");
-  for (const auto &labelled : parse_boxes<dim>(prm.get("Zone")))
-    p.boxes.push_back(labelled.box);
-  for (const auto &labelled : parse_boxes<dim>(prm.get("Unbreakable")))
-    p.unbreakable.push_back(labelled.box);
+  const auto boxes = [&](const std::string &entry)
+  {
+    std::vector<dealii::BoundingBox<dim>> result;
+    interpret_entry(
+      prm, "Fracture/peridynamics", entry,
+      std::string("a list of boxes, '") +
+        (dim == 2 ? "(0, -2 m) to (30 m, 2 m)" : "(0, 0, -2 m) to (30 m, 30 m, 2 m)") + "'",
+      [&](const std::string &text)
+      {
+        for (const auto &labelled : parse_boxes<dim>(text))
+          result.push_back(labelled.box);
+      });
+    return result;
+  };
+  p.boxes = boxes("Zone");
+  p.unbreakable = boxes("Unbreakable");
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.zone_growth = p.cell_size > 0. ? prm.get_integer("Zone growth") : 0;
   p.cell_growth = prm.get_double("Cell growth");

@@ -102,7 +102,7 @@ double RockOfBonds<dim>::mean(const Place<dim> &origin,
     sum += (*found).*what;
     ++n;
   }
-  return sum / n;
+  return n > 0 ? sum / n : 0.;
 }
 
 
@@ -184,7 +184,8 @@ void RockOfBonds<dim>::reinit(
           compliance += part.share / here;
           known += part.share;
         }
-      bonds[b] = {known / compliance, mean(place, middles[b], &OfCell::energy),
+      // Bonds that would leave the rock have nothing of it.
+      bonds[b] = {known > 0. ? known / compliance : 0., mean(place, middles[b], &OfCell::energy),
                   mean(place, middles[b], &OfCell::biot_coefficient)};
       // Rounding must not make bonds differ.
       alike = alike && std::abs(bonds[b].modulus - bonds[0].modulus) < 1e-12 * bonds[0].modulus &&
