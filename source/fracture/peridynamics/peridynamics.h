@@ -266,9 +266,9 @@ private:
 
   // With the pressure in the bonds (pressure_in_bonds.cc).
 
-  /// Strain of the lattice under a stress that has this traction on a fracture cell's plane, and is
+  /// Strain of the lattice under a stress that has this traction on a plane of this normal, and is
   /// the same in all directions along this plane and across it, but for shear.
-  dealii::SymmetricTensor<2, dim> strain_of_traction(unsigned int cell,
+  dealii::SymmetricTensor<2, dim> strain_of_traction(const dealii::Tensor<1, dim> &normal,
                                                      const dealii::Tensor<1, dim> &traction) const;
 
   /// The same by the in-situ stress.
@@ -311,6 +311,10 @@ private:
   /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
   CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
 
+  /// The same for what a cell's faces have moved by: bonds ahead of the fluid belong to its last
+  /// piece, but not to that one's jump.
+  CellShares shares_of_jump(const BondAcross &bond) const;
+
   // With tracked paths (tracking.cc).
 
   /// Find the bonds that cross paths, if these are others than before.
@@ -318,6 +322,10 @@ private:
 
   /// Where a bond, or its image in the domain, crosses a path.
   std::optional<TrackedPaths::Crossing> crossing_of(unsigned int site, unsigned int bond) const;
+
+  /// Of a bond across a path that fluid has not reached: by the in-situ traction there, which the
+  /// fracture would release.
+  double dry_stretch(unsigned int site, unsigned int bond) const;
 
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
