@@ -444,6 +444,8 @@ void TrackedPaths::find_wet_pieces()
 {
   wet.clear();
   std::vector<std::pair<unsigned int, Joint>> joints;
+  // Pieces at ends of which fluid has reached all, and the path that goes on beyond each.
+  std::vector<std::pair<unsigned int, unsigned int>> goes_on;
   for (unsigned int p = 0; p < paths.size(); ++p)
   {
     const Path &path = paths[p];
@@ -479,7 +481,11 @@ void TrackedPaths::find_wet_pieces()
           continue;
         const bool all = reached[side] == growth.n_points;
         if (growth.joined && all)
+        {
           joints.emplace_back(number, Joint{growth.joined_path, growth.joined_arc});
+          if (growth.beyond != 0)
+            goes_on.emplace_back(number, growth.beyond);
+        }
         else if (growth.grows || growth.joined)
           piece.at_tip = true;
       }
@@ -494,6 +500,15 @@ void TrackedPaths::find_wet_pieces()
         wet[piece].neighbours.push_back(i);
         wet[i].neighbours.push_back(piece);
         wet[i].at_tip = false;
+        break;
+      }
+  // The mouths of both are opposite one another: the fluid need not go along what is between.
+  for (const auto &[piece, beyond] : goes_on)
+    for (unsigned int i = 0; i < wet.size(); ++i)
+      if (wet[i].path == beyond)
+      {
+        wet[piece].neighbours.push_back(i);
+        wet[i].neighbours.push_back(piece);
         break;
       }
 }
