@@ -219,6 +219,12 @@ private:
                     const OfCells &of_cells,
                     const std::vector<Candidate> &candidates);
 
+  /// Whether all bonds take the same energy and are as stiff as others.
+  bool is_alike() const
+  {
+    return rock_of_bonds.is_uniform() && parameters.cohesive_energy == 1.;
+  }
+
   /// Energy that a bond takes, over that of one in the rock outside of regions: of the rock where
   /// it crosses a path, or at its middle.
   double relative_energy(unsigned int site, unsigned int bond) const;
