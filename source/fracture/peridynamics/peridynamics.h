@@ -347,6 +347,9 @@ private:
   /// @return whether fluid has reached another piece
   bool advance_tips();
 
+  /// What all bonds take across the way of an end [J/m].
+  double energy_of_way(const TrackedPaths::End &end) const;
+
   /// From tips, as far as they have come by the energy dissipated, to the farthest bonds that have
   /// softened; all tips together. By as much process zones reach back [m].
   double half_process_zones() const;

@@ -94,6 +94,9 @@ public:
   /// How far ahead of the tip of an end its way is crossed there [m].
   double beyond_tip(const Crossing &crossing, const End &end) const;
 
+  /// Length of the way of an end [m].
+  double way(const End &end) const;
+
   /// What is left of the way ahead of the tip [m].
   double lead(const End &end) const;
 
@@ -216,9 +219,6 @@ private:
 
   /// Where an initial crack ends at another one.
   void join_where_it_begins(const End &end);
-
-  /// Length of the way of an end [m].
-  double way(const End &end) const;
 
   void find_wet_pieces();
 

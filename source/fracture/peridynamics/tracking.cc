@@ -329,14 +329,44 @@ double Peridynamics<dim>::half_process_zones() const
 }
 
 
+/// Where a way meets another path, the bonds across both belong to that one, so its last part takes less
+/// than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is has
+/// broken.
 template <int dim>
 bool Peridynamics<dim>::advance_tips()
 {
   const auto energy = energy_across_ways();
-  const double unit = zone.spacing() * scene.rock.main().energy_release_rate;
+  const double h = zone.spacing(), unit = h * scene.rock.main().energy_release_rate;
+  const auto meetings = paths.meetings();
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
-    { return zone.spacing() * rounded(energy[end.path][end.side] / unit); });
+    {
+      const double by_energy = h * rounded(energy[end.path][end.side] / unit);
+      const auto has_met = [&](const TrackedPaths::Meeting &meeting)
+      { return meeting.end.path == end.path && meeting.end.side == end.side; };
+      if (std::none_of(meetings.begin(), meetings.end(), has_met))
+        return by_energy;
+      const double way = paths.way(end), missing = way - h * rounded(energy_of_way(end) / unit);
+      if (missing <= 0.)
+        return by_energy;
+      const double reach = parameters.horizon * h, begin = std::max(0., way - reach - missing);
+      return by_energy <= begin
+               ? by_energy
+               : begin + (by_energy - begin) * (way - begin) / std::max(h, way - begin - missing);
+    });
+}
+
+
+template <int dim>
+double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &end) const
+{
+  double energy = 0.;
+  for (const BondAcross &bond : crossing_bonds)
+    if (bond.crossing.path == end.path &&
+        views_of(bond.view.first, bond.view.second).front() == bond.view)
+      if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
+        energy += energy_at_unit_stretch(bond.view) * softening.dissipated(softening.last);
+  return energy;
 }
 
 
@@ -494,6 +524,7 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
   template double Peridynamics<dim>::half_process_zones() const;                             \
   template bool Peridynamics<dim>::advance_tips();                                           \
+  template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;         \
   template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                       \
     unsigned int, const std::map<BondView, double> &, const OfCells &) const;                \
   template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(     \
