@@ -11,7 +11,7 @@ import vtu  # noqa: E402
 
 LINE = 3
 HALF_LENGTH, MIDDLE = 1.4, 1.7  # of the natural crack, on the x axis [m]
-LEAST_LENGTH = 0.6             # what counts as new fracture, or as a natural crack that has opened [m]: a horizon, coarse
+LEAST_LENGTH = 0.5             # what counts as new fracture, or as a natural crack that has opened [m]
 LEAST_APERTURE = 3e-6          # what counts as open [m]
 SAME = 1e-3                    # places that are nearer are the same [m]
 
@@ -92,7 +92,7 @@ class Outcome:
 
     def name(self):
         """In a word."""
-        crosses, along = self.beyond >= LEAST_LENGTH, self.opened >= LEAST_LENGTH or self.tips >= LEAST_LENGTH
+        crosses, along = self.beyond >= LEAST_LENGTH, self.opened >= LEAST_LENGTH
         if crosses and along:
             return "both"
         if crosses or along:

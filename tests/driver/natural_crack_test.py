@@ -6,7 +6,7 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "contrib"))
-from natural_crack import criteria  # noqa: E402
+from natural_crack import criteria, outcome  # noqa: E402
 
 
 class TipsField(unittest.TestCase):
@@ -76,6 +76,40 @@ class Pressure(unittest.TestCase):
         self.assertEqual(criteria.blanton_contrast(30., 1., 0.6), criteria.NEVER)
         self.assertAlmostEqual(criteria.blanton_contrast(45., 1., 0.6), 1. / criteria.blanton_b(0.6))
         self.assertAlmostEqual(criteria.blanton_contrast(60., 1., 1e-3), 2.)
+
+
+def line(first, last, n, aperture):
+    """Pieces along a line: [(ends, aperture)]."""
+    step = [(b - a) / n for a, b in zip(first, last)]
+    return [([[first[0] + k * step[0], first[1] + k * step[1]], [first[0] + (k + 1) * step[0], first[1] + (k + 1) * step[1]]],
+             aperture) for k in range(n)]
+
+
+class WhatHasHappened(unittest.TestCase):
+    def outcome(self, *groups):
+        pieces = [piece for group in groups for piece in group]
+        ends, apertures = zip(*pieces)
+        return outcome.Outcome(outcome.Pieces(ends, apertures, apertures), 90.)
+
+    def natural(self, aperture):
+        return line((1.7, -1.4), (1.7, 1.4), 15, aperture)
+
+    def test_it_has_not_arrived(self):
+        self.assertEqual(self.outcome(line((0., 0.), (1.5, 0.), 7, 1e-4), self.natural(0.)).name(), "not there")
+
+    def test_it_stops(self):
+        self.assertEqual(self.outcome(line((0., 0.), (1.7, 0.), 8, 1e-4), self.natural(0.)).name(), "stops")
+
+    def test_it_turns_along(self):
+        found = self.outcome(line((0., 0.), (1.7, 0.), 8, 1e-4), self.natural(1e-5), line((1.7, 1.4), (1.7, 1.8), 2, 1e-5))
+        self.assertEqual(found.name(), "turns")
+        self.assertAlmostEqual(found.opened, 2.8)
+        self.assertAlmostEqual(found.tips, 0.4)
+
+    def test_it_crosses(self):
+        found = self.outcome(line((0., 0.), (1.7, 0.), 8, 1e-4), self.natural(0.), line((1.7, 0.), (2.5, 0.1), 4, 1e-5))
+        self.assertEqual(found.name(), "crosses")
+        self.assertAlmostEqual(found.beyond, math.hypot(0.8, 0.1))
 
 
 if __name__ == "__main__":

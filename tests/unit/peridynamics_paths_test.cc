@@ -178,7 +178,9 @@ TEST_CASE("beyond a path that has been met another one begins, which fluid reach
 
   paths.extend(beyond, along);
   paths.set_advances([](const TrackedPaths::End &e)
-                     { return e.path == 0 ? 1.7 : e.path == 2 ? 1.2 : 0.; });
+                     { return e.path == 0   ? 1.7
+                              : e.path == 2 ? 1.2
+                                            : 0.; });
   CHECK(paths.is_wet(2));
   CHECK(paths.tip(beyond).distance(Point<2>(4.9, 0.)) < 1e-12);
   const auto &pieces = paths.wet_pieces();

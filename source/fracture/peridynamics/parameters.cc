@@ -102,10 +102,11 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "all "
     "of their height, store 1/K_f, and their change of volume does not count.");
   declare_friction(prm);
-  prm.declare_entry("Cohesive energy", "1", Patterns::Double(1e-3, 1.),
-                    "What cohesive cracks take to open, over the critical energy release rate of the "
-                    "rock: cement. Its strength is the root of that, over the rock's. Less than 1 with "
-                    "'Tracking = path'.");
+  prm.declare_entry(
+    "Cohesive energy", "1", Patterns::Double(1e-3, 1.),
+    "What cohesive cracks take to open, over the critical energy release rate of the "
+    "rock: cement. Its strength is the root of that, over the rock's. Less than 1 with "
+    "'Tracking = path'.");
   permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry(

@@ -226,8 +226,8 @@ void Peridynamics<dim>::open_by_bonds()
     for (unsigned int i = 0; i < cells.size(); ++i)
       released.push_back(released_strain(i));
 
-  // Of the bonds across a piece. The last piece of a fracture may have lost a single one, which reads
-  // the same of both modes: faces that stick would be held twice by it.
+  // Of the bonds across a piece. The last piece of a fracture may have lost a single one, which
+  // reads the same of both modes: faces that stick would be held twice by it.
   std::vector<double> broken_share(cells.size(), 0.), all_bonds(cells.size(), 0.);
   for (const BondAcross &bond : across)
     for (const auto &[cell, share] : shares_of_jump(bond))
@@ -274,8 +274,8 @@ void Peridynamics<dim>::open_by_bonds()
   std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>> by_dof(
     cells.size());
 
-  // A bond right across a piece reads nothing of its slip. Rounding errors in place of that would be all
-  // that stands on a diagonal, and systems of equations are scaled by their diagonals.
+  // A bond right across a piece reads nothing of its slip. Rounding errors in place of that would
+  // be all that stands on a diagonal, and systems of equations are scaled by their diagonals.
   const auto read = [&](const unsigned int cell, const unsigned int m, const Tensor<1, dim> &e)
   {
     const double strain = e * (modes[cell][m] * e);

@@ -84,9 +84,8 @@ double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigne
 template <int dim>
 double Peridynamics<dim>::relative_stretch(const unsigned int site, const unsigned int bond) const
 {
-  return is_alike()
-           ? 1.
-           : std::sqrt(relative_energy(site, bond) / rock_of_bonds.modulus(site, bond));
+  return is_alike() ? 1.
+                    : std::sqrt(relative_energy(site, bond) / rock_of_bonds.modulus(site, bond));
 }
 
 

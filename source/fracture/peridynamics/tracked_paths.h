@@ -129,8 +129,8 @@ public:
 
   std::vector<Meeting> meetings() const;
 
-  /// Beyond a path that has been met, another one begins, with a piece in this direction. If one has
-  /// begun there before it is forgotten.
+  /// Beyond a path that has been met, another one begins, with a piece in this direction. If one
+  /// has begun there before it is forgotten.
   void begin_beyond(const Meeting &meeting, const dealii::Tensor<1, 2> &direction);
 
   /// Whether a path has begun beyond another one: no part of it is an initial crack.

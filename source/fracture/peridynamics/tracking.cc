@@ -146,11 +146,9 @@ double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned in
 {
   if constexpr (dim == 2)
     if (!in_situ_is_zero)
-      if (const auto crossing = crossing_of(site, bond);
-          crossing && !paths.is_wet(crossing->path))
+      if (const auto crossing = crossing_of(site, bond); crossing && !paths.is_wet(crossing->path))
       {
-        const Tensor<1, dim> n = paths.left(*crossing),
-                             &e = coefficients[bond].direction;
+        const Tensor<1, dim> n = paths.left(*crossing), &e = coefficients[bond].direction;
         const SymmetricTensor<2, dim> strain =
           strain_of_traction(n, scene.in_situ_stress(paths.point(*crossing)) * n);
         return e * (strain * e) * coefficients[bond].stiffness / stiffness(site, bond);
@@ -329,9 +327,9 @@ double Peridynamics<dim>::half_process_zones() const
 }
 
 
-/// Where a way meets another path, the bonds across both belong to that one, so its last part takes less
-/// than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is has
-/// broken.
+/// Where a way meets another path, the bonds across both belong to that one, so its last part takes
+/// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
+/// has broken.
 template <int dim>
 bool Peridynamics<dim>::advance_tips()
 {
@@ -487,9 +485,9 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
         const Tensor<1, dim> ahead = paths.direction(meeting.end);
         const SymmetricTensor<2, dim> stress =
           stress_ahead(meeting.place, meeting.across, state, of_cells);
-        paths.begin_beyond(meeting, off_line(turned(ahead, across_greatest(stress, ahead),
-                                                    most_first_turn),
-                                             meeting.across));
+        paths.begin_beyond(
+          meeting,
+          off_line(turned(ahead, across_greatest(stress, ahead), most_first_turn), meeting.across));
       }
     for (const TrackedPaths::End &end : paths.ends())
     {
