@@ -4,8 +4,9 @@ Compression is positive: the greatest S_H along the fracture's way, the least S_
 pressure. The natural crack is at an angle to the way, 90 degrees: across it; mu is its friction, S_0 its cohesion,
 T_0 the rock's tensile strength. All have units of stress; what is returned has them, too.
 
-None of the papers was at hand. The equations are those by which later papers quote them, so second hand, and were
-checked against what they must follow from (tests/driver/natural_crack_test.py).
+None of the papers was at hand, nor could a text with the equations be found. They are as later papers quote them, from
+memory: second hand, and checked against what they must follow from (tests/driver/natural_crack_test.py). So numbers
+of equations are not given.
 
 Renshaw & Pollard (1995), Int. J. Rock Mech. Min. Sci. 32, 237-249: the field of a crack's tip (Westergaard), on the
 natural crack, which is at right angles. Rock beyond it breaks, before the crack slips, where
