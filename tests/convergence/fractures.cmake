@@ -62,6 +62,15 @@ stockwork_case_test(NAME convergence/natural_crack/peridynamics/path
   EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
          "final/fracture_volume = final/injected_volume within 1e-12"
          "fluid_balance/relative_error < 1e-8")
+# Where there is friction, a fracture goes on beyond a natural crack across its way; what was injected is in the fractures, or
+# has leaked off, to 1e-9. On two ranks, and restarted there after it has crossed.
+stockwork_case_test(NAME convergence/natural_crack/crossing DECK tests/data/crossing.prm
+  EXPECT "final/extent_x > 1.85" "final/fluid_volume_defect < 4.5e-13" "final/fluid_volume_defect > -4.5e-13"
+         "fluid_balance/relative_error < 1e-8")
+stockwork_same_test(NAME convergence/natural_crack/crossing/ranks DECK tests/data/crossing.prm RANKS 1,2 TOLERANCE 1e-6
+  IGNORE "balance_error|volume_defect|minimum_aperture")
+stockwork_restart_test(NAME convergence/natural_crack/crossing/restart DECK tests/data/crossing.prm RANKS 1,2 AFTER 44 TOLERANCE 1e-6
+  IGNORE "balance_error|volume_defect|minimum_aperture")
 # Inertia that is too small to matter changes nothing: Newmark's scheme with gamma = 1 against the
 # quasi-static run.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/inertia

@@ -140,4 +140,56 @@ TEST_CASE("a way ends where it meets another path, and the fluid goes on there")
   CHECK(other.path == 1);
   CHECK(other.neighbours.back() == 3);
 }
+
+
+TEST_CASE("beyond a path that has been met another one begins, which fluid reaches from both")
+{
+  TrackedPaths paths;
+  paths.reinit(
+    {crack({Point<2>(0., 0.), Point<2>(2., 0.)}), crack({Point<2>(3.7, -3.), Point<2>(3.7, 3.)})},
+    1., [](const Point<2> &end) { return end[0] > 0.; });
+  const TrackedPaths::End end{0, 1};
+  const Tensor<1, 2> along({1., 0.}), up({std::sqrt(0.5), std::sqrt(0.5)});
+  CHECK(paths.meetings().empty());
+  paths.extend(end, along);
+  paths.extend(end, along);
+  REQUIRE(paths.meetings().size() == 1);
+  const auto meeting = paths.meetings().front();
+  CHECK(meeting.place.distance(Point<2>(3.7, 0.)) < 1e-12);
+  CHECK((meeting.across - along).norm() < 1e-12);
+  CHECK(!meeting.beyond);
+  const double length = paths.length();
+  paths.begin_beyond(meeting, up);
+  REQUIRE(paths.n_paths() == 3);
+  CHECK(paths.began_beyond(2));
+  CHECK(!paths.began_beyond(0));
+  CHECK(!paths.is_wet(2));
+  CHECK(paths.length() == doctest::Approx(length));
+  // Another direction in its place.
+  paths.begin_beyond(paths.meetings().front(), along);
+  REQUIRE(paths.n_paths() == 3);
+  const TrackedPaths::End beyond = *paths.meetings().front().beyond;
+  CHECK((paths.direction(beyond) - along).norm() < 1e-12);
+  const auto crossing = paths.crossing(Point<2>(4., -0.5), Point<2>(4., 0.5));
+  REQUIRE(crossing);
+  CHECK(crossing->path == 2);
+  CHECK(paths.end_at(*crossing));
+  CHECK(paths.shares(*crossing, 3.).empty());
+
+  paths.extend(beyond, along);
+  paths.set_advances([](const TrackedPaths::End &e)
+                     { return e.path == 0   ? 1.7
+                              : e.path == 2 ? 1.2
+                                            : 0.; });
+  CHECK(paths.is_wet(2));
+  CHECK(paths.tip(beyond).distance(Point<2>(4.9, 0.)) < 1e-12);
+  const auto &pieces = paths.wet_pieces();
+  const auto &last = pieces.back(), &first = pieces[pieces.size() - 2];
+  CHECK(last.path == 2);
+  CHECK(last.at_tip);
+  CHECK(!first.at_tip);
+  REQUIRE(first.neighbours.size() == 3);
+  CHECK(pieces[first.neighbours[1]].path == 1);
+  CHECK(pieces[first.neighbours[2]].path == 0);
+}
 } // namespace stockwork::peridynamics_paths_test

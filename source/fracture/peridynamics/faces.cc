@@ -121,7 +121,7 @@ void Faces::add_contact(const State &state, Rows &rows) const
   local.residual(w) += area * normal;
   for (const auto &[column, value] : slope)
     local.matrix(w, column) += area * value;
-  if (modes.size() == 1)
+  if (modes.size() == 1 || !rub)
     return;
 
   const unsigned int s = rows.jump(1);

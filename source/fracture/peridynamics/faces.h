@@ -45,6 +45,7 @@ struct Faces
   double area = 0.;          ///< A [m^2]
   double unit = 0.;          ///< 1/(gamma h) [Pa/m]
   double friction = 0.;      ///< mu
+  bool rub = true;           ///< enough bonds have broken to tell opening from slip
   std::vector<Mode> modes;
   std::vector<dealii::types::global_dof_index> ends; ///< displacements of ends of broken bonds
   std::vector<double> in_situ;                       ///< force of the stress in situ on them [N]

@@ -61,9 +61,9 @@ double Peridynamics<dim>::length_that_holds() const
   if constexpr (dim == 2)
     for (const BondAcross &bond : crossing_bonds)
       if (const auto &[site, b] = bond.view;
-          !bonds.is_broken(site, b) &&
+          !bonds.is_broken(site, b) && !paths.end_at(bond.crossing) &&
           scene.cracks[bond.crossing.path].kind != InitialCrack<dim>::Kind::open &&
-          !paths.end_at(bond.crossing) && views_of(site, b).front() == bond.view)
+          views_of(site, b).front() == bond.view)
       {
         const SofteningBond *softened = softening_bond(site, b);
         energy += energy_at_unit_stretch(bond.view) *

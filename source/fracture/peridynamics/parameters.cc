@@ -103,6 +103,11 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "all "
     "of their height, store 1/K_f, and their change of volume does not count.");
   declare_friction(prm);
+  prm.declare_entry(
+    "Cohesive energy", "1", Patterns::Double(1e-3, 1.),
+    "What cohesive cracks take to open, over the critical energy release rate of the "
+    "rock: cement. Its strength is the root of that, over the rock's. Less than 1 with "
+    "'Tracking = path'.");
   permeability_tensor::declare_parameters(prm);
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry(
@@ -309,6 +314,9 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.friction > 0. && (dim != 2 || !p.in_bonds))
     throw bad("Friction coefficient",
               dim != 2 ? "0 in three dimensions" : "0, or 'Closure = in bonds'");
+  p.cohesive_energy = prm.get_double("Cohesive energy");
+  if (p.cohesive_energy < 1. && !p.tracked)
+    throw bad("Cohesive energy", "1, or 'Tracking = path'");
   p.free_boundaries = !p.state_based && (scene.crack_pressure == 0. || p.explicit_steps);
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");

@@ -34,6 +34,7 @@ struct Parameters
   bool tensor_fluid;      ///< the elements of the pore pressure carry the fluid of the fracture
   double minimum_aperture = 0.; ///< 'Fracture flow/Minimum aperture' [m], where they do
   double friction = 0.;         ///< coefficient, of faces that touch
+  double cohesive_energy = 1.;  ///< of bonds across cohesive cracks, over that of the rock
   bool explicit_steps;          ///< 'Time/Scheme = explicit'
   bool free_boundaries;         ///< the zone may reach to the boundary of the domain, which is dry
   bool growth;

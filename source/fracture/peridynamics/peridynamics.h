@@ -219,6 +219,12 @@ private:
                     const OfCells &of_cells,
                     const std::vector<Candidate> &candidates);
 
+  /// Whether all bonds take the same energy and are as stiff as others.
+  bool is_alike() const
+  {
+    return rock_of_bonds.is_uniform() && parameters.cohesive_energy == 1.;
+  }
+
   /// Energy that a bond takes, over that of one in the rock outside of regions: of the rock where
   /// it crosses a path, or at its middle.
   double relative_energy(unsigned int site, unsigned int bond) const;
@@ -266,9 +272,9 @@ private:
 
   // With the pressure in the bonds (pressure_in_bonds.cc).
 
-  /// Strain of the lattice under a stress that has this traction on a fracture cell's plane, and is
+  /// Strain of the lattice under a stress that has this traction on a plane of this normal, and is
   /// the same in all directions along this plane and across it, but for shear.
-  dealii::SymmetricTensor<2, dim> strain_of_traction(unsigned int cell,
+  dealii::SymmetricTensor<2, dim> strain_of_traction(const dealii::Tensor<1, dim> &normal,
                                                      const dealii::Tensor<1, dim> &traction) const;
 
   /// The same by the in-situ stress.
@@ -311,6 +317,10 @@ private:
   /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
   CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
 
+  /// The same for what a cell's faces have moved by: bonds ahead of the fluid belong to its last
+  /// piece, but not to that one's jump.
+  CellShares shares_of_jump(const BondAcross &bond) const;
+
   // With tracked paths (tracking.cc).
 
   /// Find the bonds that cross paths, if these are others than before.
@@ -318,6 +328,10 @@ private:
 
   /// Where a bond, or its image in the domain, crosses a path.
   std::optional<TrackedPaths::Crossing> crossing_of(unsigned int site, unsigned int bond) const;
+
+  /// Of a bond across a path that fluid has not reached: by the in-situ traction there, which the
+  /// fracture would release.
+  double dry_stretch(unsigned int site, unsigned int bond) const;
 
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
@@ -332,6 +346,9 @@ private:
   /// How far tips have come by the energy that softening bonds have dissipated.
   /// @return whether fluid has reached another piece
   bool advance_tips();
+
+  /// What all bonds take across the way of an end [J/m].
+  double energy_of_way(const TrackedPaths::End &end) const;
 
   /// From tips, as far as they have come by the energy dissipated, to the farthest bonds that have
   /// softened; all tips together. By as much process zones reach back [m].

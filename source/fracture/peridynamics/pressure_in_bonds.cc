@@ -34,11 +34,10 @@ constexpr double too_few_bonds = 0.5;
 
 
 template <int dim>
-SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_traction(const unsigned int cell,
+SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_traction(const Tensor<1, dim> &n,
                                                               const Tensor<1, dim> &traction) const
 {
   const LatticeModuli moduli = lattice_moduli<dim>(stencil, law, zone.spacing());
-  const Tensor<1, dim> &n = cells[cell].normal;
   const double normal = traction * n;
   const Tensor<1, dim> shear = traction - normal * n;
   SymmetricTensor<2, dim> strain =
@@ -59,7 +58,7 @@ SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int ce
   if constexpr (dim == 2)
     return (traction * n) * modes[cell][0] + (traction * cross_product_2d(n)) * modes[cell][1];
   else
-    return strain_of_traction(cell, traction);
+    return strain_of_traction(n, traction);
 }
 
 
@@ -105,6 +104,8 @@ Peridynamics<dim>::fractured_stretch(const unsigned int site,
 {
   const Tensor<1, dim> &e = coefficients[bond].direction;
   double stretch = 0.;
+  if (parameters.tracked && shares.empty())
+    return dry_stretch(site, bond);
   for (const auto &[cell, share] : shares)
     stretch += share * (e * (strain[cell] * e));
   // The stress is that of the intact lattice; bonds beside a crack, or of other rock, are stiffer.
@@ -122,6 +123,14 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
   const auto crossing = crossing_of(site, bond);
   return crossing ? paths.shares(*crossing, (parameters.horizon + 1.) * zone.spacing())
                   : CellShares();
+}
+
+
+template <int dim>
+CellShares Peridynamics<dim>::shares_of_jump(const BondAcross &bond) const
+{
+  return parameters.tracked ? paths.shares(bond.crossing, same_place * zone.spacing())
+                            : shares_of(bond.view.first, bond.view.second, true);
 }
 
 
@@ -153,9 +162,9 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
   modes.assign(cells.size(), {});
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    modes[i][0] = strain_of_traction(i, cells[i].normal);
+    modes[i][0] = strain_of_traction(cells[i].normal, cells[i].normal);
     if constexpr (dim == 2)
-      modes[i][1] = strain_of_traction(i, cross_product_2d(cells[i].normal));
+      modes[i][1] = strain_of_traction(cells[i].normal, cross_product_2d(cells[i].normal));
   }
   if constexpr (dim == 2)
   {
@@ -172,11 +181,7 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
       // Half of a bond belongs to each end.
       const double force =
         0.5 * zone.sites()[site].share * coefficients[b].stiffness * coefficients[b].length;
-      // Bonds ahead of the fluid belong to its last piece, but not to that one's jump.
-      const CellShares shares = parameters.tracked
-                                  ? paths.shares(bond.crossing, same_place * zone.spacing())
-                                  : shares_of(site, b, true);
-      for (const auto &[cell, share] : shares)
+      for (const auto &[cell, share] : shares_of_jump(bond))
       {
         const Tensor<1, dim> &n = cells[cell].normal;
         bool leads_up = e * n > 0.;
@@ -221,6 +226,20 @@ void Peridynamics<dim>::open_by_bonds()
     for (unsigned int i = 0; i < cells.size(); ++i)
       released.push_back(released_strain(i));
 
+  // Of the bonds across a piece. The last piece of a fracture may have lost a single one, which
+  // reads the same of both modes: faces that stick would be held twice by it.
+  std::vector<double> broken_share(cells.size(), 0.), all_bonds(cells.size(), 0.);
+  for (const BondAcross &bond : across)
+    for (const auto &[cell, share] : shares_of_jump(bond))
+    {
+      const double part = share * coefficients[bond.view.second].stiffness;
+      all_bonds[cell] += part;
+      if (bonds.is_broken(bond.view.first, bond.view.second))
+        broken_share[cell] += part;
+    }
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    broken_share[i] = all_bonds[i] > 0. ? broken_share[i] / all_bonds[i] : 0.;
+
   const unsigned int n = n_modes();
   std::vector<Faces *> faces_of(cells.size(), nullptr);
   faces.assign(owned_cells.size(), Faces());
@@ -234,6 +253,7 @@ void Peridynamics<dim>::open_by_bonds()
     own.unit = 1. / (strain_of_pressure * zone.spacing());
     own.segment = segment.key;
     own.friction = parameters.friction;
+    own.rub = broken_share[i] > too_few_bonds;
     for (unsigned int m = 0; m < n; ++m)
     {
       own.modes.emplace_back();
@@ -254,6 +274,13 @@ void Peridynamics<dim>::open_by_bonds()
   std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>> by_dof(
     cells.size());
 
+  // A bond right across a piece reads nothing of its slip. Rounding errors in place of that would
+  // be all that stands on a diagonal, and systems of equations are scaled by their diagonals.
+  const auto read = [&](const unsigned int cell, const unsigned int m, const Tensor<1, dim> &e)
+  {
+    const double strain = e * (modes[cell][m] * e);
+    return std::abs(strain) > same_place * strain_of_pressure ? strain : 0.;
+  };
   for (const BondAcross &bond : across)
   {
     const auto &[i, b] = bond.view;
@@ -275,10 +302,10 @@ void Peridynamics<dim>::open_by_bonds()
       for (unsigned int m = 0; m < n; ++m)
       {
         Faces::Mode &mode = faces_of[cell]->modes[m];
-        sums[m] = share * force * (e * (modes[cell][m] * e));
+        sums[m] = share * force * read(cell, m, e);
         mode.constant += sums[m] * longer * in_situ;
         for (unsigned int k = 0; k < n; ++k)
-          mode.of_tractions[k] += sums[m] * longer * (e * (modes[cell][k] * e));
+          mode.of_tractions[k] += sums[m] * longer * read(cell, k, e);
       }
       const auto add = [&](const dealii::types::global_dof_index dof, const double direction)
       {

@@ -68,9 +68,15 @@ template <int dim>
 double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigned int bond) const
 {
   if constexpr (dim == 2)
-    if (parameters.tracked && !rock_of_bonds.is_uniform())
+    if (parameters.tracked && !is_alike())
       if (const auto crossing = crossing_of(site, bond))
-        return rock_of_bonds.energy(paths.point(*crossing));
+      {
+        const bool cemented =
+          crossing->path < scene.cracks.size() && !paths.end_at(*crossing) &&
+          scene.cracks[crossing->path].kind == InitialCrack<dim>::Kind::cohesive;
+        return (cemented ? parameters.cohesive_energy : 1.) *
+               rock_of_bonds.energy(paths.point(*crossing));
+      }
   return rock_of_bonds.energy(site, bond);
 }
 
@@ -78,9 +84,8 @@ double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigne
 template <int dim>
 double Peridynamics<dim>::relative_stretch(const unsigned int site, const unsigned int bond) const
 {
-  return rock_of_bonds.is_uniform()
-           ? 1.
-           : std::sqrt(relative_energy(site, bond) / rock_of_bonds.modulus(site, bond));
+  return is_alike() ? 1.
+                    : std::sqrt(relative_energy(site, bond) / rock_of_bonds.modulus(site, bond));
 }
 
 

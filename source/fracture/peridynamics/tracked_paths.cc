@@ -363,6 +363,55 @@ void TrackedPaths::forget_way(const End &end)
 }
 
 
+std::vector<TrackedPaths::Meeting> TrackedPaths::meetings() const
+{
+  std::vector<Meeting> result;
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+    {
+      const Growth &growth = paths[p].ends[side];
+      if (!growth.joined || growth.n_points == 0)
+        continue;
+      const Joint joint{growth.joined_path, growth.joined_arc};
+      Meeting meeting{{p, side}, point(joint), left(joint), {}};
+      if (meeting.across * direction({p, side}) < 0.)
+        meeting.across = -meeting.across;
+      if (growth.beyond != 0)
+        meeting.beyond = End{growth.beyond, 1};
+      result.push_back(meeting);
+    }
+  return result;
+}
+
+
+void TrackedPaths::begin_beyond(const Meeting &meeting, const Tensor<1, 2> &direction)
+{
+  if (at(meeting.end).beyond == 0)
+  {
+    // Not 0: there is the path that has been met.
+    paths[meeting.end.path].ends[meeting.end.side].beyond = paths.size();
+    paths.emplace_back();
+  }
+  const Growth &met = at(meeting.end);
+  Path &path = paths[met.beyond];
+  const Point<2> next = meeting.place + h * direction;
+  path.points = {{{meeting.place[0], meeting.place[1]}}, {{next[0], next[1]}}};
+  path.ends = {};
+  path.ends[0].joined = true;
+  path.ends[0].joined_path = met.joined_path;
+  path.ends[0].joined_arc = met.joined_arc;
+  path.ends[1].grows = true;
+  path.ends[1].n_points = 1;
+}
+
+
+bool TrackedPaths::is_wet(const unsigned int path) const
+{
+  return std::any_of(wet.begin(), wet.end(),
+                     [&](const Piece &piece) { return piece.path == path; });
+}
+
+
 double TrackedPaths::distance(const Point<2> &point) const
 {
   double nearest = std::numeric_limits<double>::infinity();
@@ -395,6 +444,8 @@ void TrackedPaths::find_wet_pieces()
 {
   wet.clear();
   std::vector<std::pair<unsigned int, Joint>> joints;
+  // Pieces at ends of which fluid has reached all, and the path that goes on beyond each.
+  std::vector<std::pair<unsigned int, unsigned int>> goes_on;
   for (unsigned int p = 0; p < paths.size(); ++p)
   {
     const Path &path = paths[p];
@@ -430,7 +481,11 @@ void TrackedPaths::find_wet_pieces()
           continue;
         const bool all = reached[side] == growth.n_points;
         if (growth.joined && all)
+        {
           joints.emplace_back(number, Joint{growth.joined_path, growth.joined_arc});
+          if (growth.beyond != 0)
+            goes_on.emplace_back(number, growth.beyond);
+        }
         else if (growth.grows || growth.joined)
           piece.at_tip = true;
       }
@@ -445,6 +500,15 @@ void TrackedPaths::find_wet_pieces()
         wet[piece].neighbours.push_back(i);
         wet[i].neighbours.push_back(piece);
         wet[i].at_tip = false;
+        break;
+      }
+  // The mouths of both are opposite one another: the fluid need not go along what is between.
+  for (const auto &[piece, beyond] : goes_on)
+    for (unsigned int i = 0; i < wet.size(); ++i)
+      if (wet[i].path == beyond)
+      {
+        wet[piece].neighbours.push_back(i);
+        wet[i].neighbours.push_back(piece);
         break;
       }
 }

@@ -94,6 +94,9 @@ public:
   /// How far ahead of the tip of an end its way is crossed there [m].
   double beyond_tip(const Crossing &crossing, const End &end) const;
 
+  /// Length of the way of an end [m].
+  double way(const End &end) const;
+
   /// What is left of the way ahead of the tip [m].
   double lead(const End &end) const;
 
@@ -114,6 +117,35 @@ public:
 
   /// Forget the way ahead, where nothing has softened yet.
   void forget_way(const End &end);
+
+  /// Where the way of an end has met another path, and may go on beyond it.
+  struct Meeting
+  {
+    End end;                     ///< that has met the path
+    dealii::Point<2> place;      ///< on that
+    dealii::Tensor<1, 2> across; ///< unit normal of that, to the far side
+    std::optional<End> beyond;   ///< of the path there, if there is one
+  };
+
+  std::vector<Meeting> meetings() const;
+
+  /// Beyond a path that has been met, another one begins, with a piece in this direction. If one
+  /// has begun there before it is forgotten.
+  void begin_beyond(const Meeting &meeting, const dealii::Tensor<1, 2> &direction);
+
+  /// Whether a path has begun beyond another one: no part of it is an initial crack.
+  bool began_beyond(const unsigned int path) const
+  {
+    return paths[path].ends[1].n_points == paths[path].n_pieces();
+  }
+
+  unsigned int n_paths() const
+  {
+    return paths.size();
+  }
+
+  /// Whether fluid has reached any piece of a path.
+  bool is_wet(unsigned int path) const;
 
   /// Of a point from the nearest piece of any path or way [m].
   double distance(const dealii::Point<2> &point) const;
@@ -138,11 +170,12 @@ private:
     bool joined = false;           ///< it has met another path
     unsigned int joined_path = 0;  ///< which
     double joined_arc = 0.;        ///< and where on it
+    unsigned int beyond = 0;       ///< path that begins there on the far side, 0: none
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &grows &n_points &advance &wet &joined &joined_path &joined_arc;
+      ar &grows &n_points &advance &wet &joined &joined_path &joined_arc &beyond;
     }
   };
 
@@ -186,9 +219,6 @@ private:
 
   /// Where an initial crack ends at another one.
   void join_where_it_begins(const End &end);
-
-  /// Length of the way of an end [m].
-  double way(const End &end) const;
 
   void find_wet_pieces();
 

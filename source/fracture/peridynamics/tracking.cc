@@ -16,6 +16,8 @@ namespace
 {
 /// Turn of a way at a piece, and at its first one [rad].
 constexpr double most_turn = 20. * M_PI / 180., most_first_turn = 70. * M_PI / 180.;
+/// Between a path that begins beyond another one and that [rad].
+constexpr double least_off_line = 20. * M_PI / 180.;
 /// Of the greater principal stress, less than which they do not differ.
 constexpr double same_stress = 1e-9;
 
@@ -51,6 +53,15 @@ Tensor<1, 2> turned(const Tensor<1, 2> &from, const Tensor<1, 2> &to, const doub
     std::clamp(std::atan2(from[0] * to[1] - from[1] * to[0], from * to), -most, most);
   return Tensor<1, 2>({std::cos(angle) * from[0] - std::sin(angle) * from[1],
                        std::sin(angle) * from[0] + std::cos(angle) * from[1]});
+}
+/// A direction that leads away from a line, to the side that its normal points to.
+Tensor<1, 2> off_line(const Tensor<1, 2> &direction, const Tensor<1, 2> &normal)
+{
+  const Tensor<1, 2> along({-normal[1], normal[0]});
+  const double side = direction * along < 0. ? -1. : 1.;
+  return direction * normal >= std::sin(least_off_line)
+           ? direction
+           : std::sin(least_off_line) * normal + side * std::cos(least_off_line) * along;
 }
 } // namespace
 
@@ -127,6 +138,22 @@ std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(const unsig
   if (found == crossing_bonds.end() || found->view != view)
     return {};
   return found->crossing;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned int bond) const
+{
+  if constexpr (dim == 2)
+    if (!in_situ_is_zero)
+      if (const auto crossing = crossing_of(site, bond); crossing && !paths.is_wet(crossing->path))
+      {
+        const Tensor<1, dim> n = paths.left(*crossing), &e = coefficients[bond].direction;
+        const SymmetricTensor<2, dim> strain =
+          strain_of_traction(n, scene.in_situ_stress(paths.point(*crossing)) * n);
+        return e * (strain * e) * coefficients[bond].stiffness / stiffness(site, bond);
+      }
+  return 0.;
 }
 
 
@@ -268,6 +295,7 @@ template <int dim>
 std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const
 {
   std::vector<std::array<double, 2>> energy = committed_way_energy;
+  energy.resize(paths.n_paths(), {{0., 0.}});
   for (unsigned int n = 0; n < softening_ends.size(); ++n)
     if (const auto &end = softening_ends[n])
     {
@@ -299,14 +327,44 @@ double Peridynamics<dim>::half_process_zones() const
 }
 
 
+/// Where a way meets another path, the bonds across both belong to that one, so its last part takes
+/// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
+/// has broken.
 template <int dim>
 bool Peridynamics<dim>::advance_tips()
 {
   const auto energy = energy_across_ways();
-  const double unit = zone.spacing() * scene.rock.main().energy_release_rate;
+  const double h = zone.spacing(), unit = h * scene.rock.main().energy_release_rate;
+  const auto meetings = paths.meetings();
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
-    { return zone.spacing() * rounded(energy[end.path][end.side] / unit); });
+    {
+      const double by_energy = h * rounded(energy[end.path][end.side] / unit);
+      const auto has_met = [&](const TrackedPaths::Meeting &meeting)
+      { return meeting.end.path == end.path && meeting.end.side == end.side; };
+      if (std::none_of(meetings.begin(), meetings.end(), has_met))
+        return by_energy;
+      const double way = paths.way(end), missing = way - h * rounded(energy_of_way(end) / unit);
+      if (missing <= 0.)
+        return by_energy;
+      const double reach = parameters.horizon * h, begin = std::max(0., way - reach - missing);
+      return by_energy <= begin
+               ? by_energy
+               : begin + (by_energy - begin) * (way - begin) / std::max(h, way - begin - missing);
+    });
+}
+
+
+template <int dim>
+double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &end) const
+{
+  double energy = 0.;
+  for (const BondAcross &bond : crossing_bonds)
+    if (bond.crossing.path == end.path &&
+        views_of(bond.view.first, bond.view.second).front() == bond.view)
+      if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
+        energy += energy_at_unit_stretch(bond.view) * softening.dissipated(softening.last);
+  return energy;
 }
 
 
@@ -412,13 +470,28 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   if constexpr (dim == 2)
   {
     const double h = zone.spacing();
+    const auto energy = energy_across_ways();
+    // Before anything softens a way may still be another.
+    const auto is_untouched = [&](const TrackedPaths::End &end)
+    {
+      return energy[end.path][end.side] == 0. &&
+             std::none_of(softening_ends.begin(), softening_ends.end(),
+                          [&](const auto &other)
+                          { return other && other->path == end.path && other->side == end.side; });
+    };
+    for (const TrackedPaths::Meeting &meeting : paths.meetings())
+      if (!meeting.beyond || is_untouched(*meeting.beyond))
+      {
+        const Tensor<1, dim> ahead = paths.direction(meeting.end);
+        const SymmetricTensor<2, dim> stress =
+          stress_ahead(meeting.place, meeting.across, state, of_cells);
+        paths.begin_beyond(
+          meeting,
+          off_line(turned(ahead, across_greatest(stress, ahead), most_first_turn), meeting.across));
+      }
     for (const TrackedPaths::End &end : paths.ends())
     {
-      // Before anything softens the way may still be another.
-      if (committed_way_energy[end.path][end.side] == 0. &&
-          std::none_of(softening_ends.begin(), softening_ends.end(),
-                       [&](const auto &other)
-                       { return other && other->path == end.path && other->side == end.side; }))
+      if (!paths.began_beyond(end.path) && is_untouched(end))
         paths.forget_way(end);
       const auto grows = [&]
       {
@@ -443,11 +516,13 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   template void Peridynamics<dim>::find_crossing_bonds();                                    \
   template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
     unsigned int, unsigned int) const;                                                       \
+  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;          \
   template void Peridynamics<dim>::follow_paths();                                           \
   template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;     \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
   template double Peridynamics<dim>::half_process_zones() const;                             \
   template bool Peridynamics<dim>::advance_tips();                                           \
+  template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;         \
   template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                       \
     unsigned int, const std::map<BondView, double> &, const OfCells &) const;                \
   template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(     \

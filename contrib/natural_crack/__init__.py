@@ -1,0 +1,1 @@
+"""What contrib/natural_crack.py runs, compares with and draws."""
