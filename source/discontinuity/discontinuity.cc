@@ -423,22 +423,33 @@ std::vector<typename Discontinuity<dim>::OwnedPiece> Discontinuity<dim>::owned_p
 
 
 template <int dim>
-std::vector<Segment<dim>> Discontinuity<dim>::segments(
-  const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
+std::vector<std::pair<std::uint64_t, std::uint64_t>> Discontinuity<dim>::segments_that_meet() const
 {
-  std::vector<std::pair<unsigned int, CrackEnd>> joints;
+  std::map<dealii::CellId, std::vector<std::uint64_t>> at_junction;
   for (unsigned int c = 0; c < cracks.size(); ++c)
     for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
       if (cracks[c].ends_on[static_cast<int>(end)] >= 0)
-        joints.emplace_back(c, end);
-  const auto segment_key_in = [this](const dealii::CellId &cell, const unsigned int crack)
-  {
-    const auto &in_cell = pieces_of_cells.at(cell);
-    return segment_key(crack, std::find_if(in_cell.begin(), in_cell.end(),
-                                           [crack](const PieceIndex &p)
-                                           { return p.first == crack; })
-                                ->second);
-  };
+      {
+        const dealii::CellId &cell = cracks[c].piece_at(end).cell;
+        auto &keys = at_junction[cell];
+        if (const auto [passing, index] = pieces_of_cells.at(cell).front(); keys.empty())
+          keys.push_back(segment_key(passing, index));
+        keys.push_back(key(c, span_at(c, end)));
+      }
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs;
+  for (const auto &[cell, keys] : at_junction)
+    for (unsigned int i = 0; i < keys.size(); ++i)
+      for (unsigned int j = i + 1; j < keys.size(); ++j)
+        pairs.emplace_back(keys[i], keys[j]);
+  return pairs;
+}
+
+
+template <int dim>
+std::vector<Segment<dim>> Discontinuity<dim>::segments(
+  const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
+{
+  const auto meeting = segments_that_meet();
   std::vector<Segment<dim>> all;
   std::vector<dealii::types::global_dof_index> dofs;
   for (const OwnedPiece &owned : owned_pieces())
@@ -468,16 +479,11 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
     if (k + 1 < spans.size())
       segment.neighbours.push_back({key(owned.crack, spans[k + 1]), 0.5 * segment.area, 1.});
 
-    // As if all that meet at a junction ended there.
-    for (const auto &[crack, end] : joints)
-    {
-      const int other = cracks[crack].ends_on[static_cast<int>(end)];
-      const std::uint64_t joining = key(crack, span_at(crack, end)),
-                          passing = segment_key_in(cracks[crack].piece_at(end).cell, other);
-      if (segment.key == joining || segment.key == passing)
-        segment.neighbours.push_back(
-          {segment.key == joining ? passing : joining, 0.5 * segment.area, 1.});
-    }
+    // As if all that meet at a junction ended there, each beside each: what crosses another crack
+    // does not have to pass between the faces of that.
+    for (const auto &[one, other] : meeting)
+      if (segment.key == one || segment.key == other)
+        segment.neighbours.push_back({segment.key == one ? other : one, 0.5 * segment.area, 1.});
 
     std::map<unsigned int, double> opening; // an unknown may open several pieces
     for (unsigned int i = span.first; i <= span.last; ++i)

@@ -186,6 +186,9 @@ private:
     CutCell<dim> cut;
   };
 
+  /// Keys of the segments that are neighbours because cracks end on others, in pairs.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> segments_that_meet() const;
+
   unsigned int longest_piece(const unsigned int crack, const CrackSpan &span) const;
 
   std::vector<Outcome> grow_by_a_cell(const std::vector<Advance> &advances,

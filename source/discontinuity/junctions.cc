@@ -61,8 +61,9 @@ std::optional<std::pair<CrackPiece<dim>, double>> Discontinuity<dim>::join(
       return {};
     share = passing.split;
   }
+  // Straight on: the stress that a tip turns to is that on both sides of the other crack.
   const CrackPiece<dim> piece =
-    continue_onto(passing, face, own.tip(advance.end), advance.direction, share);
+    continue_onto(passing, face, own.tip(advance.end), own.direction(advance.end), share);
   if (std::abs(unit_distance(passing, piece.unit_ends[0])) < least_distance)
     return {};
   for (unsigned int k = 1; k < in_cell.size(); ++k)

@@ -147,8 +147,8 @@ private:
                                    const State &state,
                                    const Collectives &collectives) const;
 
-  /// Begin a crack where another has joined a third one, on the other side of that, if the rock
-  /// there bears as much as makes a tip grow. Returns whether one has begun.
+  /// Begin a crack where another has joined a third one, on the other side of that, if tension and
+  /// fluid pressure there reach the strength. Returns whether one has begun.
   bool cross(const State &state, const Collectives &collectives);
 
   /// One look at all tips: those that grow, whether the rock is broken behind each, and what comes
