@@ -64,8 +64,7 @@ Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives
         CrackPiece<dim> &piece = last_piece(a),
                         &before = end == 0 ? pieces[1] : pieces[pieces.size() - 2];
         piece.joined[1 - end] = before.joined[end] =
-          n_new[a] > 0 || before.joined[end] ||
-          piece.length() < shortest_span * piece.cell_size();
+          n_new[a] > 0 || before.joined[end] || piece.length() < shortest_span * piece.cell_size();
       }
       else if (reached[i] == Outcome::grown || reached[i] == Outcome::reached_boundary)
       {
@@ -143,8 +142,8 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
           }
           else
           {
-            finding.piece = continue_into<dim>(active, entry_face, crack.tip(advance.end),
-                                               advance.direction);
+            finding.piece =
+              continue_into<dim>(active, entry_face, crack.tip(advance.end), advance.direction);
             finding.piece.constrained = constrained_components(*mesh_view, active);
             set(is_cut(next->id()) && !may_pass_beside(advance, finding.piece)
                   ? Outcome::reached_crack
@@ -222,6 +221,7 @@ template std::vector<Discontinuity<2>::Outcome> Discontinuity<2>::grow(const std
                                                                        const Collectives &);
 template std::vector<Discontinuity<2>::Outcome>
 Discontinuity<2>::grow_by_a_cell(const std::vector<Advance> &, const Collectives &);
-template void Discontinuity<2>::take_new_cells(
-  const std::vector<std::pair<unsigned int, dealii::CellId>> &, const Collectives &);
+template void
+Discontinuity<2>::take_new_cells(const std::vector<std::pair<unsigned int, dealii::CellId>> &,
+                                 const Collectives &);
 } // namespace stockwork

@@ -531,7 +531,7 @@ CrackPiece<dim> continue_onto(const CrackPiece<dim> &other,
     // Away from the ends of the other piece, as crossings are from the corners.
     constexpr double clearance = 0.02;
     // A way that leads off leads to the end of it that is further ahead.
-    share = std::clamp(ahead > 0.            ? cross(to, direction) / determinant
+    share = std::clamp(ahead > 0.               ? cross(to, direction) / determinant
                        : along * direction > 0. ? 1.
                                                 : 0.,
                        clearance, 1. - clearance);
@@ -539,8 +539,7 @@ CrackPiece<dim> continue_onto(const CrackPiece<dim> &other,
   piece.faces[1] = piece.faces[0];
   piece.inside[1] = true;
   piece.ends[1] = other.ends[0] + *share * (other.ends[1] - other.ends[0]);
-  piece.unit_ends[1] =
-    other.unit_ends[0] + *share * (other.unit_ends[1] - other.unit_ends[0]);
+  piece.unit_ends[1] = other.unit_ends[0] + *share * (other.unit_ends[1] - other.unit_ends[0]);
   piece.along = (piece.ends[1] - piece.ends[0]) / piece.length();
   return piece;
 }
@@ -552,8 +551,7 @@ CrackPiece<dim> leave_from(const CrackPiece<dim> &other, const Tensor<1, dim> &d
   piece.faces[0] = 0;
   piece.inside[0] = true;
   piece.ends[0] = other.ends[0] + other.split * (other.ends[1] - other.ends[0]);
-  piece.unit_ends[0] =
-    other.unit_ends[0] + other.split * (other.unit_ends[1] - other.unit_ends[0]);
+  piece.unit_ends[0] = other.unit_ends[0] + other.split * (other.unit_ends[1] - other.unit_ends[0]);
   piece.along = direction / direction.norm();
   place_exit(piece, 4, piece.ends[0], piece.along);
   return piece;

@@ -35,7 +35,7 @@ struct CrackPiece
   std::array<dealii::Point<dim>, 2> ends;            ///< where it enters and leaves
   std::array<dealii::Point<dim>, 2> unit_ends;       ///< the same in unit-cell coordinates
   std::array<bool, 2> at_boundary{{false, false}};   ///< the face is on the domain's boundary
-  std::array<bool, 2> inside{{false, false}}; ///< ends in the cell; its face means nothing
+  std::array<bool, 2> inside{{false, false}};        ///< ends in the cell; its face means nothing
 
   /// Share of the piece, from its first end, at which its two parts meet: where another crack ends
   /// on it, if one does.
@@ -174,9 +174,9 @@ CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cel
                               const dealii::Point<dim> &tip,
                               const dealii::Tensor<1, dim> &direction);
 
-/// The piece that continues a crack from @p tip on face @p face of the cell of @p other, and ends on
-/// that piece of another crack, in this cell: where the way along @p direction meets it, or as near
-/// to that as the other piece goes.
+/// The piece that continues a crack from @p tip on face @p face of the cell of @p other, and ends
+/// on that piece of another crack, in this cell: where the way along @p direction meets it, or as
+/// near to that as the other piece goes.
 /// @param share of the other piece at which it does; given if something ends there already
 template <int dim>
 CrackPiece<dim> continue_onto(const CrackPiece<dim> &other,

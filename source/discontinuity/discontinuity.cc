@@ -190,8 +190,7 @@ void Discontinuity<dim>::collect_entries()
 
 
 template <int dim>
-PiecesInCell<dim>
-Discontinuity<dim>::pieces_in(const std::vector<PieceIndex> &indices) const
+PiecesInCell<dim> Discontinuity<dim>::pieces_in(const std::vector<PieceIndex> &indices) const
 {
   PiecesInCell<dim> pieces;
   for (const auto &[crack, index] : indices)
@@ -212,13 +211,12 @@ std::vector<std::uint64_t> Discontinuity<dim>::keys_of(const dealii::CellId &cel
 
 
 template <int dim>
-void Discontinuity<dim>::add_entry(const CellIterator &cell,
-                                   const std::vector<PieceIndex> &indices)
+void Discontinuity<dim>::add_entry(const CellIterator &cell, const std::vector<PieceIndex> &indices)
 {
   const PiecesInCell<dim> pieces = pieces_in(indices);
   const CrackPiece<dim> *const piece = pieces.empty() ? nullptr : pieces.front();
-  const unsigned int crack = indices.empty() ? dealii::numbers::invalid_unsigned_int
-                                             : indices.front().first;
+  const unsigned int crack =
+    indices.empty() ? dealii::numbers::invalid_unsigned_int : indices.front().first;
   const auto &mapping = mesh_view->mapping;
   const unsigned int degree = cell->get_fe().base_element(0).degree;
   Entry entry;

@@ -206,8 +206,8 @@ private:
   /// What tells the pieces in a cell from others.
   std::vector<std::uint64_t> keys_of(const dealii::CellId &cell) const;
 
-  /// Drop what belongs to cells that are not cut any more, or otherwise, and make what is missing in
-  /// cells that had been cut. Numbering has to follow.
+  /// Drop what belongs to cells that are not cut any more, or otherwise, and make what is missing
+  /// in cells that had been cut. Numbering has to follow.
   void update_entries();
 
   /// Join the cracks of the case that end on others. The entry of one that crosses another, or

@@ -36,10 +36,10 @@ using PiecesOfCells = std::map<dealii::CellId, std::vector<PieceIndex>>;
 /// all ranks.
 ///
 /// Where a crack S ends on a crack P, the jump functions of S are on its own side of P only (after
-/// Daux et al. 2000): at corners on that side N_i (H_S - H_S,i), at those on the other side N_i H_S.
-/// Together with the functions of P they are all that can move the three parts of rock apart from
-/// one another. The latter functions do not vanish in the next cells along P: the displacement jumps
-/// across P there.
+/// Daux et al. 2000): at corners on that side N_i (H_S - H_S,i), at those on the other side N_i
+/// H_S. Together with the functions of P they are all that can move the three parts of rock apart
+/// from one another. The latter functions do not vanish in the next cells along P: the displacement
+/// jumps across P there.
 template <int dim>
 class Enrichment
 {

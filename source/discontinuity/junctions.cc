@@ -170,16 +170,16 @@ void Discontinuity<dim>::join_initial_cracks(const std::vector<InitialCrack<dim>
                                              const bool may_join,
                                              const Collectives &collectives)
 {
-  const auto refuse = [&](const unsigned int crack, const CrackPiece<dim> &piece,
-                          const std::string &reason)
+  const auto refuse =
+    [&](const unsigned int crack, const CrackPiece<dim> &piece, const std::string &reason)
   {
     std::ostringstream text;
     text << "a crack that fits the mesh. Cracks meet in the cell at (" << piece.centre() << "); "
          << reason;
     throw EntryError(given[crack].entry, given[crack].text, text.str());
   };
-  const auto distance_of_end = [&](const unsigned int crack, const unsigned int end,
-                                   const unsigned int other)
+  const auto distance_of_end =
+    [&](const unsigned int crack, const unsigned int end, const unsigned int other)
   {
     const auto &points = given[crack].points;
     return given[other].distance(end == 0 ? points.front() : points.back());
@@ -209,7 +209,8 @@ void Discontinuity<dim>::join_initial_cracks(const std::vector<InitialCrack<dim>
           continue;
         joins[c][end] = other;
         if (n_off == n)
-          refuse(c, pieces.front(), "nothing of it is left beside the other crack. Refine the mesh.");
+          refuse(c, pieces.front(),
+                 "nothing of it is left beside the other crack. Refine the mesh.");
         if (end == 0)
           pieces.erase(pieces.begin(), pieces.begin() + n_off);
         else
@@ -220,11 +221,12 @@ void Discontinuity<dim>::join_initial_cracks(const std::vector<InitialCrack<dim>
   for (unsigned int c = 0; c < cracks.size(); ++c)
     for (const auto &piece : cracks[c].pieces)
       if (!seen.emplace(piece.cell, c).second)
-        refuse(c, piece, may_join ? "one may end on the other, and they cannot cross. Give one of "
-                                        "them as two cracks that end there, or keep them apart by "
-                                        "more than a cell."
-                                      : "a cell can hold one crack only. Refine the mesh or keep "
-                                        "them apart.");
+        refuse(c, piece,
+               may_join ? "one may end on the other, and they cannot cross. Give one of "
+                          "them as two cracks that end there, or keep them apart by "
+                          "more than a cell."
+                        : "a cell can hold one crack only. Refine the mesh or keep "
+                          "them apart.");
   renumber();
   collect_entries();
   renumber();
@@ -244,11 +246,11 @@ void Discontinuity<dim>::join_initial_cracks(const std::vector<InitialCrack<dim>
     }
 }
 
-template std::optional<std::pair<CrackPiece<2>, double>> Discontinuity<2>::join(
-  const Advance &, const dealii::CellId &, const unsigned int) const;
+template std::optional<std::pair<CrackPiece<2>, double>>
+Discontinuity<2>::join(const Advance &, const dealii::CellId &, const unsigned int) const;
 template bool Discontinuity<2>::may_pass_beside(const Advance &, const CrackPiece<2> &) const;
-template std::optional<Discontinuity<2>::FarSide>
-Discontinuity<2>::far_side(const unsigned int, const CrackEnd) const;
+template std::optional<Discontinuity<2>::FarSide> Discontinuity<2>::far_side(const unsigned int,
+                                                                             const CrackEnd) const;
 template Discontinuity<2>::Outcome Discontinuity<2>::cross(const unsigned int,
                                                            const CrackEnd,
                                                            const dealii::Tensor<1, 2> &,

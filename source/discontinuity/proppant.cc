@@ -64,9 +64,8 @@ propped_gaps(const std::vector<InitialCrack<dim>> &cracks, const Discontinuity<d
   return [&cracks, &discontinuity](const unsigned int crack, const unsigned int piece)
   {
     // One that has begun on another is none of the case.
-    return crack < cracks.size()
-             ? propped_gap(cracks[crack], discontinuity.paths()[crack], piece)
-             : 0.;
+    return crack < cracks.size() ? propped_gap(cracks[crack], discontinuity.paths()[crack], piece)
+                                 : 0.;
   };
 }
 

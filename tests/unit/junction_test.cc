@@ -201,8 +201,9 @@ TEST_CASE("the parts of rock between cracks move apart freely")
               return on_plus_side(body.cracks, 1, backwards, cell, centre, unit);
             return both ? 2 + on_plus_side(body.cracks, 2, backwards, cell, centre, unit) : 2;
           };
-          const Tensor<1, 3> field[4] = {Tensor<1, 3>({1., 0.3, -0.7}), Tensor<1, 3>({-2., 0.1, 0.4}),
-                                         Tensor<1, 3>({0.5, -1.1, 0.2}), Tensor<1, 3>({3., 0.6, 0.9})};
+          const Tensor<1, 3> field[4] = {
+            Tensor<1, 3>({1., 0.3, -0.7}), Tensor<1, 3>({-2., 0.1, 0.4}),
+            Tensor<1, 3>({0.5, -1.1, 0.2}), Tensor<1, 3>({3., 0.6, 0.9})};
           const auto exact = [&](const unsigned int part, const Point<2> &x)
           { return field[part][0] + field[part][1] * x[0] + field[part][2] * x[1]; };
 
@@ -229,9 +230,8 @@ TEST_CASE("the parts of rock between cracks move apart freely")
                   if (cut->component[c] == 0)
                     rows.back().emplace_back(n_bulk + cut->extra[c],
                                              cut->values[q * cut->n_columns() + c]);
-              values.push_back(
-                exact(part(cell->id(), cell->center(), points[q]),
-                      body.mapping.transform_unit_to_real_cell(cell, points[q])));
+              values.push_back(exact(part(cell->id(), cell->center(), points[q]),
+                                     body.mapping.transform_unit_to_real_cell(cell, points[q])));
             }
           }
           std::vector<int> place(n, -1);

@@ -97,8 +97,7 @@ double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
   const double length = discontinuity.length(crack, last);
   const std::uint64_t key = discontinuity.key(crack, last);
   if (spans.size() < 2 || discontinuity.paths()[crack].ends_on[static_cast<int>(end)] >= 0 ||
-      bare_tips.count(key) == 0 || !state.segment_pressure ||
-      !std::isnan(scene.crack_pressure) ||
+      bare_tips.count(key) == 0 || !state.segment_pressure || !std::isnan(scene.crack_pressure) ||
       state.segment_pressure(key) >= closing_stress(pieces[last.first]))
     return length;
 
@@ -121,7 +120,8 @@ std::string CohesiveXFEM<dim>::reason_to_stop(const State &state) const
     if (limits.has_grown[c])
     {
       // A tip that stops in this very step has its step accepted.
-      if (c >= committed_paths.size() || committed_paths[c].is_tip[0] || committed_paths[c].is_tip[1])
+      if (c >= committed_paths.size() || committed_paths[c].is_tip[0] ||
+          committed_paths[c].is_tip[1])
         return "";
       const unsigned int n = discontinuity.paths()[c].pieces.size();
       swells |= volume(c, {0, n - 1}, state.current) > limits.volume[c] * (1. + 1e-9);
@@ -238,10 +238,9 @@ CohesiveXFEM<dim>::look_ahead(const std::vector<HalfDisc<dim>> &places,
   for (unsigned int i = 0; i < places.size(); ++i)
   {
     const auto &[centre, direction, h] = places[i];
-    const auto region =
-      discontinuity.paths()[advances[i].crack].piece_at(advances[i].end).region;
-    const double radius = std::min(parameters.averaging_radius * h,
-                                   std::max(0.5 * cohesive_length(region), 1.2 * h));
+    const auto region = discontinuity.paths()[advances[i].crack].piece_at(advances[i].end).region;
+    const double radius =
+      std::min(parameters.averaging_radius * h, std::max(0.5 * cohesive_length(region), 1.2 * h));
     tips.push_back({advances[i], {}, {}});
     discs.push_back({centre, direction, radius});
     discs.push_back({centre, direction, parameters.direction_radius * h});
@@ -388,8 +387,9 @@ std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collect
     {
       discontinuity.stop(crack, growing.end);
       limits.blocked_by =
-        where + "has met another crack where it cannot join it, and stops: one is there already, or "
-                "a tip.";
+        where +
+        "has met another crack where it cannot join it, and stops: one is there already, or "
+        "a tip.";
     }
     if (outcomes[i] == Outcome::reached_boundary || outcomes[i] == Outcome::reached_crack)
       messages.push_back(limits.blocked_by);
@@ -431,11 +431,13 @@ bool CohesiveXFEM<dim>::cross(const State &state, const Collectives &collectives
     const auto &[c, end, normal] = tip.advance;
     const auto far = discontinuity.far_side(c, end);
     const double pressure =
-      state.segment_pressure ? state.segment_pressure(discontinuity.segment_key(far->crack, far->piece))
-                             : 0.;
+      state.segment_pressure
+        ? state.segment_pressure(discontinuity.segment_key(far->crack, far->piece))
+        : 0.;
     const double added = parameters.as_published ? tip.near.pore_pressure : pressure;
     const double drive = added + dealii::eigenvalues(tip.near.stress)[0];
-    // No crack is there whose tip would make more of the stress: the mean itself has to part the rock.
+    // No crack is there whose tip would make more of the stress: the mean itself has to part the
+    // rock.
     if (drive < strength_ahead(c, end))
       continue;
     const Tensor<1, dim> direction = direction_of_growth(tip);
