@@ -35,6 +35,7 @@ typename FaceContact<dim>::Patch FaceContact<dim>::patch(const Discontinuity<dim
                                                          const unsigned int piece) const
 {
   const auto &pieces = discontinuity.paths()[crack].pieces;
+  const auto &ends_on = discontinuity.paths()[crack].ends_on;
   const auto &spans = discontinuity.spans(crack);
   const unsigned int n = spans.size();
   const unsigned int span =
@@ -43,12 +44,12 @@ typename FaceContact<dim>::Patch FaceContact<dim>::patch(const Discontinuity<dim
   Patch patch;
   patch.first = spans[span].first;
   patch.last = spans[span].last;
-  if (n >= 4 && span < 2 && pieces.front().inside[0])
+  if (n >= 4 && span < 2 && pieces.front().inside[0] && ends_on[0] < 0)
   {
     patch.first = 0;
     patch.last = spans[1].last;
   }
-  else if (n >= 4 && span + 2 >= n && pieces.back().inside[1])
+  else if (n >= 4 && span + 2 >= n && pieces.back().inside[1] && ends_on[1] < 0)
   {
     patch.first = spans[n - 2].first;
     patch.last = pieces.size() - 1;

@@ -3,14 +3,13 @@
 #include <deal.II/dofs/dof_accessor.h>
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 namespace stockwork
 {
 namespace
 {
-/// In cells: what is cut off less would be a segment to the fluid, and too short to break.
-constexpr double shortest_span = 0.25;
-
 /// What the owner of a tip's cell found out about the next one.
 template <int dim>
 struct Finding
@@ -19,11 +18,12 @@ struct Finding
   unsigned char outcome;
   unsigned int owner = dealii::numbers::invalid_unsigned_int; ///< of the next cell
   CrackPiece<dim> piece;                                      ///< first end at the old tip
+  double split = 0.5; ///< of the piece that passes through the cell, if the new one ends on it
 
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &advance &outcome &owner &piece;
+    ar &advance &outcome &owner &piece &split;
   }
 };
 } // namespace
@@ -57,7 +57,16 @@ Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives
     {
       const unsigned int a = moving[i], end = static_cast<unsigned int>(advances[a].end);
       outcomes[a] = reached[i];
-      if (reached[i] == Outcome::grown || reached[i] == Outcome::reached_boundary)
+      if (reached[i] == Outcome::joined_crack)
+      {
+        // What is left to the other crack may be short: it goes with the last span then.
+        auto &pieces = cracks[advances[a].crack].pieces;
+        CrackPiece<dim> &piece = last_piece(a),
+                        &before = end == 0 ? pieces[1] : pieces[pieces.size() - 2];
+        piece.joined[1 - end] = before.joined[end] =
+          n_new[a] > 0 || before.joined[end] || piece.length() < shortest_span * piece.cell_size();
+      }
+      else if (reached[i] == Outcome::grown || reached[i] == Outcome::reached_boundary)
       {
         ++n_new[a];
         CrackPiece<dim> &piece = last_piece(a);
@@ -120,17 +129,26 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
         const auto next = entry.cell->neighbor(face);
         if (next->has_children() || entry.cell->neighbor_is_coarser(face))
           set(Outcome::needs_mesh);
-        else if (is_cut(next->id()))
-          set(Outcome::reached_crack);
         else
         {
           const CellIterator active(&triangulation, next->level(), next->index(),
                                     &mesh_view->dof_handler);
-          set(Outcome::grown);
+          const unsigned int entry_face = entry.cell->neighbor_of_neighbor(face);
           finding.owner = active->subdomain_id();
-          finding.piece = continue_into<dim>(active, entry.cell->neighbor_of_neighbor(face),
-                                             crack.tip(advance.end), advance.direction);
-          finding.piece.constrained = constrained_components(*mesh_view, active);
+          if (const auto joining = join(advance, next->id(), entry_face))
+          {
+            set(Outcome::joined_crack);
+            std::tie(finding.piece, finding.split) = *joining;
+          }
+          else
+          {
+            finding.piece =
+              continue_into<dim>(active, entry_face, crack.tip(advance.end), advance.direction);
+            finding.piece.constrained = constrained_components(*mesh_view, active);
+            set(is_cut(next->id()) && !may_pass_beside(advance, finding.piece)
+                  ? Outcome::reached_crack
+                  : Outcome::grown);
+          }
         }
         findings.push_back(finding);
       }
@@ -141,45 +159,69 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
 
   std::vector<Outcome> outcomes(advances.size());
   std::vector<std::pair<unsigned int, dealii::CellId>> new_cells; // owner, cell
+  std::set<dealii::CellId> taken;
   for (const Finding<dim> &finding : findings)
   {
     Outcome outcome = static_cast<Outcome>(finding.outcome);
-    if (outcome == Outcome::grown && is_cut(finding.piece.cell))
-      outcome = Outcome::reached_crack; // two tips met in this very pass
-    if (outcome == Outcome::grown)
+    const bool joins = outcome == Outcome::joined_crack;
+    if (joins || outcome == Outcome::grown)
     {
-      const Advance &advance = advances[finding.advance];
-      auto &pieces = cracks[advance.crack].pieces;
-      if (advance.end == CrackEnd::last)
-        pieces.push_back(finding.piece);
+      if (!taken.insert(finding.piece.cell).second)
+        outcome = Outcome::reached_crack; // two tips met in this very pass
       else
-        pieces.insert(pieces.begin(), reversed(finding.piece));
-      piece_of_cell[finding.piece.cell] = {advance.crack, 0}; // until renumber()
-      new_cells.emplace_back(finding.owner, finding.piece.cell);
-      if (finding.piece.at_boundary[1])
       {
-        outcome = Outcome::reached_boundary;
-        stop(advance.crack, advance.end);
+        const Advance &advance = advances[finding.advance];
+        const int end = static_cast<int>(advance.end);
+        if (joins)
+        {
+          const auto [other, index] = pieces_of_cells.at(finding.piece.cell).front();
+          cracks[other].pieces[index].split = finding.split;
+          cracks[advance.crack].ends_on[end] = other;
+        }
+        auto &pieces = cracks[advance.crack].pieces;
+        if (advance.end == CrackEnd::last)
+          pieces.push_back(finding.piece);
+        else
+          pieces.insert(pieces.begin(), reversed(finding.piece));
+        new_cells.emplace_back(finding.owner, finding.piece.cell);
+        if (finding.piece.at_boundary[1])
+          outcome = Outcome::reached_boundary;
+        if (joins || finding.piece.at_boundary[1])
+          stop(advance.crack, advance.end);
+        find_pieces(); // places in a crack may have moved
       }
     }
     outcomes[finding.advance] = outcome;
   }
-  renumber();
+  take_new_cells(new_cells, collectives);
+  return outcomes;
+}
+
+
+template <int dim>
+void Discontinuity<dim>::take_new_cells(
+  const std::vector<std::pair<unsigned int, dealii::CellId>> &new_cells,
+  const Collectives &collectives)
+{
+  find_pieces();
+  update_entries();
   for (const auto &[owner, id] : new_cells)
     if (owner == collectives.rank())
     {
-      const auto cell = triangulation.create_cell_iterator(id);
-      const auto &place = piece_of_cell.at(id);
-      add_entry(CellIterator(&triangulation, cell->level(), cell->index(), &mesh_view->dof_handler),
-                &cracks[place.first].pieces[place.second], place.first);
+      const auto cell = mesh_view->triangulation.create_cell_iterator(id);
+      const CellIterator active(&mesh_view->triangulation, cell->level(), cell->index(),
+                                &mesh_view->dof_handler);
+      if (entry_of_cell[active->active_cell_index()] < 0)
+        add_entry(active, pieces_of_cells.at(id));
     }
-  if (!new_cells.empty())
-    renumber();
-  return outcomes;
+  renumber();
 }
 
 template std::vector<Discontinuity<2>::Outcome> Discontinuity<2>::grow(const std::vector<Advance> &,
                                                                        const Collectives &);
 template std::vector<Discontinuity<2>::Outcome>
 Discontinuity<2>::grow_by_a_cell(const std::vector<Advance> &, const Collectives &);
+template void
+Discontinuity<2>::take_new_cells(const std::vector<std::pair<unsigned int, dealii::CellId>> &,
+                                 const Collectives &);
 } // namespace stockwork

@@ -271,6 +271,7 @@ CrackPiece<dim> reversed(const CrackPiece<dim> &piece)
   std::swap(r.at_boundary[0], r.at_boundary[1]);
   std::swap(r.inside[0], r.inside[1]);
   std::swap(r.joined[0], r.joined[1]);
+  r.split = 1. - r.split;
   r.along *= -1.;
   return r;
 }
@@ -420,6 +421,57 @@ CrackPath<dim> cut_polyline(const MeshView<dim> &mesh_view,
   return path;
 }
 
+namespace
+{
+/// Let a piece leave its cell where the ray from @p start along @p d does, not through @p entry.
+void place_exit(CrackPiece<2> &piece,
+                const unsigned int entry,
+                const Point<2> &start,
+                const Tensor<1, 2> &d)
+{
+  // The first of the other faces that the ray meets; with straight edges there is exactly one, but
+  // a ray into a corner may miss both by a rounding error, so the nearest miss is taken.
+  double best = std::numeric_limits<double>::infinity();
+  unsigned int exit = 0;
+  double share = 0.5;
+  for (unsigned int f = 0; f < 4; ++f)
+    if (f != entry)
+    {
+      const Point<2> &p = piece.corners[face_vertices[f][0]];
+      const Tensor<1, 2> e = piece.corners[face_vertices[f][1]] - p;
+      const double determinant = cross(d, e);
+      if (std::abs(determinant) < 1e-14 * e.norm())
+        continue;
+      const double along_ray = cross(p - start, e) / determinant;
+      const double along_edge = cross(p - start, d) / determinant;
+      if (along_ray <= 0.)
+        continue;
+      const double miss = std::max({0., -along_edge, along_edge - 1.});
+      if (miss < best)
+      {
+        best = miss;
+        exit = f;
+        share = along_edge;
+      }
+    }
+  if (!std::isfinite(best))
+    throw SolveError("A crack at " + text(start) + " does not find its way through the next cell.");
+  place_end(piece, 1, exit, share);
+}
+
+/// The corners and the place in the mesh of another piece's cell.
+CrackPiece<2> piece_in_cell_of(const CrackPiece<2> &other)
+{
+  CrackPiece<2> piece;
+  piece.cell = other.cell;
+  piece.region = other.region;
+  piece.corners = other.corners;
+  piece.constrained = other.constrained;
+  return piece;
+}
+} // namespace
+
+
 template <int dim>
 CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
                               const unsigned int face,
@@ -450,36 +502,58 @@ CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cel
     d = 0.01 * inward + (along.norm() > 0. ? along / along.norm() : Tensor<1, dim>());
   }
 
-  // The first of the other faces that the ray meets; with straight edges there is exactly one, but
-  // a ray into a corner may miss both by a rounding error, so the nearest miss is taken.
-  double best = std::numeric_limits<double>::infinity();
-  unsigned int exit = 0;
-  double share = 0.5;
-  for (unsigned int f = 0; f < 4; ++f)
-    if (f != face)
-    {
-      const Point<dim> &p = piece.corners[face_vertices[f][0]];
-      const Tensor<1, dim> e = piece.corners[face_vertices[f][1]] - p;
-      const double determinant = cross(d, e);
-      if (std::abs(determinant) < 1e-14 * e.norm())
-        continue;
-      const double along_ray = cross(p - tip, e) / determinant;
-      const double along_edge = cross(p - tip, d) / determinant;
-      if (along_ray <= 0.)
-        continue;
-      const double miss = std::max({0., -along_edge, along_edge - 1.});
-      if (miss < best)
-      {
-        best = miss;
-        exit = f;
-        share = along_edge;
-      }
-    }
-  if (!std::isfinite(best))
-    throw SolveError("A crack at " + text(tip) + " does not find its way through the next cell.");
-  place_end(piece, 1, exit, share);
+  place_exit(piece, face, tip, d);
+  const unsigned int exit = piece.faces[1];
   piece.along = d / d.norm();
   piece.at_boundary = {{cell->face(face)->at_boundary(), cell->face(exit)->at_boundary()}};
+  return piece;
+}
+
+template <int dim>
+CrackPiece<dim> continue_onto(const CrackPiece<dim> &other,
+                              const unsigned int face,
+                              const Point<dim> &tip,
+                              const Tensor<1, dim> &direction,
+                              std::optional<double> &share)
+{
+  CrackPiece<dim> piece = piece_in_cell_of(other);
+  const Point<dim> &a = piece.corners[face_vertices[face][0]];
+  const Tensor<1, dim> edge = piece.corners[face_vertices[face][1]] - a;
+  place_end(piece, 0, face, (tip - a) * edge / edge.norm_square());
+  piece.ends[0] = tip;
+
+  if (!share)
+  {
+    const Tensor<1, dim> along = other.ends[1] - other.ends[0], to = other.ends[0] - tip;
+    const double determinant = cross(direction, along);
+    const double ahead =
+      std::abs(determinant) > 1e-12 * along.norm() ? cross(to, along) / determinant : -1.;
+    // Away from the ends of the other piece, as crossings are from the corners.
+    constexpr double clearance = 0.02;
+    // A way that leads off leads to the end of it that is further ahead.
+    share = std::clamp(ahead > 0.               ? cross(to, direction) / determinant
+                       : along * direction > 0. ? 1.
+                                                : 0.,
+                       clearance, 1. - clearance);
+  }
+  piece.faces[1] = piece.faces[0];
+  piece.inside[1] = true;
+  piece.ends[1] = other.ends[0] + *share * (other.ends[1] - other.ends[0]);
+  piece.unit_ends[1] = other.unit_ends[0] + *share * (other.unit_ends[1] - other.unit_ends[0]);
+  piece.along = (piece.ends[1] - piece.ends[0]) / piece.length();
+  return piece;
+}
+
+template <int dim>
+CrackPiece<dim> leave_from(const CrackPiece<dim> &other, const Tensor<1, dim> &direction)
+{
+  CrackPiece<dim> piece = piece_in_cell_of(other);
+  piece.faces[0] = 0;
+  piece.inside[0] = true;
+  piece.ends[0] = other.ends[0] + other.split * (other.ends[1] - other.ends[0]);
+  piece.unit_ends[0] = other.unit_ends[0] + other.split * (other.unit_ends[1] - other.unit_ends[0]);
+  piece.along = direction / direction.norm();
+  place_exit(piece, 4, piece.ends[0], piece.along);
   return piece;
 }
 
@@ -499,4 +573,10 @@ template CrackPiece<2> continue_into<2>(const dealii::DoFHandler<2>::active_cell
                                         const unsigned int,
                                         const Point<2> &,
                                         const Tensor<1, 2> &);
+template CrackPiece<2> continue_onto(const CrackPiece<2> &,
+                                     const unsigned int,
+                                     const Point<2> &,
+                                     const Tensor<1, 2> &,
+                                     std::optional<double> &);
+template CrackPiece<2> leave_from(const CrackPiece<2> &, const Tensor<1, 2> &);
 } // namespace stockwork

@@ -35,7 +35,11 @@ struct CrackPiece
   std::array<dealii::Point<dim>, 2> ends;            ///< where it enters and leaves
   std::array<dealii::Point<dim>, 2> unit_ends;       ///< the same in unit-cell coordinates
   std::array<bool, 2> at_boundary{{false, false}};   ///< the face is on the domain's boundary
-  std::array<bool, 2> inside{{false, false}}; ///< ends in the cell: a tip; its face means nothing
+  std::array<bool, 2> inside{{false, false}};        ///< ends in the cell; its face means nothing
+
+  /// Share of the piece, from its first end, at which its two parts meet: where another crack ends
+  /// on it, if one does.
+  double split = 0.5;
 
   /// Unit vector along the crack, from entry to exit. It belongs to the crack and not to the mesh:
   /// a crossing that is kept clear of a vertex turns the line between the ends, but not this
@@ -80,7 +84,7 @@ struct CrackPiece
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &cell &region &corners &faces &ends &unit_ends &at_boundary &inside &along &joined
+    ar &cell &region &corners &faces &ends &unit_ends &at_boundary &inside &split &along &joined
       &constrained;
   }
 };
@@ -99,6 +103,8 @@ struct CrackPath
   std::vector<CrackPiece<dim>> pieces;
   /// An end that can grow; false at a mouth on the boundary and where growth has stopped.
   std::array<bool, 2> is_tip{{true, true}};
+  /// The crack that an end lies on; negative: none. The cell of the end's piece holds both.
+  std::array<int, 2> ends_on{{-1, -1}};
 
   const CrackPiece<dim> &piece_at(const CrackEnd end) const
   {
@@ -121,7 +127,7 @@ struct CrackPath
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
-    ar &pieces &is_tip;
+    ar &pieces &is_tip &ends_on;
   }
 };
 
@@ -142,6 +148,9 @@ std::vector<CrackSpan> spans_of(const CrackPath<dim> &path);
 /// Crossings stay this share of an edge away from its ends. Larger values trap shallow cracks along
 /// a mesh line, smaller ones gain nothing.
 constexpr double corner_clearance = 1e-3;
+
+/// In cells: what a tip cuts off less would be a segment to the fluid, and too short to break.
+constexpr double shortest_span = 0.25;
 
 /// Cut the mesh along a polyline: the chain of pieces, the same on all ranks.
 ///
@@ -164,6 +173,21 @@ CrackPiece<dim> continue_into(const typename dealii::DoFHandler<dim>::active_cel
                               const unsigned int face,
                               const dealii::Point<dim> &tip,
                               const dealii::Tensor<1, dim> &direction);
+
+/// The piece that continues a crack from @p tip on face @p face of the cell of @p other, and ends
+/// on that piece of another crack, in this cell: where the way along @p direction meets it, or as
+/// near to that as the other piece goes.
+/// @param share of the other piece at which it does; given if something ends there already
+template <int dim>
+CrackPiece<dim> continue_onto(const CrackPiece<dim> &other,
+                              const unsigned int face,
+                              const dealii::Point<dim> &tip,
+                              const dealii::Tensor<1, dim> &direction,
+                              std::optional<double> &share);
+
+/// The piece that leaves another one from where its two parts meet along @p direction.
+template <int dim>
+CrackPiece<dim> leave_from(const CrackPiece<dim> &other, const dealii::Tensor<1, dim> &direction);
 
 /// A piece with its first and last end exchanged.
 template <int dim>

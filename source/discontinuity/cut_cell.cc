@@ -129,10 +129,24 @@ template <int dim>
 CutGeometry<dim>
 make_cut_geometry(const dealii::Mapping<dim> &mapping,
                   const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
-                  const CrackPiece<dim> &piece,
+                  const PiecesInCell<dim> &pieces,
                   const unsigned int degree)
 {
-  return make_cut_geometry(mapping, cell, &piece, split_quadrature(piece, degree));
+  if (pieces.size() == 1)
+    return make_cut_geometry(mapping, cell, pieces[0], split_quadrature(*pieces[0], degree));
+  const dealii::QWitherdenVincentSimplex<2> rule(degree + 2); // see split_quadrature()
+  std::vector<Point<dim>> points;
+  std::vector<double> weights;
+  std::vector<unsigned char> part_of_point;
+  const auto parts = cell_parts(pieces);
+  for (unsigned int part = 0; part < parts.size(); ++part)
+  {
+    add_polygon(parts[part].corners, rule, points, weights);
+    part_of_point.resize(points.size(), part);
+  }
+  auto geometry = make_cut_geometry(mapping, cell, pieces[0], {points, weights});
+  geometry.part = part_of_point;
+  return geometry;
 }
 
 template <int dim>
@@ -153,25 +167,18 @@ make_cut_geometry(const dealii::Mapping<dim> &mapping,
   CutGeometry<dim> geometry;
   geometry.points = rule.get_points();
   geometry.weights = fe_values.get_JxW_values();
-  geometry.values.resize(rule.size() * n_corners, 0.);
-  geometry.gradients.resize(rule.size() * n_corners);
   if (piece == nullptr)
     return geometry;
   geometry.on_plane = piece->unit_ends[0];
   geometry.normal = piece->unit_normal();
-
-  std::array<bool, n_corners> plus;
-  for (unsigned int v = 0; v < n_corners; ++v)
-    plus[v] = piece->plus_side(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
   for (unsigned int q = 0; q < rule.size(); ++q)
   {
-    const int here = piece->plus_side(rule.point(q));
+    geometry.part.push_back(piece->plus_side(rule.point(q)));
     for (unsigned int v = 0; v < n_corners; ++v)
-      if (const int jump = here - int(plus[v]); jump != 0)
-      {
-        geometry.values[q * n_corners + v] = jump * fe_values.shape_value(v, q);
-        geometry.gradients[q * n_corners + v] = jump * fe_values.shape_grad(v, q);
-      }
+    {
+      geometry.values.push_back(fe_values.shape_value(v, q));
+      geometry.gradients.push_back(fe_values.shape_grad(v, q));
+    }
   }
   return geometry;
 }
@@ -203,8 +210,9 @@ CutCell<dim> make_cut_cell(const CutGeometry<dim> &geometry,
   {
     for (const EnrichedColumn &column : columns)
     {
-      cut.values.push_back(geometry.values[q * n_corners + column.corner]);
-      cut.gradients.push_back(geometry.gradients[q * n_corners + column.corner]);
+      const double factor = column.in_part[geometry.part[q]];
+      cut.values.push_back(factor * geometry.values[q * n_corners + column.corner]);
+      cut.gradients.push_back(factor * geometry.gradients[q * n_corners + column.corner]);
     }
     for (unsigned int c = q * n_more; c < (q + 1) * n_more; ++c)
     {
@@ -218,7 +226,7 @@ CutCell<dim> make_cut_cell(const CutGeometry<dim> &geometry,
 template std::array<double, 4> corner_functions(const Point<2> &);
 template CutGeometry<2> make_cut_geometry(const dealii::Mapping<2> &,
                                           const dealii::Triangulation<2>::active_cell_iterator &,
-                                          const CrackPiece<2> &,
+                                          const PiecesInCell<2> &,
                                           const unsigned int);
 template CutGeometry<2> make_cut_geometry(const dealii::Mapping<2> &,
                                           const dealii::Triangulation<2>::active_cell_iterator &,

@@ -4,7 +4,7 @@
 #include <deal.II/fe/mapping.h>
 #include <deal.II/grid/tria.h>
 
-#include "discontinuity/crack_path.h"
+#include "discontinuity/cell_parts.h"
 #include "stockwork/exchange/cell_role.h"
 
 #include <optional>
@@ -13,11 +13,11 @@
 
 namespace stockwork
 {
-/// Quadrature on both sides of the crack in a cell, and the functions that jump across it there:
-/// for each corner i the shifted enrichment N_i (H - H_i) with the Q1 function N_i and H = 1 on the
-/// plus, 0 on the minus side (Belytschko et al. 2001 with the shift of Zi and Belytschko 2003).
-/// The functions vanish at all corners and on all faces that the crack does not meet, so
-/// neighbouring cells need not know of them.
+/// Quadrature on the parts of a cell that cracks cut apart, and the Q1 functions of its corners
+/// there. A column is such a function times a whole number in each part. For a single crack these
+/// make the shifted enrichment N_i (H - H_i) with H = 1 on the plus, 0 on the minus side
+/// (Belytschko et al. 2001 with the shift of Zi and Belytschko 2003). It vanishes at all corners
+/// and on all faces that the crack does not meet, so neighbouring cells need not know of it.
 template <int dim>
 struct CutGeometry
 {
@@ -25,6 +25,7 @@ struct CutGeometry
 
   std::vector<dealii::Point<dim>> points;        ///< in unit-cell coordinates
   std::vector<double> weights;                   ///< times the Jacobian
+  std::vector<unsigned char> part;               ///< of the cell, of each point; see cell_parts()
   std::vector<double> values;                    ///< [q * n_corners + corner]
   std::vector<dealii::Tensor<1, dim>> gradients; ///< real space, [q * n_corners + corner]
 
@@ -32,12 +33,14 @@ struct CutGeometry
   dealii::Tensor<1, dim> normal;
 };
 
-/// Unknown index, corner and component of one column of a cut cell.
+/// Unknown index, corner and component of one column of a cut cell, and what its function is in
+/// each part of the cell: that of the corner times this number.
 struct EnrichedColumn
 {
   unsigned int extra;
   unsigned int corner;
   unsigned int component;
+  std::array<signed char, most_cell_parts> in_part{};
 };
 
 /// A quadrature rule on the unit cell that is split by the straight line between two points on
@@ -54,15 +57,16 @@ fan_quadrature(const dealii::Point<2> &tip,
                const std::optional<std::pair<dealii::Point<2>, unsigned int>> &mouth,
                const unsigned int n_points_per_direction);
 
-/// Geometry of a cut cell for bulk displacements of polynomial degree @p degree.
+/// Geometry of a cell that pieces of cracks cut, for bulk displacements of polynomial degree
+/// @p degree.
 template <int dim>
 CutGeometry<dim>
 make_cut_geometry(const dealii::Mapping<dim> &mapping,
                   const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
-                  const CrackPiece<dim> &piece,
+                  const PiecesInCell<dim> &pieces,
                   const unsigned int degree);
 
-/// The same for any rule; the functions of the corners jump where there is a piece.
+/// The same for any rule and at most one piece; null: none.
 template <int dim>
 CutGeometry<dim>
 make_cut_geometry(const dealii::Mapping<dim> &mapping,

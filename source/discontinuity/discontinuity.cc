@@ -48,7 +48,7 @@ void Discontinuity<dim>::setup(const MeshView<dim> &d, const Collectives &collec
 {
   mesh_view = std::make_unique<MeshView<dim>>(d);
   entries.clear();
-  piece_of_cell.clear();
+  pieces_of_cells.clear();
   entry_of_cell.assign(d.triangulation.n_active_cells(), -1);
   if (cracks.empty())
     return;
@@ -122,19 +122,7 @@ void Discontinuity<dim>::cut(
         }
   }
 
-  std::map<dealii::CellId, unsigned int> seen;
-  for (unsigned int c = 0; c < cracks.size(); ++c)
-    for (const auto &piece : cracks[c].pieces)
-      if (!seen.emplace(piece.cell, c).second)
-      {
-        std::ostringstream where;
-        where << '(' << piece.centre() << ')';
-        refuse(given[c], "Cracks meet in the cell at " + where.str() +
-                           "; a cell can hold one crack only. Refine the mesh or keep them apart.");
-      }
-  renumber();
-  collect_entries();
-  renumber();
+  join_initial_cracks(given, rock_of_region == nullptr, collectives);
 }
 
 
@@ -142,16 +130,31 @@ template <int dim>
 void Discontinuity<dim>::restore(std::vector<CrackPath<dim>> earlier)
 {
   cracks = std::move(earlier);
+  find_pieces();
+  update_entries();
   renumber();
-  // Cells that are not cut any more.
+}
+
+
+template <int dim>
+void Discontinuity<dim>::update_entries()
+{
   std::vector<Entry> kept;
+  std::vector<CellIterator> cut_otherwise;
   for (Entry &entry : entries)
-    if (is_cut(entry.cell->id()) || !entry.tips.empty())
+    if (keys_of(entry.cell->id()) == entry.pieces)
       kept.push_back(std::move(entry));
+    else if (is_cut(entry.cell->id()) || !entry.tips.empty())
+      cut_otherwise.push_back(entry.cell);
   entries = std::move(kept);
   entry_of_cell.assign(entry_of_cell.size(), -1);
   for (unsigned int i = 0; i < entries.size(); ++i)
     entry_of_cell[entries[i].cell->active_cell_index()] = i;
+  for (const CellIterator &cell : cut_otherwise)
+  {
+    const auto found = pieces_of_cells.find(cell->id());
+    add_entry(cell, found == pieces_of_cells.end() ? std::vector<PieceIndex>() : found->second);
+  }
 }
 
 
@@ -176,26 +179,50 @@ void Discontinuity<dim>::collect_entries()
   for (const auto &cell : mesh_view->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const auto found = piece_of_cell.find(cell->id());
-      if (found != piece_of_cell.end())
-        add_entry(cell, &cracks[found->second.first].pieces[found->second.second],
-                  found->second.first);
+      const auto found = pieces_of_cells.find(cell->id());
+      if (found != pieces_of_cells.end())
+        add_entry(cell, found->second);
       else if (std::any_of(tips.begin(), tips.end(),
                            [&cell](const CrackTip<dim> &tip) { return reaches(tip, cell); }))
-        add_entry(cell, nullptr);
+        add_entry(cell, {});
     }
 }
 
 
 template <int dim>
-void Discontinuity<dim>::add_entry(const CellIterator &cell,
-                                   const CrackPiece<dim> *piece,
-                                   const unsigned int crack)
+PiecesInCell<dim> Discontinuity<dim>::pieces_in(const std::vector<PieceIndex> &indices) const
 {
+  PiecesInCell<dim> pieces;
+  for (const auto &[crack, index] : indices)
+    pieces.push_back(&cracks[crack].pieces[index]);
+  return pieces;
+}
+
+
+template <int dim>
+std::vector<std::uint64_t> Discontinuity<dim>::keys_of(const dealii::CellId &cell) const
+{
+  std::vector<std::uint64_t> keys;
+  if (const auto found = pieces_of_cells.find(cell); found != pieces_of_cells.end())
+    for (const CrackPiece<dim> *piece : pieces_in(found->second))
+      keys.push_back(piece->key(domain_size));
+  return keys;
+}
+
+
+template <int dim>
+void Discontinuity<dim>::add_entry(const CellIterator &cell, const std::vector<PieceIndex> &indices)
+{
+  const PiecesInCell<dim> pieces = pieces_in(indices);
+  const CrackPiece<dim> *const piece = pieces.empty() ? nullptr : pieces.front();
+  const unsigned int crack =
+    indices.empty() ? dealii::numbers::invalid_unsigned_int : indices.front().first;
   const auto &mapping = mesh_view->mapping;
   const unsigned int degree = cell->get_fe().base_element(0).degree;
   Entry entry;
   entry.cell = cell;
+  for (const CrackPiece<dim> *one : pieces)
+    entry.pieces.push_back(one->key(domain_size));
   std::optional<Point<dim>> tip_beside; // or in the cell: the nearest point of the unit cell
   for (unsigned int t = 0; t < tips.size(); ++t)
     if (reaches(tips[t], cell))
@@ -218,8 +245,8 @@ void Discontinuity<dim>::add_entry(const CellIterator &cell,
       fan_quadrature(piece->unit_ends[end],
                      std::make_pair(piece->unit_ends[1 - end], piece->faces[1 - end]), degree + 4));
   else if (piece != nullptr)
-    entry.geometry = make_cut_geometry<dim>(
-      mapping, cell, piece, split_quadrature(*piece, entry.tips.empty() ? degree : degree + 2));
+    entry.geometry =
+      make_cut_geometry<dim>(mapping, cell, pieces, entry.tips.empty() ? degree : degree + 2);
   else
     entry.geometry =
       make_cut_geometry<dim>(mapping, cell, nullptr, dealii::QGauss<dim>(degree + 3));
@@ -253,31 +280,49 @@ void Discontinuity<dim>::add_entry(const CellIterator &cell,
 
 
 template <int dim>
+void Discontinuity<dim>::find_pieces()
+{
+  pieces_of_cells.clear();
+  for (unsigned int c = 0; c < cracks.size(); ++c)
+    for (unsigned int i = 0; i < cracks[c].pieces.size(); ++i)
+      pieces_of_cells[cracks[c].pieces[i].cell].emplace_back(c, i);
+  // First the crack that the others end on.
+  for (auto &[cell, in_cell] : pieces_of_cells)
+    for (unsigned int k = 1; k < in_cell.size(); ++k)
+    {
+      const auto &ends_on = cracks[in_cell.front().first].ends_on;
+      const int other = in_cell[k].first;
+      if (ends_on[0] == other || ends_on[1] == other)
+        std::swap(in_cell.front(), in_cell[k]);
+    }
+}
+
+
+template <int dim>
 void Discontinuity<dim>::renumber()
 {
-  unknowns.rebuild(cracks, tips, domain_size);
-  piece_of_cell.clear();
+  find_pieces();
+  unknowns.rebuild(cracks, pieces_of_cells, tips, domain_size);
   spans_of_crack.clear();
   for (const CrackPath<dim> &crack : cracks)
     spans_of_crack.push_back(spans_of(crack));
-  for (unsigned int c = 0; c < cracks.size(); ++c)
-    for (unsigned int i = 0; i < cracks[c].pieces.size(); ++i)
-      piece_of_cell[cracks[c].pieces[i].cell] = {c, i};
 
   for (Entry &entry : entries)
   {
-    const auto found = piece_of_cell.find(entry.cell->id());
-    if (found == piece_of_cell.end() && entry.tips.empty())
+    const auto found = pieces_of_cells.find(entry.cell->id());
+    if (found == pieces_of_cells.end() && entry.tips.empty())
       continue;
     const std::vector<EnrichedColumn> columns =
-      found == piece_of_cell.end() ? std::vector<EnrichedColumn>()
-                                   : unknowns.columns(found->second.first, found->second.second);
+      found == pieces_of_cells.end()
+        ? std::vector<EnrichedColumn>()
+        : unknowns.columns(found->second.front().first, found->second.front().second);
     for (unsigned int c = 0; c < entry.tip_columns.extra.size(); ++c)
       entry.tip_columns.extra[c] = tips[entry.tips[c / (2 * dim)]].extra[c / dim % 2];
     const bool same_set = columns.size() == entry.columns.size() &&
                           std::equal(columns.begin(), columns.end(), entry.columns.begin(),
                                      [](const EnrichedColumn &a, const EnrichedColumn &b) {
-                                       return a.corner == b.corner && a.component == b.component;
+                                       return a.corner == b.corner && a.component == b.component &&
+                                              a.in_part == b.in_part;
                                      });
     if (same_set && !entry.cut.points.empty())
     {
@@ -310,10 +355,10 @@ Discontinuity<dim>::mean_jumps(const unsigned int crack, const unsigned int inde
   std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> jumps;
   const CrackPiece<dim> &piece = cracks[crack].pieces[index];
   const JumpShapes<dim> shapes(piece);
-  for (const EnrichedColumn &column : unknowns.columns(crack, index))
+  for (const JumpColumn &column : unknowns.jumps(crack, index))
   {
     dealii::Tensor<1, dim> jump;
-    jump[column.component] = shapes.mean(column.corner);
+    jump[column.component] = shapes.mean(column);
     jumps.emplace_back(column.extra, jump);
   }
   for (const CrackTip<dim> &tip : tips)
@@ -365,8 +410,9 @@ std::vector<typename Discontinuity<dim>::OwnedPiece> Discontinuity<dim>::owned_p
 {
   std::vector<OwnedPiece> owned;
   for (const Entry &entry : entries)
-    if (const auto found = piece_of_cell.find(entry.cell->id()); found != piece_of_cell.end())
-      owned.push_back({found->second.first, found->second.second, entry.cell});
+    if (const auto found = pieces_of_cells.find(entry.cell->id()); found != pieces_of_cells.end())
+      for (const auto &[crack, index] : found->second)
+        owned.push_back({crack, index, entry.cell});
   std::sort(owned.begin(), owned.end(),
             [](const OwnedPiece &a, const OwnedPiece &b)
             { return std::make_pair(a.crack, a.piece) < std::make_pair(b.crack, b.piece); });
@@ -375,9 +421,33 @@ std::vector<typename Discontinuity<dim>::OwnedPiece> Discontinuity<dim>::owned_p
 
 
 template <int dim>
+std::vector<std::pair<std::uint64_t, std::uint64_t>> Discontinuity<dim>::segments_that_meet() const
+{
+  std::map<dealii::CellId, std::vector<std::uint64_t>> at_junction;
+  for (unsigned int c = 0; c < cracks.size(); ++c)
+    for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+      if (cracks[c].ends_on[static_cast<int>(end)] >= 0)
+      {
+        const dealii::CellId &cell = cracks[c].piece_at(end).cell;
+        auto &keys = at_junction[cell];
+        if (const auto [passing, index] = pieces_of_cells.at(cell).front(); keys.empty())
+          keys.push_back(segment_key(passing, index));
+        keys.push_back(key(c, span_at(c, end)));
+      }
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs;
+  for (const auto &[cell, keys] : at_junction)
+    for (unsigned int i = 0; i < keys.size(); ++i)
+      for (unsigned int j = i + 1; j < keys.size(); ++j)
+        pairs.emplace_back(keys[i], keys[j]);
+  return pairs;
+}
+
+
+template <int dim>
 std::vector<Segment<dim>> Discontinuity<dim>::segments(
   const std::function<double(const Point<dim> &)> &in_situ_pore_pressure) const
 {
+  const auto meeting = segments_that_meet();
   std::vector<Segment<dim>> all;
   std::vector<dealii::types::global_dof_index> dofs;
   for (const OwnedPiece &owned : owned_pieces())
@@ -406,6 +476,12 @@ std::vector<Segment<dim>> Discontinuity<dim>::segments(
       segment.neighbours.push_back({key(owned.crack, spans[k - 1]), 0.5 * segment.area, 1.});
     if (k + 1 < spans.size())
       segment.neighbours.push_back({key(owned.crack, spans[k + 1]), 0.5 * segment.area, 1.});
+
+    // As if all that meet at a junction ended there, each beside each: what crosses another crack
+    // does not have to pass between the faces of that.
+    for (const auto &[one, other] : meeting)
+      if (segment.key == one || segment.key == other)
+        segment.neighbours.push_back({segment.key == one ? other : one, 0.5 * segment.area, 1.});
 
     std::map<unsigned int, double> opening; // an unknown may open several pieces
     for (unsigned int i = span.first; i <= span.last; ++i)

@@ -90,9 +90,27 @@ public:
   {
     grown,
     reached_boundary, ///< has grown, and its tip has become a mouth on the domain's boundary
-    reached_crack,    ///< the next cell is cut already
+    joined_crack,     ///< has grown up to another crack, and ends on it
+    reached_crack,    ///< the next cell is cut already, and cannot be joined
     needs_mesh        ///< a cell ahead has another size: the mesh must be refined first
   };
+
+  /// The crack that another ends on, and the unit normal out of it on the side where that is not:
+  /// what the one would have to cross. Nothing if something is there already.
+  struct FarSide
+  {
+    unsigned int crack;
+    unsigned int piece; ///< of it, where the one ends
+    dealii::Tensor<1, dim> normal;
+  };
+  std::optional<FarSide> far_side(const unsigned int crack, const CrackEnd end) const;
+
+  /// A crack begins where another ends on a third one, on the other side of that, and goes on by a
+  /// span, or there is none. The outcome is the same on every rank.
+  Outcome cross(const unsigned int crack,
+                const CrackEnd end,
+                const dealii::Tensor<1, dim> &direction,
+                const Collectives &collectives);
 
   /// Let cracks grow, all at once, each by a span or not at all; the same outcomes, in the given
   /// order, on every rank.
@@ -115,10 +133,11 @@ public:
   /// The piece that cuts a cell, if it belongs to the crack; else null.
   const CrackPiece<dim> *piece_in(const dealii::CellId &cell, const unsigned int crack) const
   {
-    const auto found = piece_of_cell.find(cell);
-    return found != piece_of_cell.end() && found->second.first == crack
-             ? &cracks[crack].pieces[found->second.second]
-             : nullptr;
+    if (const auto found = pieces_of_cells.find(cell); found != pieces_of_cells.end())
+      for (const auto &[c, i] : found->second)
+        if (c == crack)
+          return &cracks[c].pieces[i];
+    return nullptr;
   }
 
   /// What opens a piece: unknowns, and the mean along the piece of the jump that one of each makes.
@@ -136,7 +155,7 @@ public:
 
   bool is_cut(const dealii::CellId &cell) const
   {
-    return piece_of_cell.count(cell) != 0;
+    return pieces_of_cells.count(cell) != 0;
   }
 
   /// A piece whose cell this rank owns.
@@ -159,6 +178,7 @@ private:
   struct Entry
   {
     CellIterator cell;
+    std::vector<std::uint64_t> pieces; ///< keys of those that `geometry` was made for
     CutGeometry<dim> geometry;
     std::vector<unsigned int> tips; ///< whose functions reach into the cell
     TabulatedColumns<dim> tip_columns;
@@ -166,17 +186,50 @@ private:
     CutCell<dim> cut;
   };
 
+  /// Keys of the segments that are neighbours because cracks end on others, in pairs.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> segments_that_meet() const;
+
   unsigned int longest_piece(const unsigned int crack, const CrackSpan &span) const;
 
   std::vector<Outcome> grow_by_a_cell(const std::vector<Advance> &advances,
                                       const Collectives &collectives);
 
-  /// Number the unknowns and bring `piece_of_cell` and the columns of the cut cells up to date.
+  /// Bring `pieces_of_cells` up to date.
+  void find_pieces();
+
+  /// Number the unknowns and bring `pieces_of_cells` and the columns of the cut cells up to date.
   void renumber();
 
-  void add_entry(const CellIterator &cell,
-                 const CrackPiece<dim> *piece,
-                 const unsigned int crack = dealii::numbers::invalid_unsigned_int);
+  /// The pieces in a cell, of a list of them.
+  PiecesInCell<dim> pieces_in(const std::vector<PieceIndex> &indices) const;
+
+  /// What tells the pieces in a cell from others.
+  std::vector<std::uint64_t> keys_of(const dealii::CellId &cell) const;
+
+  /// Drop what belongs to cells that are not cut any more, or otherwise, and make what is missing
+  /// in cells that had been cut. Numbering has to follow.
+  void update_entries();
+
+  /// Join the cracks of the case that end on others. The entry of one that crosses another, or
+  /// shares cells with it otherwise, is refused.
+  /// @param may_join none may if their tips have functions of their own
+  void join_initial_cracks(const std::vector<InitialCrack<dim>> &given,
+                           bool may_join,
+                           const Collectives &collectives);
+
+  /// The piece by which a crack that advances into a cut cell ends on the crack that passes through
+  /// it, and the share of the other piece at which it does. Nothing if it cannot.
+  std::optional<std::pair<CrackPiece<dim>, double>>
+  join(const Advance &advance, const dealii::CellId &cell, const unsigned int face) const;
+
+  /// Whether a crack may have a piece in the cell of one that it has left a cell or more before.
+  bool may_pass_beside(const Advance &advance, const CrackPiece<dim> &piece) const;
+
+  /// Cells that are cut anew or otherwise, each with the rank that owns it.
+  void take_new_cells(const std::vector<std::pair<unsigned int, dealii::CellId>> &new_cells,
+                      const Collectives &collectives);
+
+  void add_entry(const CellIterator &cell, const std::vector<PieceIndex> &pieces);
 
   void collect_entries();
 
@@ -186,7 +239,7 @@ private:
   std::vector<std::vector<CrackSpan>> spans_of_crack;
   std::vector<CrackTip<dim>> tips;
   Enrichment<dim> unknowns;
-  std::map<dealii::CellId, std::pair<unsigned, unsigned>> piece_of_cell; ///< crack, piece
+  PiecesOfCells pieces_of_cells;
   std::vector<Entry> entries;
   std::vector<int> entry_of_cell; ///< by active cell index
 };

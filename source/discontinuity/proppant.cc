@@ -62,7 +62,11 @@ propped_gaps(const std::vector<InitialCrack<dim>> &cracks, const Discontinuity<d
                    [](const auto &crack) { return crack.proppant.aperture > 0.; }))
     return {};
   return [&cracks, &discontinuity](const unsigned int crack, const unsigned int piece)
-  { return propped_gap(cracks[crack], discontinuity.paths()[crack], piece); };
+  {
+    // One that has begun on another is none of the case.
+    return crack < cracks.size() ? propped_gap(cracks[crack], discontinuity.paths()[crack], piece)
+                                 : 0.;
+  };
 }
 
 

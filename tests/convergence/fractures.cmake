@@ -55,6 +55,14 @@ stockwork_case_test(NAME convergence/natural_crack/peridynamics
   EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
          "final/fracture_volume = final/injected_volume within 1e-9"
          "fluid_balance/relative_error < 1e-8")
+# Cracks that cut cells in the same scene.
+stockwork_case_test(NAME convergence/natural_crack/cohesive_xfem
+  DECK prm/natural_crack/cohesive_xfem.prm
+  SET "Resolution=coarse" "Fluid/Bulk modulus=1e20 Pa" "Output/Fields=false" "Time/End time=13 s"
+  WARNS "has joined crack 2."
+  EXPECT "final/branches == 3" "final/forks == 1" "final/fork_angle = 1.571 within 0.1"
+         "final/fracture_volume = final/injected_volume within 1e-9"
+         "fluid_balance/relative_error < 1e-8")
 # A tracked path ends there and joins it, to rounding.
 stockwork_case_test(NAME convergence/natural_crack/peridynamics/path
   DECK tests/data/natural_crack.prm

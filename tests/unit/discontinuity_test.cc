@@ -296,7 +296,7 @@ TEST_CASE("keys do not change when a crack grows, and come back after a rollback
     CHECK(discontinuity.enrichment().unknowns()[i].key == before[i].key);
 }
 
-TEST_CASE("growth goes on to the boundary, never turns back, and stops at another crack")
+TEST_CASE("growth goes on to the boundary, never turns back, and ends on another crack")
 {
   Square square(10);
   auto discontinuity = cut(square, {{{0.2, 0.1}, {0.6, 0.1}}, {{-0.5, -0.6}, {-0.5, 0.6}}});
@@ -317,7 +317,10 @@ TEST_CASE("growth goes on to the boundary, never turns back, and stops at anothe
   auto outcome = Outcome::grown;
   for (unsigned int i = 0; i < 10 && outcome == Outcome::grown; ++i)
     outcome = discontinuity.grow({{0, CrackEnd::first, left}}, square.collectives)[0];
-  CHECK(outcome == Outcome::reached_crack);
+  CHECK(outcome == Outcome::joined_crack);
+  CHECK(discontinuity.paths()[0].ends_on[0] == 1);
+  CHECK(!discontinuity.paths()[0].is_tip[0]);
+  CHECK(discontinuity.paths()[0].tip(CrackEnd::first)[0] == doctest::Approx(-0.5));
 }
 
 TEST_CASE("a crack that the mesh cannot hold is refused with the entry that asks for it")
@@ -339,7 +342,7 @@ TEST_CASE("a crack that the mesh cannot hold is refused with the entry that asks
   };
   using Kind = InitialCrack<2>::Kind;
   const InitialCrack<2> along{{{-0.6, 0.1}, {0.6, 0.1}}, Kind::open, "Cracks/Open", "along", {}},
-    across{{{-0.5, -0.6}, {-0.5, 0.6}}, Kind::cohesive, "Cracks/Cohesive", "across", {}},
+    across{{{-0.1, -0.6}, {-0.1, 0.6}}, Kind::cohesive, "Cracks/Cohesive", "across", {}},
     outside{{{2., 0.1}, {2.6, 0.1}}, Kind::open, "Cracks/Open", "outside", {}};
   CHECK(refused({along}) == "accepted");
   CHECK(refused({along, across}).find("Cracks/Cohesive: 'Cracks/Cohesive' is 'across'") == 0);
@@ -422,10 +425,10 @@ TEST_CASE("the rule around a tip integrates the inverse of the distance")
   CHECK(integral == doctest::Approx(exact).epsilon(1e-4));
 }
 
-TEST_CASE("two cracks in one cell and a crack off the mesh are refused")
+TEST_CASE("two cracks that cross and a crack off the mesh are refused")
 {
   Square square(10);
-  CHECK_THROWS_AS(cut(square, {{{-0.6, 0.1}, {0.6, 0.1}}, {{-0.5, -0.6}, {-0.5, 0.6}}}),
+  CHECK_THROWS_AS(cut(square, {{{-0.6, 0.1}, {0.6, 0.1}}, {{-0.1, -0.6}, {-0.1, 0.6}}}),
                   InputError);
   CHECK_THROWS_AS(cut(square, {{{2., 0.1}, {2.6, 0.1}}}), InputError);
 }

@@ -25,7 +25,7 @@ struct CutSquare
     const dealii::MappingQ1<2> mapping;
     piece.faces = {{0, 1}};
     piece.ends = piece.unit_ends = {{Point<2>(0., left), Point<2>(1., right)}};
-    cut = make_cut_cell<2>(make_cut_geometry<2>(mapping, square.begin_active(), piece, 2), {});
+    cut = make_cut_cell<2>(make_cut_geometry<2>(mapping, square.begin_active(), {&piece}, 2), {});
   }
 
   CrackPiece<2> piece;

@@ -235,7 +235,8 @@ template <int dim>
 double CohesiveXFEM<dim>::broken_share(const CrackPiece<dim> &piece) const
 {
   const PointDamage d = damage(piece);
-  return std::accumulate(d.begin(), d.end(), 0.) / n_points;
+  const JumpShapes<dim> shapes(piece);
+  return std::inner_product(d.begin(), d.end(), shapes.share.begin(), 0.);
 }
 
 
@@ -243,7 +244,7 @@ template <int dim>
 NormalShear CohesiveXFEM<dim>::separation(const CrackPiece<dim> &piece,
                                           const JumpShapes<dim> &shapes,
                                           const unsigned int point,
-                                          const std::vector<EnrichedColumn> &columns,
+                                          const std::vector<JumpColumn> &columns,
                                           const std::vector<double> &a) const
 {
   const Tensor<1, dim> jump = shapes.jump(point, columns, a);
@@ -260,11 +261,11 @@ double CohesiveXFEM<dim>::volume(const unsigned int crack,
   for (unsigned int i = pieces.first; i <= pieces.last; ++i)
   {
     const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[i];
-    const auto &columns = discontinuity.enrichment().columns(crack, i);
+    const auto &columns = discontinuity.enrichment().jumps(crack, i);
     const JumpShapes<dim> shapes(piece);
     for (unsigned int q = 0; q < n_points; ++q)
-      sum +=
-        separation(piece, shapes, q, columns, unknowns.extra).normal * piece.length() / n_points;
+      sum += separation(piece, shapes, q, columns, unknowns.extra).normal * piece.length() *
+             shapes.share[q];
   }
   return sum;
 }
@@ -286,21 +287,20 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
   for (const auto &owned : discontinuity.owned_pieces())
   {
     const CrackPiece<dim> &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
-    const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
+    const auto &columns = discontinuity.enrichment().jumps(owned.crack, owned.piece);
     if (columns.empty())
       continue;
     const JumpShapes<dim> shapes(piece);
     const PointDamage history = damage(piece);
     const CohesiveLaw law = law_at(piece);
     const Tensor<1, dim> n = piece.normal(), t = piece.along;
-    const double weight = piece.length() / n_points;
 
     local.extra.clear();
     jumps.assign(columns.size(), Tensor<1, dim>());
     for (unsigned int i = 0; i < columns.size(); ++i)
     {
       local.extra.push_back(columns[i].extra);
-      jumps[i][columns[i].component] = shapes.mean(columns[i].corner);
+      jumps[i][columns[i].component] = shapes.mean(columns[i]);
     }
     local.reinit();
     add_released_traction<dim>(scene, piece.centre(), n, piece.length(), jumps, local.residual);
@@ -310,15 +310,16 @@ void CohesiveXFEM<dim>::assemble(const StepContext &, const State &state, Sink &
         law.evaluate(separation(piece, shapes, q, columns, state.current.extra), history[q]);
       const Tensor<1, dim> traction = response.traction.normal * n + response.traction.shear * t;
       const auto &k = response.tangent;
+      const double weight = piece.length() * shapes.share[q];
       for (unsigned int i = 0; i < columns.size(); ++i)
       {
-        const double shape_i = shapes.values[q][columns[i].corner] * weight;
+        const double shape_i = shapes.value(q, columns[i]) * weight;
         const unsigned int di = columns[i].component;
         local.residual(i) += shape_i * traction[di];
         for (unsigned int j = 0; j < columns.size(); ++j)
         {
           const unsigned int dj = columns[j].component;
-          local.matrix(i, j) += shape_i * shapes.values[q][columns[j].corner] *
+          local.matrix(i, j) += shape_i * shapes.value(q, columns[j]) *
                                 (n[di] * (k[0][0] * n[dj] + k[0][1] * t[dj]) +
                                  t[di] * (k[1][0] * n[dj] + k[1][1] * t[dj]));
         }
@@ -339,7 +340,7 @@ bool CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
     for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
     {
       const CrackPiece<dim> &piece = discontinuity.paths()[c].pieces[i];
-      const auto &columns = discontinuity.enrichment().columns(c, i);
+      const auto &columns = discontinuity.enrichment().jumps(c, i);
       const JumpShapes<dim> shapes(piece);
       contact.commit(discontinuity, c, i, state.current.extra, broken_share(piece));
       const PointDamage old = damage(piece);
@@ -350,7 +351,7 @@ bool CohesiveXFEM<dim>::commit(const StepContext &, const State &state)
         {
           const NormalShear gap = separation(piece, shapes, q, columns, state.current.extra);
           now[q] = law.evaluate(gap, old[q]).damage;
-          dissipated += piece.length() / n_points *
+          dissipated += piece.length() * shapes.share[q] *
                         (law.dissipation(gap, now[q]) - law.dissipation(gap, old[q]));
         }
       committed_damage[piece.key(scene.domain_size)] = now;
@@ -458,7 +459,7 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
     {
       s += i > spans[s].last;
       const CrackPiece<dim> &piece = path.pieces[i];
-      const auto &columns = discontinuity.enrichment().columns(c, i);
+      const auto &columns = discontinuity.enrichment().jumps(c, i);
       const JumpShapes<dim> shapes(piece);
       const PointDamage history = damage(piece);
       const CohesiveLaw law = law_at(piece);
@@ -468,7 +469,7 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
                                                                  discontinuity.length(c, spans[s]);
       for (unsigned int q = 0; q < n_points; ++q)
       {
-        const double length = reached / n_points, d = history[q];
+        const double length = reached * shapes.share[q], d = history[q];
         // What is cut but undamaged is intact rock.
         if (d > 0.)
           result.length += length;
@@ -476,7 +477,7 @@ FractureSummary CohesiveXFEM<dim>::summary(const State &state, const Collectives
           result.broken_length += length;
         const NormalShear gap = separation(piece, shapes, q, columns, state.current.extra);
         const NormalShear traction = law.evaluate(gap, d).traction;
-        result.stored_energy += 0.5 * piece.length() / n_points *
+        result.stored_energy += 0.5 * piece.length() * shapes.share[q] *
                                 (traction.normal * gap.normal + traction.shear * gap.shear);
       }
     }
@@ -492,16 +493,16 @@ void CohesiveXFEM<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
   for (const auto &owned : discontinuity.owned_pieces())
   {
     const CrackPiece<dim> &piece = discontinuity.paths()[owned.crack].pieces[owned.piece];
-    const auto &columns = discontinuity.enrichment().columns(owned.crack, owned.piece);
+    const auto &columns = discontinuity.enrichment().jumps(owned.crack, owned.piece);
     const JumpShapes<dim> shapes(piece);
     const PointDamage d = damage(piece);
     double aperture = 0., shear = 0., mean_damage = 0.;
     for (unsigned int q = 0; q < n_points; ++q)
     {
       const NormalShear gap = separation(piece, shapes, q, columns, state.current.extra);
-      aperture += gap.normal / n_points;
-      shear += gap.shear / n_points;
-      mean_damage += d[q] / n_points;
+      aperture += gap.normal * shapes.share[q];
+      shear += gap.shear * shapes.share[q];
+      mean_damage += d[q] * shapes.share[q];
     }
     std::vector<std::pair<std::string, double>> values{{"aperture", aperture},
                                                        {"slip", shear},

@@ -97,7 +97,7 @@ private:
   NormalShear separation(const CrackPiece<dim> &piece,
                          const JumpShapes<dim> &shapes,
                          const unsigned int point,
-                         const std::vector<EnrichedColumn> &columns,
+                         const std::vector<JumpColumn> &columns,
                          const std::vector<double> &a) const;
 
   /// What a part of a crack holds [m^2].
@@ -140,6 +140,16 @@ private:
     RockAhead<dim> wide; ///< for its direction
   };
   std::vector<TipAhead> look_ahead(const State &state, const Collectives &collectives) const;
+
+  /// What the rock bears around these tips and ahead of them.
+  std::vector<TipAhead> look_ahead(const std::vector<HalfDisc<dim>> &tips,
+                                   const std::vector<Advance> &advances,
+                                   const State &state,
+                                   const Collectives &collectives) const;
+
+  /// Begin a crack where another has joined a third one, on the other side of that, if tension and
+  /// fluid pressure there reach the strength. Returns whether one has begun.
+  bool cross(const State &state, const Collectives &collectives);
 
   /// One look at all tips: those that grow, whether the rock is broken behind each, and what comes
   /// of it.

@@ -48,7 +48,7 @@ double CohesiveXFEM<dim>::distance_to_damage(const unsigned int crack,
   for (unsigned int k = 0; k < n; ++k)
   {
     const unsigned int i = end == CrackEnd::first ? k : n - 1 - k;
-    const auto &columns = discontinuity.enrichment().columns(crack, i);
+    const auto &columns = discontinuity.enrichment().jumps(crack, i);
     const JumpShapes<dim> shapes(pieces[i]);
     const PointDamage history = damage(pieces[i]);
     const CohesiveLaw law = law_at(pieces[i]);
@@ -58,7 +58,7 @@ double CohesiveXFEM<dim>::distance_to_damage(const unsigned int crack,
       if (law.evaluate(separation(pieces[i], shapes, q, columns, state.current.extra), history[q])
             .damage >= least)
         return distance;
-      distance += pieces[i].length() / n_points;
+      distance += pieces[i].length() * shapes.share[q];
     }
   }
   return distance;
@@ -96,8 +96,8 @@ double CohesiveXFEM<dim>::reached_length(const unsigned int crack,
   const CrackSpan &last = discontinuity.span_at(crack, end);
   const double length = discontinuity.length(crack, last);
   const std::uint64_t key = discontinuity.key(crack, last);
-  if (spans.size() < 2 || bare_tips.count(key) == 0 || !state.segment_pressure ||
-      !std::isnan(scene.crack_pressure) ||
+  if (spans.size() < 2 || discontinuity.paths()[crack].ends_on[static_cast<int>(end)] >= 0 ||
+      bare_tips.count(key) == 0 || !state.segment_pressure || !std::isnan(scene.crack_pressure) ||
       state.segment_pressure(key) >= closing_stress(pieces[last.first]))
     return length;
 
@@ -120,7 +120,8 @@ std::string CohesiveXFEM<dim>::reason_to_stop(const State &state) const
     if (limits.has_grown[c])
     {
       // A tip that stops in this very step has its step accepted.
-      if (committed_paths[c].is_tip[0] || committed_paths[c].is_tip[1])
+      if (c >= committed_paths.size() || committed_paths[c].is_tip[0] ||
+          committed_paths[c].is_tip[1])
         return "";
       const unsigned int n = discontinuity.paths()[c].pieces.size();
       swells |= volume(c, {0, n - 1}, state.current) > limits.volume[c] * (1. + 1e-9);
@@ -209,8 +210,8 @@ template <int dim>
 std::vector<typename CohesiveXFEM<dim>::TipAhead>
 CohesiveXFEM<dim>::look_ahead(const State &state, const Collectives &collectives) const
 {
-  std::vector<TipAhead> tips;
-  std::vector<HalfDisc<dim>> discs; // for the growth of each tip, and for its direction
+  std::vector<Advance> advances;
+  std::vector<HalfDisc<dim>> tips; // of one cell's radius
   if (parameters.growth)
     for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
       for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
@@ -218,14 +219,32 @@ CohesiveXFEM<dim>::look_ahead(const State &state, const Collectives &collectives
         const CrackPath<dim> &path = discontinuity.paths()[c];
         if (!path.is_tip[static_cast<int>(end)])
           continue;
-        const double h = path.piece_at(end).cell_size();
-        const double radius =
-          std::min(parameters.averaging_radius * h,
-                   std::max(0.5 * cohesive_length(path.piece_at(end).region), 1.2 * h));
-        tips.push_back({{c, end, path.direction(end)}, {}, {}});
-        discs.push_back({path.tip(end), path.direction(end), radius});
-        discs.push_back({path.tip(end), path.direction(end), parameters.direction_radius * h});
+        advances.push_back({c, end, path.direction(end)});
+        tips.push_back({path.tip(end), path.direction(end), path.piece_at(end).cell_size()});
       }
+  return look_ahead(tips, advances, state, collectives);
+}
+
+
+template <int dim>
+std::vector<typename CohesiveXFEM<dim>::TipAhead>
+CohesiveXFEM<dim>::look_ahead(const std::vector<HalfDisc<dim>> &places,
+                              const std::vector<Advance> &advances,
+                              const State &state,
+                              const Collectives &collectives) const
+{
+  std::vector<TipAhead> tips;
+  std::vector<HalfDisc<dim>> discs; // for the growth of each tip, and for its direction
+  for (unsigned int i = 0; i < places.size(); ++i)
+  {
+    const auto &[centre, direction, h] = places[i];
+    const auto region = discontinuity.paths()[advances[i].crack].piece_at(advances[i].end).region;
+    const double radius =
+      std::min(parameters.averaging_radius * h, std::max(0.5 * cohesive_length(region), 1.2 * h));
+    tips.push_back({advances[i], {}, {}});
+    discs.push_back({centre, direction, radius});
+    discs.push_back({centre, direction, parameters.direction_radius * h});
+  }
   const auto averages = average_ahead<dim>(
     discs, *mesh_view,
     [this](const unsigned int cell) { return discontinuity.cut_cell(cell) != nullptr; }, scene,
@@ -348,7 +367,8 @@ std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collect
     text << "Crack " << crack + 1 << " at (" << discontinuity.paths()[crack].tip(growing.end)
          << ") ";
     const std::string where = text.str();
-    if (outcomes[i] == Outcome::grown || outcomes[i] == Outcome::reached_boundary)
+    if (outcomes[i] == Outcome::grown || outcomes[i] == Outcome::reached_boundary ||
+        outcomes[i] == Outcome::joined_crack)
     {
       pass.grown = true;
       if (const std::string reason = take_new_span(pass, i); !reason.empty())
@@ -356,11 +376,20 @@ std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collect
     }
     if (outcomes[i] == Outcome::reached_boundary)
       limits.blocked_by = where + "has reached the boundary of the domain.";
+    if (outcomes[i] == Outcome::joined_crack)
+    {
+      // The fluid drives the other one from now on.
+      const int other = discontinuity.paths()[crack].ends_on[static_cast<int>(growing.end)];
+      limits.has_grown[other] = true;
+      messages.push_back(where + "has joined crack " + std::to_string(other + 1) + ".");
+    }
     if (outcomes[i] == Outcome::reached_crack)
     {
       discontinuity.stop(crack, growing.end);
-      limits.blocked_by = where + "has met another crack and stops: crossing and branching cracks "
-                                  "are not supported.";
+      limits.blocked_by =
+        where +
+        "has met another crack where it cannot join it, and stops: one is there already, or "
+        "a tip.";
     }
     if (outcomes[i] == Outcome::reached_boundary || outcomes[i] == Outcome::reached_crack)
       messages.push_back(limits.blocked_by);
@@ -377,6 +406,62 @@ std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collect
   }
   refresh_segments();
   return "";
+}
+
+
+template <int dim>
+bool CohesiveXFEM<dim>::cross(const State &state, const Collectives &collectives)
+{
+  std::vector<Advance> crossing;
+  std::vector<HalfDisc<dim>> places;
+  if (parameters.growth)
+    for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+      for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+        if (const auto far = discontinuity.far_side(c, end))
+        {
+          const CrackPath<dim> &path = discontinuity.paths()[c];
+          crossing.push_back({c, end, far->normal});
+          places.push_back({path.tip(end), far->normal, path.piece_at(end).cell_size()});
+        }
+  if (crossing.empty())
+    return false;
+  bool crossed = false;
+  for (const TipAhead &tip : look_ahead(places, crossing, state, collectives))
+  {
+    const auto &[c, end, normal] = tip.advance;
+    const auto far = discontinuity.far_side(c, end);
+    const double pressure =
+      state.segment_pressure
+        ? state.segment_pressure(discontinuity.segment_key(far->crack, far->piece))
+        : 0.;
+    const double added = parameters.as_published ? tip.near.pore_pressure : pressure;
+    const double drive = added + dealii::eigenvalues(tip.near.stress)[0];
+    // No crack is there whose tip would make more of the stress: the mean itself has to part the
+    // rock.
+    if (drive < strength_ahead(c, end))
+      continue;
+    const Tensor<1, dim> direction = direction_of_growth(tip);
+    // One that would rather run along the other crack does not leave it.
+    constexpr double least_across = 0.3;
+    if (direction * normal < least_across)
+      continue;
+    const dealii::Point<dim> where = discontinuity.paths()[c].tip(end);
+    using Outcome = typename Discontinuity<dim>::Outcome;
+    const Outcome outcome = discontinuity.cross(c, end, direction, collectives);
+    if (outcome != Outcome::grown && outcome != Outcome::reached_boundary)
+      continue;
+    crossed = true;
+    advances.push_back({{1, 1}});
+    limits.has_grown.push_back(true);
+    limits.volume.push_back(0.);
+    std::ostringstream text;
+    text << "Crack " << c + 1 << " at (" << where << ") has crossed crack " << far->crack + 1
+         << " and goes on as crack " << discontinuity.paths().size() << ".";
+    messages.push_back(text.str());
+  }
+  if (crossed)
+    refresh_segments();
+  return crossed;
 }
 
 
@@ -414,6 +499,9 @@ CohesiveXFEM<dim>::advance(const StepContext &, const State &state, const Collec
   if (!pass.growing.empty())
     if (const std::string reason = grow(pass, collectives); !reason.empty())
       return stop(reason);
+  // Where cracks have just met, the step is solved with the junction first.
+  if (!pass.grown)
+    pass.grown = cross(state, collectives);
   if (pass.grown)
     verdict.kind = Verdict::Kind::topology_changed;
   verdict.held_back = pass.held_back || pass.needs_mesh;
