@@ -93,7 +93,7 @@ private:
   std::vector<double> prescribed; ///< their values at the time looked at last
   std::vector<double> loads;      ///< of all own unknowns, likewise [N]
   double kinetic = 0., work = 0., work_before = 0.;
-  double work_in_rock = 0.;  ///< ExplicitRock::work() at the end of the last step, on this rank
+  double work_in_rock = 0.; ///< ExplicitRock::work() at the end of the last step, on this rank
   bool warned_of_quick_loads = false;
   bool knows_energy = false; ///< `kinetic` is that at the end of the last step
   bool is_new = false;       ///< no step yet: what the rock's own loads have done is to be counted

@@ -56,7 +56,8 @@ void TimeScheme::declare_parameters(ParameterHandler &prm)
     "Scheme", "auto", Patterns::Selection("auto|backward Euler|BDF2|Newmark|explicit"),
     "auto: Newmark with inertia; BDF2 for consolidation without a fracture; else "
     "backward Euler. explicit: Newmark's with beta = 0 and a mass lumped at the "
-    "nodes, for rock all of which is made of bonds, with cracks dry or under a given pressure; each step is divided into "
+    "nodes, for rock all of which is made of bonds, with cracks dry or under a given pressure; "
+    "each step is divided into "
     "as many as are stable, which takes no matrix. Loads are those of its beginning "
     "and end, and linear between: a pulse takes steps that are shorter. What is moved "
     "goes on from where it is: if the deck has it jump, it takes the first step.");

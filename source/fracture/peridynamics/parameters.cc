@@ -91,7 +91,8 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "rock under a uniform stress, which do not feel what bonds are left.");
   prm.declare_entry(
     "Closure", "auto", Patterns::Selection("auto|conserving|in bonds|as published"),
-    "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, or explicit "
+    "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, or "
+    "explicit "
     "steps have a pressure given, else conserving. conserving: it loads the faces, "
     "and does the work of their opening. in bonds: it is part of the law of bonds, as if rock "
     "under a uniform stress had cracks without load, less the uniform stress; then toughness does "
