@@ -101,8 +101,7 @@ void ExplicitMarch<dim>::set_up()
   for (Vector *vector : {&mass, &u, &v, &a, &force})
     vector->reinit(mesh.dof_handler.locally_owned_dofs(), seen, run.communicator);
   rock->set_layout(u);
-  work_in_rock = is_new ? 0. : rock->work();
-  is_new = false;
+  work_in_rock = rock->work();
   find_masses();
 
   held.clear();

@@ -24,7 +24,8 @@ public:
   /// The run starts here, at rest.
   void begin()
   {
-    knows_energy = is_new = true;
+    knows_energy = true;
+    work_in_rock = 0.; // what the rock's own loads have done is to be counted
   }
 
   /// The displacement at which the rock holds the loads of a time, and nothing breaks.
@@ -96,6 +97,5 @@ private:
   double work_in_rock = 0.; ///< ExplicitRock::work() at the end of the last step, on this rank
   bool warned_of_quick_loads = false;
   bool knows_energy = false; ///< `kinetic` is that at the end of the last step
-  bool is_new = false;       ///< no step yet: what the rock's own loads have done is to be counted
 };
 } // namespace stockwork

@@ -38,7 +38,9 @@ std::optional<std::pair<CrackPiece<dim>, double>> Discontinuity<dim>::join(
   const CrackPiece<dim> &passing = path.pieces[index];
   const CrackPath<dim> &own = cracks[advance.crack];
   if (other == advance.crack || passing.inside[0] || passing.inside[1] ||
-      own.ends_on[1 - static_cast<int>(advance.end)] == static_cast<int>(other))
+      own.ends_on[1 - static_cast<int>(advance.end)] == static_cast<int>(other) ||
+      path.ends_on[0] == static_cast<int>(advance.crack) ||
+      path.ends_on[1] == static_cast<int>(advance.crack))
     return {};
 
   // Functions of one junction do not reach to another one between other cracks.

@@ -129,6 +129,7 @@ std::map<std::pair<unsigned int, unsigned int>, Tensor<1, 2>> defects_of_diverge
 TEST_CASE("every function of a junction jumps where its pieces say so and nowhere else")
 {
   Body body(8);
+  unsigned int n_refused = 0; // with a sentence: nothing of a crack is left beside the other one
   // The second ends on the first from its left or right, the third from the other side.
   for (const double angle : {0., 27., 45., 60., 90., 153.})
     for (const double between : {90., 50., -90., -35.})
@@ -151,6 +152,7 @@ TEST_CASE("every function of a junction jumps where its pieces say so and nowher
           catch (const InputError &error)
           {
             MESSAGE(std::string(error.what()));
+            ++n_refused;
             continue;
           }
           CHECK(body.cracks.paths()[1].ends_on[1] == 0);
@@ -161,10 +163,12 @@ TEST_CASE("every function of a junction jumps where its pieces say so and nowher
             largest = std::max(largest, defect.norm());
           CHECK(largest < 1e-13);
         }
+  CHECK(n_refused <= 5);
 }
 
 TEST_CASE("the parts of rock between cracks move apart freely")
 {
+  unsigned int n_refused = 0;
   for (const double angle : {90., 63., 27.})
     for (const double between : {90., 50., -90.})
       for (const double shift : {0., 0.25 / 3., 0.1})
@@ -187,6 +191,7 @@ TEST_CASE("the parts of rock between cracks move apart freely")
           catch (const InputError &error)
           {
             MESSAGE(std::string(error.what()));
+            ++n_refused;
             continue;
           }
           // A linear displacement of its own in each part; the second crack's plus side is its left
@@ -294,5 +299,6 @@ TEST_CASE("the parts of rock between cracks move apart freely")
             }
           CHECK(largest < 1e-6);
         }
+  CHECK(n_refused <= 5);
 }
 } // namespace stockwork::junction_test

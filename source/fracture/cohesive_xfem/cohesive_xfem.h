@@ -170,6 +170,9 @@ private:
 
   dealii::Tensor<1, dim> direction_of_growth(const TipAhead &tip) const;
 
+  /// The greatest tension ahead, or with straight growth that across the crack [Pa].
+  double tension_across(const TipAhead &tip) const;
+
   /// Cut the cells ahead. Returns why the run has to end; empty: it need not.
   std::string grow(GrowthPass &pass, const Collectives &collectives);
 

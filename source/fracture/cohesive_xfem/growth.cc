@@ -117,6 +117,11 @@ std::string CohesiveXFEM<dim>::reason_to_stop(const State &state) const
 {
   bool swells = false;
   for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+  {
+    // One that has met another may go on beyond it.
+    for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+      if (parameters.growth && discontinuity.far_side(c, end))
+        return "";
     if (limits.has_grown[c])
     {
       // A tip that stops in this very step has its step accepted.
@@ -126,6 +131,7 @@ std::string CohesiveXFEM<dim>::reason_to_stop(const State &state) const
       const unsigned int n = discontinuity.paths()[c].pieces.size();
       swells |= volume(c, {0, n - 1}, state.current) > limits.volume[c] * (1. + 1e-9);
     }
+  }
   return swells
            ? "no fracture that the fluid drives can grow any more, and more is pumped into it. " +
                limits.blocked_by
@@ -275,6 +281,18 @@ dealii::Tensor<1, dim> CohesiveXFEM<dim>::direction_of_growth(const TipAhead &ti
 
 
 template <int dim>
+double CohesiveXFEM<dim>::tension_across(const TipAhead &tip) const
+{
+  if (!parameters.straight)
+    return dealii::eigenvalues(tip.near.stress)[0];
+  Tensor<1, dim> across;
+  across[0] = -tip.advance.direction[1];
+  across[1] = tip.advance.direction[0];
+  return across * (tip.near.stress * across);
+}
+
+
+template <int dim>
 typename CohesiveXFEM<dim>::TipState
 CohesiveXFEM<dim>::judge(const TipAhead &tip, const State &state, GrowthPass &pass)
 {
@@ -284,17 +302,12 @@ CohesiveXFEM<dim>::judge(const TipAhead &tip, const State &state, GrowthPass &pa
   const double span = discontinuity.length(c, last);
   const double pressure =
     state.segment_pressure ? state.segment_pressure(discontinuity.key(c, last)) : 0.;
-  Tensor<1, dim> across;
-  across[0] = -tip.advance.direction[1];
-  across[1] = tip.advance.direction[0];
   // One intact span is enough: where the fluid's pressure alone exceeds the strength, cutting
   // would never end. Where it does so by far, there is no cohesive zone worth the name: spans
   // open by less than the fluid's aperture would be cut one after another.
   const bool broken_here = distance_to_damage(c, end, 1., state) <= 0.5 * span * (1. + 1e-9);
   const double added = parameters.as_published ? tip.near.pore_pressure : pressure;
-  const auto &stress = tip.near.stress;
-  const double drive =
-    added + (parameters.straight ? across * (stress * across) : dealii::eigenvalues(stress)[0]);
+  const double drive = added + tension_across(tip);
   // A dry crack goes on at the threshold: the seam's compliance ahead of the damage counts.
   if (pressure != 0. && distance_to_damage(c, end, 1e-12, state) >= span * (1. - 1e-9))
   {
@@ -381,7 +394,8 @@ std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collect
       // The fluid drives the other one from now on.
       const int other = discontinuity.paths()[crack].ends_on[static_cast<int>(growing.end)];
       limits.has_grown[other] = true;
-      messages.push_back(where + "has joined crack " + std::to_string(other + 1) + ".");
+      limits.blocked_by = where + "has joined crack " + std::to_string(other + 1) + ".";
+      messages.push_back(limits.blocked_by);
     }
     if (outcomes[i] == Outcome::reached_crack)
     {
@@ -420,7 +434,7 @@ bool CohesiveXFEM<dim>::cross(const State &state, const Collectives &collectives
         if (const auto far = discontinuity.far_side(c, end))
         {
           const CrackPath<dim> &path = discontinuity.paths()[c];
-          crossing.push_back({c, end, far->normal});
+          crossing.push_back({c, end, parameters.straight ? path.direction(end) : far->normal});
           places.push_back({path.tip(end), far->normal, path.piece_at(end).cell_size()});
         }
   if (crossing.empty())
@@ -428,22 +442,23 @@ bool CohesiveXFEM<dim>::cross(const State &state, const Collectives &collectives
   bool crossed = false;
   for (const TipAhead &tip : look_ahead(places, crossing, state, collectives))
   {
-    const auto &[c, end, normal] = tip.advance;
+    const unsigned int c = tip.advance.crack;
+    const CrackEnd end = tip.advance.end;
     const auto far = discontinuity.far_side(c, end);
     const double pressure =
       state.segment_pressure
         ? state.segment_pressure(discontinuity.segment_key(far->crack, far->piece))
         : 0.;
     const double added = parameters.as_published ? tip.near.pore_pressure : pressure;
-    const double drive = added + dealii::eigenvalues(tip.near.stress)[0];
+    const double drive = added + tension_across(tip);
     // No crack is there whose tip would make more of the stress: the mean itself has to part the
     // rock.
-    if (drive < strength_ahead(c, end))
+    if (drive < strength_ahead(c, end) * (1. - 1e-6))
       continue;
     const Tensor<1, dim> direction = direction_of_growth(tip);
     // One that would rather run along the other crack does not leave it.
     constexpr double least_across = 0.3;
-    if (direction * normal < least_across)
+    if (direction * far->normal < least_across)
       continue;
     const dealii::Point<dim> where = discontinuity.paths()[c].tip(end);
     using Outcome = typename Discontinuity<dim>::Outcome;

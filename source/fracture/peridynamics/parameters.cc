@@ -313,8 +313,9 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     throw bad("Horizon", "3 and more with 'Closure = in bonds', or 2 with 'Tracking = path'");
   p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
   if (p.friction > 0. && (dim != 2 || !p.in_bonds))
-    throw bad("Friction coefficient",
-              dim != 2 ? "0 in three dimensions" : "0, or 'Closure = in bonds'");
+    throw bad("Friction coefficient", dim != 2           ? "0 in three dimensions"
+                                      : p.explicit_steps ? "0 with 'Time/Scheme = explicit'"
+                                                         : "0, or 'Closure = in bonds'");
   p.cohesive_energy = prm.get_double("Cohesive energy");
   if (p.cohesive_energy < 1. && !p.tracked)
     throw bad("Cohesive energy", "1, or 'Tracking = path'");

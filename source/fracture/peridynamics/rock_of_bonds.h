@@ -89,7 +89,7 @@ private:
     return all[all.size() == 1 ? 0 : bond];
   }
 
-  /// Mean of a constant in those of the cells that there are; NaN if there is none.
+  /// Mean of a constant in those of the cells that there are; zero if there is none.
   double
   mean(const Place<dim> &origin, const std::vector<Place<dim>> &some, double OfCell::*what) const;
 

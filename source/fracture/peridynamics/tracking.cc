@@ -479,8 +479,11 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
                           [&](const auto &other)
                           { return other && other->path == end.path && other->side == end.side; });
     };
+    // What has begun beyond another path, and may still be another, has not met anything for good.
+    const auto may_change = [&](const TrackedPaths::End &end)
+    { return paths.began_beyond(end.path) && is_untouched(end); };
     for (const TrackedPaths::Meeting &meeting : paths.meetings())
-      if (!meeting.beyond || is_untouched(*meeting.beyond))
+      if (!may_change(meeting.end) && (!meeting.beyond || is_untouched(*meeting.beyond)))
       {
         const Tensor<1, dim> ahead = paths.direction(meeting.end);
         const SymmetricTensor<2, dim> stress =
