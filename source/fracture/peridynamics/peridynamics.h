@@ -333,6 +333,9 @@ private:
   /// fracture would release.
   double dry_stretch(unsigned int site, unsigned int bond) const;
 
+  /// A place itself, if it is that of a cell, or the nearest cell of the zone.
+  Place<dim> cell_of_zone(const Place<dim> &place) const;
+
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
 

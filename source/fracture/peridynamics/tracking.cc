@@ -157,6 +157,34 @@ double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned in
 }
 
 
+/// The way of a tip that has come to the rim of the zone, or to a side of the domain, leads beyond,
+/// where no rank has a cell that a piece could belong to.
+template <int dim>
+Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &place) const
+{
+  bool is_cell = true;
+  for (unsigned int v = 0; v < 1u << dim; ++v)
+  {
+    Place<dim> corner = place;
+    for (unsigned int d = 0; d < dim; ++d)
+      corner[d] += v >> d & 1;
+    is_cell = is_cell && zone.find(corner) != dealii::numbers::invalid_unsigned_int;
+  }
+  if (is_cell)
+    return place;
+  const auto distance = [&place](const Place<dim> &cell)
+  {
+    int sum = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum += (cell[d] - place[d]) * (cell[d] - place[d]);
+    return sum;
+  };
+  return *std::min_element(zone.cells().begin(), zone.cells().end(),
+                           [&](const Place<dim> &a, const Place<dim> &b)
+                           { return distance(a) < distance(b); });
+}
+
+
 template <int dim>
 void Peridynamics<dim>::follow_paths()
 {
@@ -182,6 +210,7 @@ void Peridynamics<dim>::follow_paths()
       for (unsigned int d = 0; d < dim; ++d)
         cell.place[d] = static_cast<int>(
           std::floor((segment.centre[d] - zone.position(Place<dim>{})[d]) / h + same_place));
+      cell.place = cell_of_zone(cell.place);
       cells.push_back(cell);
       for (unsigned int v = 0; v < 1u << dim; ++v)
       {
@@ -520,6 +549,7 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
     unsigned int, unsigned int) const;                                                       \
   template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;          \
+  template Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &) const;             \
   template void Peridynamics<dim>::follow_paths();                                           \
   template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;     \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
