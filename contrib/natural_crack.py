@@ -9,7 +9,7 @@
 Pollard (1995) and Gu & Weng (2010), and draws the curves. `run` runs the decks prm/natural_crack/<angle>/peridynamics.prm
 with each contrast; what is finished stays as it is. `map` prints what each run has done, the sum of its fluid, and
 draws the map beside the criteria and the fractures. Stresses are in MPa. With --cemented the natural crack holds, and
-takes this share of the rock's energy release rate. Results are in DIR/<open or cemented>/<angle>/<contrast>.
+takes this share of the rock's energy release rate. Results are in DIR/<open or cemented>/<friction and least>/<angle>/<contrast>.
 """
 import argparse
 import math
@@ -79,7 +79,8 @@ def print_criteria(options):
 
 def place(options, angle, contrast):
     kind = "open" if options.cemented is None else f"cemented_{options.cemented:g}"
-    return os.path.join(options.output, kind, str(angle), f"{contrast:g}")
+    rest = f"friction_{options.friction:g}_least_{options.least:g}"
+    return os.path.join(options.output, kind, rest, str(angle), f"{contrast:g}")
 
 
 def finished(directory):
