@@ -97,7 +97,8 @@ private:
   /// Let each rank know which of the sites that it sees are wet.
   void find_wet_sites();
 
-  /// Whether a whole bond feels the fluid: one of its ends is wet.
+  /// Whether a whole bond feels the fluid: one of its ends is wet. Both ends of it, which may be on
+  /// two ranks, have to say the same, so they go by what was broken before this displacement.
   bool feels_fluid(const std::size_t place, const unsigned int bond) const
   {
     return by_fluid != 0. && (is_wet[place] || is_wet[place + strides[bond]]);
