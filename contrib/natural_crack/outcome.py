@@ -17,10 +17,10 @@ SAME = 1e-3                    # places that are nearer are the same [m]
 
 
 class Pieces:
-    """Ends (n, 2, 2), aperture and pressure (n) of the pieces of fracture at a time."""
+    """Ends (n, 2, 2) and aperture (n) of the pieces of fracture at a time."""
 
-    def __init__(self, ends, aperture, pressure):
-        self.ends, self.aperture, self.pressure = np.asarray(ends), np.asarray(aperture), np.asarray(pressure)
+    def __init__(self, ends, aperture):
+        self.ends, self.aperture = np.asarray(ends), np.asarray(aperture)
 
     @classmethod
     def read(cls, directory, time=None):
@@ -28,8 +28,7 @@ class Pieces:
         time, path = vtu.at_time(vtu.series(directory, "fracture"), time)
         grid = vtu.read(path)
         lines, _ = grid.cells(LINE)
-        value = {name: grid.point_data[name][lines].mean(axis=1) for name in ("aperture", "fluid_pressure")}
-        return time, cls(grid.points[lines][:, :, :2], value["aperture"], value["fluid_pressure"])
+        return time, cls(grid.points[lines][:, :, :2], grid.point_data["aperture"][lines].mean(axis=1))
 
     def lengths(self):
         return np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)

@@ -12,6 +12,7 @@
 #include <deal.II/lac/solver_cg.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stockwork
@@ -162,25 +163,38 @@ void ExplicitMarch<dim>::look_at_boundary(const double time)
 
 
 template <int dim>
-void ExplicitMarch<dim>::warn_of_quick_loads(const std::vector<double> &before,
-                                             const std::vector<double> &between)
+void ExplicitMarch<dim>::look_within(const double time, const double dt)
 {
   if (warned_of_quick_loads)
-    return;
-  double off = 0., greatest = 0.;
-  for (unsigned int i = 0; i < loads.size(); ++i)
+    return look_at_boundary(time + dt);
+  using Values = std::array<std::vector<double>, 2>;
+  const auto look = [&](const double t)
   {
-    off = std::max(off, std::abs(between[i] - 0.5 * (before[i] + loads[i])));
-    greatest = std::max({greatest, std::abs(before[i]), std::abs(between[i]), std::abs(loads[i])});
+    look_at_boundary(t);
+    return Values{loads, prescribed};
+  };
+  const Values before = look(time), between = look(time + 0.5 * dt), after = look(time + dt);
+  for (unsigned int k = 0; k < before.size(); ++k)
+  {
+    double off = 0., greatest = 0.;
+    for (unsigned int i = 0; i < before[k].size(); ++i)
+    {
+      off = std::max(off, std::abs(between[k][i] - 0.5 * (before[k][i] + after[k][i])));
+      greatest = std::max(
+        {greatest, std::abs(before[k][i]), std::abs(between[k][i]), std::abs(after[k][i])});
+    }
+    off = system.collectives().max(off);
+    greatest = system.collectives().max(greatest);
+    if (off <= quick_load * greatest)
+      continue;
+    warned_of_quick_loads = true;
+    const std::string what = k == 0 ? "load" : "displacement";
+    run.warn((k == 0 ? "Loads change" : "What moves the boundary changes") +
+             std::string(" within a step of the run: in its middle one is ") +
+             to_string(100. * off / greatest, dimension::number) + " % of the greatest " + what +
+             " off the line from beginning to end, which explicit steps follow. Take shorter ones "
+             "('Time/Initial step').");
   }
-  off = system.collectives().max(off);
-  greatest = system.collectives().max(greatest);
-  warned_of_quick_loads = off > quick_load * greatest;
-  if (warned_of_quick_loads)
-    run.warn("Loads change within a step of the run: in its middle one is " +
-             to_string(100. * off / greatest, dimension::number) +
-             " % of the greatest load off the line from beginning to end, which explicit steps "
-             "follow. Take shorter ones ('Time/Initial step').");
 }
 
 
@@ -296,10 +310,7 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
   set_up();
   look_at_boundary(time);
   const std::vector<double> loads_before = loads;
-  look_at_boundary(time + 0.5 * dt);
-  const std::vector<double> loads_between = loads;
-  look_at_boundary(time + dt);
-  warn_of_quick_loads(loads_before, loads_between);
+  look_within(time, dt);
   u.zero_out_ghost_values();
   take(unknowns.bulk, u);
   take(velocity, v);

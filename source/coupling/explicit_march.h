@@ -69,8 +69,9 @@ private:
   /// What the boundary prescribes at a time, and the loads then.
   void look_at_boundary(double time);
 
-  /// Where the loads of now, and those before and halfway, are on no line. Collective.
-  void warn_of_quick_loads(const std::vector<double> &before, const std::vector<double> &between);
+  /// Where loads, or what moves the boundary, are on no line within a step of the run, which they
+  /// are taken to be. Leaves those of its end. Collective.
+  void look_within(double time, double dt);
 
   /// @throws SolveError where a load acts on what the rock does not hold any more. Collective.
   void refuse_loose_loads() const;

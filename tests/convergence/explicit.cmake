@@ -76,6 +76,10 @@ stockwork_restart_test(NAME convergence/explicit/bridge/restart DECK ${deck}/1/p
 stockwork_case_test(NAME convergence/explicit/notch/quick_load DECK tests/data/explicit_notch.prm
   SET "Time/Initial step=1e-3 s" "Time/Maximum step=1e-3 s"
   WARNS "Loads change within a step of the run" EXPECT "final/energy_balance_error < 1e-10")
+stockwork_case_test(NAME convergence/explicit/notch/quick_side DECK tests/data/explicit_notch.prm
+  SET "Time/Initial step=1e-3 s" "Time/Maximum step=1e-3 s" "Boundary conditions/Normal traction=" "Boundary conditions/Roller=left"
+    "Boundary conditions/Displacement y=top: 1e-6*sin(pi*t/0.9e-3)"
+  WARNS "What moves the boundary changes within a step of the run")
 stockwork_stop_test(NAME convergence/explicit/notch/no_number DECK tests/data/explicit_notch.prm
   SET "Boundary conditions/Normal traction=top: 1e6/t" SAYS "is not a number everywhere")
 # Nothing keeps faces apart, and a notch that is pressed shut is said to overlap.

@@ -182,6 +182,9 @@ endforeach()
 # What bonds across a crack take is the integral of G_c along it, whatever the moduli: 0.8 m (100 + 300) J/m^2.
 stockwork_case_test(NAME convergence/peridynamics/layers/apart DECK tests/data/layers_apart.prm LABELS quick
   EXPECT "final/dissipated_energy = 320 within 1e-9" "final/broken_length = 1.6 within 1e-9")
+# Cement takes its share of that.
+stockwork_case_test(NAME convergence/peridynamics/layers/apart/cement DECK tests/data/layers_apart.prm
+  SET "Fracture/peridynamics/Cohesive energy=0.5" EXPECT "final/dissipated_energy = 160 within 1e-9")
 # A tip that comes to the rim of the zone is said to have, and its way beyond is nobody's.
 stockwork_case_test(NAME convergence/peridynamics/layers/apart/rim DECK tests/data/layers_apart.prm
   SET "Cracks/Cohesive=0.3 m, -0.3 m -> 1.2 m, 0.1586 m"

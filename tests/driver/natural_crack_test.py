@@ -89,7 +89,7 @@ class WhatHasHappened(unittest.TestCase):
     def outcome(self, *groups):
         pieces = [piece for group in groups for piece in group]
         ends, apertures = zip(*pieces)
-        return outcome.Outcome(outcome.Pieces(ends, apertures, apertures), 90.)
+        return outcome.Outcome(outcome.Pieces(ends, apertures), 90.)
 
     def natural(self, aperture):
         return line((1.7, -1.4), (1.7, 1.4), 15, aperture)

@@ -370,7 +370,7 @@ std::vector<TrackedPaths::Meeting> TrackedPaths::meetings() const
     for (const unsigned int side : {0u, 1u})
     {
       const Growth &growth = paths[p].ends[side];
-      if (!growth.joined || growth.n_points == 0)
+      if (!has_met({p, side}))
         continue;
       const Joint joint{growth.joined_path, growth.joined_arc};
       Meeting meeting{{p, side}, point(joint), left(joint), {}};

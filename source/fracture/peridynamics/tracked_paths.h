@@ -129,6 +129,12 @@ public:
 
   std::vector<Meeting> meetings() const;
 
+  /// Whether the way of an end has met another path.
+  bool has_met(const End &end) const
+  {
+    return at(end).joined && at(end).n_points > 0;
+  }
+
   /// Beyond a path that has been met, another one begins, with a piece in this direction. If one
   /// has begun there before it is forgotten.
   void begin_beyond(const Meeting &meeting, const dealii::Tensor<1, 2> &direction);

@@ -364,14 +364,11 @@ bool Peridynamics<dim>::advance_tips()
 {
   const auto energy = energy_across_ways();
   const double h = zone.spacing(), unit = h * scene.rock.main().energy_release_rate;
-  const auto meetings = paths.meetings();
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
     {
       const double by_energy = h * rounded(energy[end.path][end.side] / unit);
-      const auto has_met = [&](const TrackedPaths::Meeting &meeting)
-      { return meeting.end.path == end.path && meeting.end.side == end.side; };
-      if (std::none_of(meetings.begin(), meetings.end(), has_met))
+      if (!paths.has_met(end))
         return by_energy;
       const double way = paths.way(end), missing = way - h * rounded(energy_of_way(end) / unit);
       if (missing <= 0.)
