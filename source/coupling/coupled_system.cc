@@ -112,7 +112,8 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
                                           Unknowns &current,
                                           const Unknowns &committed,
                                           const Unknowns &rate_reference,
-                                          const Unknowns &acceleration_reference)
+                                          const Unknowns &acceleration_reference,
+                                          const Accuracy accuracy)
 {
   // Essential conditions hold from the start, so that increments satisfy them with zero values.
   auto values = unknowns.owned_vector();
@@ -125,8 +126,10 @@ NonlinearReport CoupledSystem<dim>::solve(const StepContext &context,
   const State state = this->state(current, committed, rate_reference, acceleration_reference);
   assembly.assemble_linear(context, state);
   assembly.assemble_nonlinear(context, state);
-  const NewtonTools<dim> tools{run,     newton_parameters, unknowns,      assembly,
-                               *solver, network,           is_interrupted};
+  const NewtonParameters parameters =
+    accuracy == Accuracy::rough ? newton_parameters.rough() : newton_parameters;
+  const NewtonTools<dim> tools{run,     parameters, unknowns,      assembly,
+                               *solver, network,    is_interrupted};
   return Newton<dim>(tools, context, current, state).solve();
 }
 

@@ -61,7 +61,14 @@ public:
                         Unknowns &current,
                         const Unknowns &committed,
                         const Unknowns &rate_reference,
-                        const Unknowns &acceleration_reference);
+                        const Unknowns &acceleration_reference,
+                        Accuracy accuracy);
+
+  /// Whether rough solutions cost less: systems are solved iteratively.
+  bool gains_by_rough_solutions() const
+  {
+    return !restarts() && solver->wants_hierarchy(unknowns.n_bulk());
+  }
 
   /// Every step starts at the start of the run: 'Coupling/Scheme = as published'.
   bool restarts() const

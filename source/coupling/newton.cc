@@ -42,6 +42,19 @@ void NewtonParameters::parse_parameters(ParameterHandler &prm)
 }
 
 
+NewtonParameters NewtonParameters::rough() const
+{
+  // A growth criterion is a difference of pressure and stress next to a strength: a per cent of it
+  // is 1e-3 to 1e-4 of these.
+  constexpr double enough = 1e-4;
+  NewtonParameters result = *this;
+  result.accuracy = Accuracy::rough;
+  result.tolerance = std::max(tolerance, enough);
+  result.fluid_tolerance = std::max(fluid_tolerance, enough);
+  return result;
+}
+
+
 template <int dim>
 Newton<dim>::Newton(const NewtonTools<dim> &tools,
                     const StepContext &context,
@@ -76,10 +89,10 @@ ResidualNorms Newton<dim>::allowed()
   const ResidualNorms rounding = assembly.rounding_errors(values, context, state);
   ResidualNorms allowed;
   allowed.momentum = allowed.extra = std::max(parameters.tolerance * force, rounding.momentum);
-  allowed.mass = std::max(parameters.tolerance * greatest.mass, rounding.mass);
-  allowed.fracture_fluid =
-    std::max(injected > 0. ? 1e-9 * injected : parameters.tolerance * greatest.fracture_fluid,
-             rounding.fracture_fluid);
+  allowed.mass = std::max(parameters.tolerance * mass_scale(), rounding.mass);
+  allowed.fracture_fluid = std::max(injected > 0. ? parameters.fluid_tolerance * injected
+                                                  : parameters.tolerance * greatest.fracture_fluid,
+                                    rounding.fracture_fluid);
   return allowed;
 }
 
@@ -134,7 +147,7 @@ double Newton<dim>::linear_tolerance(const ResidualNorms &allowed)
   };
   add(norms.momentum, force, allowed.momentum);
   add(norms.extra, force, allowed.extra);
-  add(norms.mass, greatest.mass, allowed.mass);
+  add(norms.mass, mass_scale(), allowed.mass);
   add(norms.fracture_fluid, greatest.fracture_fluid, allowed.fracture_fluid);
   return forcing_term.next(residual, excess, n_halved > 0);
 }

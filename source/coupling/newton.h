@@ -20,10 +20,19 @@
 
 namespace stockwork
 {
+/// What a solution is wanted for: to see whether the fracture grows, or to be kept.
+enum class Accuracy
+{
+  rough,
+  full
+};
+
 /// Subsection "Nonlinear solver".
 struct NewtonParameters
 {
+  Accuracy accuracy = Accuracy::full;
   double tolerance;
+  double fluid_tolerance = 1e-9; ///< of the fluid in fractures, in what is injected in the step
   std::optional<double> pressure_limit; ///< as the deck gives it
   unsigned int max_iterations;
   bool show_iterations;
@@ -31,6 +40,9 @@ struct NewtonParameters
   static void declare_parameters(dealii::ParameterHandler &prm);
 
   void parse_parameters(dealii::ParameterHandler &prm);
+
+  /// Of a solution that is only asked whether the fracture grows.
+  NewtonParameters rough() const;
 };
 
 struct NonlinearReport
@@ -80,6 +92,14 @@ private:
   using Tools = NewtonTools<dim>;
   using Tools::assembly, Tools::is_interrupted, Tools::network, Tools::parameters, Tools::run,
     Tools::solver, Tools::unknowns;
+
+  /// What mass in the pores is compared with. Where fluid goes into fractures, next to nothing of
+  /// it may be on its way in the pores, and a linear system that is not solved exactly leaves more.
+  double mass_scale() const
+  {
+    return parameters.accuracy == Accuracy::rough ? std::max(greatest.mass, injected)
+                                                  : greatest.mass;
+  }
 
   /// The greatest residuals that count as none.
   ResidualNorms allowed();

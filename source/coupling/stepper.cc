@@ -162,10 +162,16 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
   if (system.restarts()) // segments may store more than in the last step
     system.renumber_extra({&current.extra});
 
+  // A fracture that grows is solved for again at once: a rough solution is enough to see that it
+  // does. That it has come to rest is said of a full one.
+  const Accuracy of_looks = model.requirements().may_grow && system.gains_by_rough_solutions()
+                              ? Accuracy::rough
+                              : Accuracy::full;
+  Accuracy accuracy = of_looks;
   for (unsigned int pass = 0; pass < max_passes; ++pass)
   {
     const NonlinearReport solve =
-      system.solve(context, current, before, rate_reference, acceleration_reference);
+      system.solve(context, current, before, rate_reference, acceleration_reference, accuracy);
     report.nonlinear_iterations += solve.iterations;
     report.linear_iterations += solve.linear_iterations;
     if (!solve.converged)
@@ -177,6 +183,13 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
     const auto scope = run.timers.scope("growth");
     const State state = system.state(current, before, rate_reference, acceleration_reference);
     verdict = model.advance(context, state, system.collectives());
+    const bool has_grown = verdict.kind == Verdict::Kind::topology_changed;
+    if (accuracy == Accuracy::rough && !has_grown)
+    {
+      accuracy = Accuracy::full;
+      continue;
+    }
+    accuracy = of_looks;
     switch (verdict.kind)
     {
     case Verdict::Kind::accept:
