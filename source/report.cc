@@ -117,10 +117,18 @@ void Report<dim>::observe_energy(const State &state,
                                  const double not_stored_in_rock,
                                  Values &values)
 {
-  MechanicalEnergy energy = mechanical_energy<dim>(
-    system.mesh_view(), rock, system.nonlinear_rock(), system.loads(),
-    [this](const auto &cell) { return model.role(cell); }, stepper.last_context(), state,
-    system.collectives());
+  MechanicalEnergy energy;
+  if (const ExplicitMarch<dim> *const march = stepper.explicit_march())
+  {
+    // All of the rock is the model's.
+    energy.kinetic = march->kinetic_energy();
+    energy.work = march->work_of_step();
+  }
+  else
+    energy = mechanical_energy<dim>(
+      system.mesh_view(), rock, system.nonlinear_rock(), system.loads(),
+      [this](const auto &cell) { return model.role(cell); }, stepper.last_context(), state,
+      system.collectives());
   if (const OpeningControl<dim> *const control = system.opening_control())
   {
     const unsigned int index = system.index_of_control();
@@ -129,11 +137,6 @@ void Report<dim>::observe_energy(const State &state,
     energy.load = control->force(state.current, index);
     energy.work += 0.5 * (control->force(state.committed, index) + energy.load) *
                    (values["load_displacement"] - before);
-  }
-  if (const ExplicitMarch<dim> *const march = stepper.explicit_march())
-  {
-    energy.kinetic = march->kinetic_energy();
-    energy.work = march->work_of_step();
   }
   external_work += energy.work;
   if (stepper.last_context().acceleration > 0.)

@@ -9,6 +9,8 @@
 
 #include "stockwork/base/error.h"
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -51,6 +53,21 @@ struct Loads
   bool empty() const
   {
     return traction.empty() && normal_traction.empty() && flux.empty();
+  }
+
+  bool constant_in_time() const
+  {
+    const auto is_constant = [](const PrescribedValue<dim> &load) { return load.constant_in_time; };
+    const auto are_constant = [&](const auto &by_side)
+    {
+      return std::all_of(by_side.begin(), by_side.end(),
+                         [&](const auto &side) { return is_constant(side.second); });
+    };
+    return are_constant(normal_traction) && are_constant(flux) &&
+           std::all_of(traction.begin(), traction.end(),
+                       [&](const auto &side) {
+                         return std::all_of(side.second.begin(), side.second.end(), is_constant);
+                       });
   }
 };
 

@@ -127,6 +127,12 @@ public:
     return prescribed_loads;
   }
 
+  /// Whether what the deck says of the boundary is the same at all times.
+  bool boundary_is_constant() const
+  {
+    return prescribed_loads.constant_in_time() && unknowns.boundary_is_constant();
+  }
+
   const dealii::DoFHandler<dim> &bulk_dofs() const
   {
     return unknowns.dof_handler();

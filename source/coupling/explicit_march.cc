@@ -105,6 +105,7 @@ void ExplicitMarch<dim>::set_up()
   work_in_rock = rock->work();
   find_masses();
 
+  looked_at.reset();
   held.clear();
   for (const auto i : mesh.dof_handler.locally_owned_dofs())
     if (mesh.constraints.is_constrained(i))
@@ -143,6 +144,9 @@ unsigned int ExplicitMarch<dim>::n_parts(const double dt)
 template <int dim>
 void ExplicitMarch<dim>::look_at_boundary(const double time)
 {
+  if (looked_at && (*looked_at == time || system.boundary_is_constant()))
+    return;
+  looked_at = time;
   const BlockVector residual = system.residual_at_rest(time);
   BlockVector values = system.owned_vector();
   system.make_conforming(values);
@@ -165,7 +169,7 @@ void ExplicitMarch<dim>::look_at_boundary(const double time)
 template <int dim>
 void ExplicitMarch<dim>::look_within(const double time, const double dt)
 {
-  if (warned_of_quick_loads)
+  if (warned_of_quick_loads || system.boundary_is_constant())
     return look_at_boundary(time + dt);
   using Values = std::array<std::vector<double>, 2>;
   const auto look = [&](const double t)
@@ -308,7 +312,7 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
                                          BlockVector &acceleration)
 {
   set_up();
-  look_at_boundary(time);
+  look_at_boundary(time); // as at the end of the last step, in most cases
   const std::vector<double> loads_before = loads;
   look_within(time, dt);
   u.zero_out_ghost_values();

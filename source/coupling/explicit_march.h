@@ -3,6 +3,8 @@
 #include "coupling/coupled_system.h"
 #include "coupling/time_scheme.h"
 
+#include <optional>
+
 namespace stockwork
 {
 /// Moves rock by explicit steps, Newmark's scheme with beta = 0 (Newmark 1959; with gamma = 1/2
@@ -91,9 +93,10 @@ private:
   ExplicitRock *rock = nullptr; ///< of the mesh that everything below belongs to
   double longest_step = 0.;     ///< [s]
   Vector mass, u, v, a, force;
-  std::vector<unsigned int> held; ///< own unknowns that are prescribed, by local number
-  std::vector<double> prescribed; ///< their values at the time looked at last
-  std::vector<double> loads;      ///< of all own unknowns, likewise [N]
+  std::vector<unsigned int> held;  ///< own unknowns that are prescribed, by local number
+  std::vector<double> prescribed;  ///< their values at the time looked at last
+  std::vector<double> loads;       ///< of all own unknowns, likewise [N]
+  std::optional<double> looked_at; ///< that time, since set_up() [s]
   double kinetic = 0., work = 0., work_before = 0.;
   double work_in_rock = 0.; ///< ExplicitRock::work() at the end of the last step, on this rank
   bool warned_of_quick_loads = false;

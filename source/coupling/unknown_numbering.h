@@ -132,6 +132,12 @@ public:
     return boundary_conditions.controlled_load();
   }
 
+  /// Whether the essential conditions are the same at all times.
+  bool boundary_is_constant() const
+  {
+    return boundary_conditions.constant_in_time();
+  }
+
   dealii::types::global_dof_index n_bulk() const
   {
     return handler.n_dofs();

@@ -36,7 +36,8 @@ stockwork_case_test(NAME convergence/explicit/notch/brittle DECK ${deck} SET "Fr
   EXPECT "final/energy_balance_error < 1e-10" "final/kinetic_energy > 100")
 stockwork_same_test(NAME convergence/explicit/notch.2ranks DECK ${deck} RANKS 1,2 TOLERANCE 1e-9
   IGNORE "balance_error")
-stockwork_restart_test(NAME convergence/explicit/notch/restart DECK ${deck} RANKS 1,2 AFTER 84 TOLERANCE 1e-9
+stockwork_restart_test(NAME convergence/explicit/notch/restart DECK ${deck} RANKS 1,2 TOLERANCE 1e-9
+  INTERRUPT_SET "Time/End time=0.84e-3 s" "Checkpoint/Steps between=84"
   IGNORE "balance_error")
 
 # A strip of PMMA that stores 2.3 G_c forks (Bleyer et al. 2017: from about twice G_c on); with 1.1 G_c one arm runs straight on.
@@ -71,7 +72,8 @@ stockwork_case_test(NAME convergence/explicit/bridge/holds DECK ${deck}/0.45/per
 stockwork_same_test(NAME convergence/explicit/bridge.2ranks DECK ${deck}/1/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=2e-3 s" "Output/Fields=false" RANKS 1,2 TOLERANCE 1e-9 IGNORE "balance_error")
 stockwork_restart_test(NAME convergence/explicit/bridge/restart DECK ${deck}/1/peridynamics.prm
-  SET "Resolution=coarse" "Time/End time=1.6e-3 s" "Output/Fields=false" RANKS 1,2 AFTER 60 TOLERANCE 1e-9 IGNORE "balance_error")
+  SET "Resolution=coarse" "Time/End time=1.6e-3 s" "Output/Fields=false" RANKS 1,2 TOLERANCE 1e-9
+  INTERRUPT_SET "Time/End time=1.2e-3 s" "Checkpoint/Steps between=60" IGNORE "balance_error")
 # The load has a ramp that a step of the run is longer than.
 stockwork_case_test(NAME convergence/explicit/notch/quick_load DECK tests/data/explicit_notch.prm
   SET "Time/Initial step=1e-3 s" "Time/Maximum step=1e-3 s"

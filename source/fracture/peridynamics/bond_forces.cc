@@ -119,6 +119,7 @@ BondForces<dim>::BondForces(const LatticeBox<dim> &box,
     Pair pair;
     pair.by = strides[b];
     pair.per_length = 1. / bonds[b].length;
+    pair.stiffness = bonds[b].stiffness;
     for (unsigned int d = 0; d < dim; ++d)
     {
       pair.direction[d] = bonds[b].direction[d];
@@ -287,6 +288,44 @@ void BondForces<dim>::watch(const LatticeField<dim> &u,
   for (int i = 0; i < n * width; ++i)
     if (of_sites[i] > limit)
       stretched.push_back(first + i);
+}
+
+template <int dim>
+template <typename Value, int n>
+void BondForces<dim>::sweep_energy(const LatticeField<dim> &u,
+                                   const std::size_t first,
+                                   std::vector<double> &energy) const
+{
+  const SitesInARow<dim, Value, n> sites(u, first);
+  const auto &[at, own] = sites;
+  constexpr int width = SitesInARow<dim, Value, n>::width;
+  Value sum[n] = {};
+  for (const Pair &pair : pairs)
+    for (int r = 0; r < n; ++r)
+    {
+      Value of_ahead = {}, of_behind = {};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double *const here = at[d] + r * width;
+        Value ahead, behind;
+        load(ahead, here + pair.by);
+        load(behind, here - pair.by);
+        of_ahead += pair.direction[d] * (ahead - own[d][r]);
+        of_behind += pair.direction[d] * (own[d][r] - behind);
+      }
+      sum[r] += pair.stiffness * (of_ahead * of_ahead + of_behind * of_behind);
+    }
+  for (int r = 0; r < n; ++r)
+    store(0.25 * sum[r], energy.data() + first + r * width);
+}
+
+template <int dim>
+void BondForces<dim>::energies(const LatticeField<dim> &u, std::vector<double> &energy) const
+{
+  for (const Span &row : swept)
+    for_each_block_of(
+      row, [&](const std::size_t site) { sweep_energy<Lanes, n_registers>(u, site, energy); },
+      [&](const std::size_t site) { sweep_energy<double, 1>(u, site, energy); });
 }
 
 template <int dim>

@@ -71,6 +71,9 @@ public:
                 double limit,
                 std::vector<std::size_t> *stretched) const;
 
+  /// Of each site, half of the energy of its bonds, all of them whole; bond-based [J; J/m in 2-D].
+  void energies(const LatticeField<dim> &u, std::vector<double> &energy) const;
+
   /// Stretch of a bond, which must not leave the box.
   double stretch(const LatticeField<dim> &u, const std::size_t site, const unsigned int bond) const;
 
@@ -81,6 +84,7 @@ private:
     std::ptrdiff_t by;                  ///< stride to the neighbour ahead; the other lies behind
     std::array<double, dim> direction;  ///< e
     std::array<double, dim> force;      ///< k e
+    double stiffness;                   ///< k
     std::array<double, dim> dilatation; ///< g e
     double per_length;                  ///< 1/|xi|
   };
@@ -110,6 +114,11 @@ private:
              const double limit,
              LatticeField<dim> &force,
              std::vector<std::size_t> &stretched) const;
+
+  template <typename Value, int n>
+  void sweep_energy(const LatticeField<dim> &u,
+                    const std::size_t first,
+                    std::vector<double> &energy) const;
 
   /// Call @p wide(site) for blocks of sites and @p narrow(site) for what is left of a row.
   template <typename Wide, typename Narrow>

@@ -74,6 +74,16 @@ double BondSet<dim>::damage(const unsigned int site) const
 
 
 template <int dim>
+std::vector<unsigned int> BondSet<dim>::damaged_sites() const
+{
+  std::vector<unsigned int> sites;
+  for (const std::size_t k : broken.sites())
+    sites.push_back(zone->peridynamic_sites()[k]);
+  return sites;
+}
+
+
+template <int dim>
 std::vector<BondPlaces<dim>> BondSet<dim>::places() const
 {
   std::vector<BondPlaces<dim>> result;

@@ -55,6 +55,16 @@ public:
 
   unsigned int n_broken(unsigned int site) const;
 
+  /// Call `use(bond)` for each broken bond of a peridynamic site.
+  template <class Function>
+  void for_each_broken(const unsigned int site, const Function &use) const
+  {
+    broken.for_each(number[site], use);
+  }
+
+  /// Those that have a broken bond, in any order.
+  std::vector<unsigned int> damaged_sites() const;
+
   /// Share of a site's bonds that is broken, by volume.
   double damage(unsigned int site) const;
 

@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/crossed_cells.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stockwork::peridynamics
@@ -15,7 +16,11 @@ void CrossedCells<dim>::reinit(const Zone<dim> &zone,
 {
   this->zone = &zone;
   this->stencil = stencil;
-  this->horizon = horizon;
+  if (this->horizon != horizon)
+  {
+    this->horizon = horizon;
+    find_nearby();
+  }
   cells_at.clear();
   for (unsigned int i = 0; i < cells.size(); ++i)
     zone.for_each_image(cells[i].place, 2 * horizon + 2,
@@ -31,6 +36,40 @@ void CrossedCells<dim>::reinit(const Zone<dim> &zone,
 
 
 template <int dim>
+void CrossedCells<dim>::find_nearby()
+{
+  double longest = 0.;
+  for (const StencilBond<dim> &bond : stencil)
+    longest = std::max(longest, bond.length());
+  // A bond may cross a plane at its end.
+  const double farthest = horizon + 1. + 0.5 * longest;
+  const int reach = static_cast<int>(std::ceil(farthest));
+  unsigned int n_places = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    n_places *= 2 * reach + 1;
+  for (unsigned int halves = 0; halves < nearby.size(); ++halves)
+  {
+    nearby[halves].clear();
+    for (unsigned int k = 0; k < n_places; ++k)
+    {
+      Nearby cell;
+      Tensor<1, dim> away;
+      for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 2 * reach + 1)
+      {
+        cell.offset[d] = static_cast<int>(rest % (2 * reach + 1)) - reach;
+        away[d] = cell.offset[d] + 0.5 - (halves >> d & 1 ? 0.5 : 0.);
+      }
+      cell.distance = away.norm();
+      if (cell.distance <= farthest + same_place)
+        nearby[halves].push_back(cell);
+    }
+    std::stable_sort(nearby[halves].begin(), nearby[halves].end(),
+                     [](const Nearby &a, const Nearby &b) { return a.distance < b.distance; });
+  }
+}
+
+
+template <int dim>
 CellShares
 CrossedCells<dim>::of(const unsigned int site, const unsigned int bond, const bool always) const
 {
@@ -38,15 +77,14 @@ CrossedCells<dim>::of(const unsigned int site, const unsigned int bond, const bo
   if (cells_at.empty())
     return nearest_cells;
   Tensor<1, dim> half, middle; // in spacings
-  Place<dim> first;
-  const int reach = horizon + 2 + horizon / 2;
-  unsigned int n_places = 1;
+  Place<dim> lowest;
+  unsigned int halves = 0;
   for (unsigned int d = 0; d < dim; ++d)
   {
     half[d] = 0.5 * stencil[bond].offset[d];
     middle[d] = zone->sites()[site].place[d] + half[d];
-    first[d] = static_cast<int>(std::floor(middle[d])) - reach;
-    n_places *= 2 * reach + 1;
+    lowest[d] = static_cast<int>(std::floor(middle[d]));
+    halves |= (middle[d] > lowest[d] ? 1u : 0u) << d;
   }
 
   const auto find = [&](const bool crossing)
@@ -82,18 +120,18 @@ CrossedCells<dim>::of(const unsigned int site, const unsigned int bond, const bo
       if (nearest_cells.size() < nearest_cells.capacity())
         nearest_cells.emplace_back(image.cell, 1.);
     };
-    if (cells_at.size() < n_places)
-      for (const auto &[place, image] : cells_at)
-        consider(place, image);
-    else
-      for (unsigned int k = 0; k < n_places; ++k)
-      {
-        Place<dim> place = first;
-        for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 2 * reach + 1)
-          place[d] += rest % (2 * reach + 1);
-        if (const auto found = cells_at.find(place); found != cells_at.end())
-          consider(place, found->second);
-      }
+    // Where a bond crosses a plane is no farther from its middle than its ends.
+    const double from_middle = crossing ? half.norm() : 0.;
+    for (const Nearby &cell : nearby[halves])
+    {
+      if (cell.distance - from_middle > nearest + same_place)
+        break;
+      Place<dim> place = lowest;
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] += cell.offset[d];
+      if (const auto found = cells_at.find(place); found != cells_at.end())
+        consider(place, found->second);
+    }
   };
   find(true);
   if (nearest_cells.empty() && always)

@@ -4,7 +4,9 @@
 #include "fracture/peridynamics/fracture_cells.h"
 
 #include <boost/container/static_vector.hpp>
+#include <boost/functional/hash.hpp>
 
+#include <unordered_map>
 #include <utility>
 
 namespace stockwork::peridynamics
@@ -29,15 +31,27 @@ public:
   CellShares of(unsigned int site, unsigned int bond, bool always) const;
 
 private:
+  void find_nearby();
+
   struct Image
   {
     unsigned int cell;
     dealii::Tensor<1, dim> normal;
   };
 
+  /// A cell about the middle of a bond.
+  struct Nearby
+  {
+    Place<dim> offset; ///< from the place whose components are those of the middle, rounded down
+    double distance;   ///< of the centre from the middle, in spacings
+  };
+
   const Zone<dim> *zone = nullptr;
   std::vector<StencilBond<dim>> stencil;
   unsigned int horizon = 0;
-  std::map<Place<dim>, Image> cells_at; ///< by the place of the cell or of the image
+  /// By the place of the cell or of the image.
+  std::unordered_map<Place<dim>, Image, boost::hash<Place<dim>>> cells_at;
+  /// The nearest first. Bit d of the index: in direction d the middle is half-way between places.
+  std::array<std::vector<Nearby>, 1 << dim> nearby;
 };
 } // namespace stockwork::peridynamics

@@ -58,6 +58,16 @@ ExplicitBonds<dim>::ExplicitBonds(
 
 
 template <int dim>
+std::size_t ExplicitBonds<dim>::place_of(const unsigned int site) const
+{
+  std::array<int, dim> offset;
+  for (unsigned int d = 0; d < dim; ++d)
+    offset[d] = zone.sites()[site].place[d] - corner[d];
+  return box.stride(offset);
+}
+
+
+template <int dim>
 void ExplicitBonds<dim>::find_box()
 {
   int reach = 0;
@@ -81,13 +91,6 @@ void ExplicitBonds<dim>::find_box()
     box.size[d] = own_sites.empty() ? 0 : upper[d] - corner[d] + 1;
   for (const StencilBond<dim> &bond : stencil)
     strides.push_back(box.stride(bond.offset));
-  const auto place_of = [&](const unsigned int site)
-  {
-    std::array<int, dim> offset;
-    for (unsigned int d = 0; d < dim; ++d)
-      offset[d] = zone.sites()[site].place[d] - corner[d];
-    return static_cast<std::size_t>(box.stride(offset));
-  };
   std::sort(own_sites.begin(), own_sites.end(),
             [&](const unsigned int i, const unsigned int j) { return place_of(i) < place_of(j); });
   number.assign(box.n_sites(), unlisted);
@@ -232,18 +235,17 @@ void ExplicitBonds<dim>::add_listed_force(Listed &site, const bool breaks)
     if (bond.stiffness == 0.)
       continue;
     const BondCoefficients<dim> &whole = coefficients[b];
-    double elongation = 0.;
-    for (unsigned int d = 0; d < dim; ++d)
-      elongation += whole.direction[d] * (u[d][place + strides[b]] - u[d][place]);
+    const double elongation = elongation_at(place, b);
     // The pressure of the fluid is worth this elongation, see pressure_in_bonds.cc.
     const double of_fluid = bond.by_fluid * whole.length;
-    const double damage_before = bond.greatest > 0. ? softening.damage(bond.greatest) : 0.;
+    const double damage_before = this->damage(bond);
     const double effective =
       elongation + (damage_before > 0. || feels_fluid(place, b) ? of_fluid : 0.);
     const double stretch = bond.amplification * effective / whole.length;
     double damage = damage_before;
-    if (breaks && stretch > softening.first && stretch > bond.greatest)
+    if (breaks && damage < 1. && stretch > softening.first && stretch > bond.greatest)
     {
+      site.has_changed = true;
       bond.greatest = stretch;
       damage = softening.damage(stretch);
     }
@@ -312,7 +314,7 @@ std::vector<unsigned int> ExplicitBonds<dim>::detached() const
         const double stiffness =
           bond.stiffness * coefficients[b].direction[d] * coefficients[b].direction[d];
         all += stiffness;
-        left += stiffness * (bond.greatest > 0. ? 1. - softening.damage(bond.greatest) : 1.);
+        left += stiffness * (1. - damage(bond));
       }
       if (left < hardly * all)
         result.push_back(own_unknowns[site.own][d]);
@@ -337,13 +339,48 @@ double ExplicitBonds<dim>::stored_by_fluid() const
 
 
 template <int dim>
-std::vector<typename ExplicitBonds<dim>::Softened> ExplicitBonds<dim>::softened() const
+double ExplicitBonds<dim>::stored() const
 {
-  std::vector<Softened> result;
+  std::vector<double> of_site(box.n_sites());
+  kernel->energies(u, of_site);
+  double stored = 0.;
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+    if (list_of[k] >= never_listed)
+      stored += zone.sites()[own_sites[k]].share * of_site[own_places[k]];
+  // Half of a bond belongs to each end.
   for (const Listed &site : listed)
     for (unsigned int b = 0; b < stencil.size(); ++b)
-      if (site.bonds[b].stiffness > 0. && site.bonds[b].greatest > softening.first)
-        result.push_back({own_sites[site.own], b, site.bonds[b].greatest});
+      if (const Bond &bond = site.bonds[b]; bond.stiffness > 0.)
+        stored += 0.25 * zone.sites()[own_sites[site.own]].share * (1. - damage(bond)) *
+                  bond.stiffness * std::pow(elongation_at(own_places[site.own], b), 2);
+  return stored;
+}
+
+
+template <int dim>
+double ExplicitBonds<dim>::elongation(const unsigned int site, const unsigned int bond) const
+{
+  return elongation_at(place_of(site), bond);
+}
+
+
+template <int dim>
+std::vector<typename ExplicitBonds<dim>::Softened> ExplicitBonds<dim>::take_changes()
+{
+  std::vector<Softened> result;
+  for (Listed &site : listed)
+  {
+    if (!site.has_changed)
+      continue;
+    site.has_changed = false;
+    for (unsigned int b = 0; b < stencil.size(); ++b)
+      if (Bond &bond = site.bonds[b];
+          bond.stiffness > 0. && bond.greatest > std::max(bond.told, softening.first))
+      {
+        result.push_back({own_sites[site.own], b, bond.greatest});
+        bond.told = bond.greatest;
+      }
+  }
   return result;
 }
 

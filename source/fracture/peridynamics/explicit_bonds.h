@@ -30,6 +30,7 @@ public:
                           ///< it never breaks
     double greatest = 0.; ///< stretch so far, of such a bond
     double by_fluid = 0.; ///< stretch that the pressure in the cracks makes good for
+    double told = 0.;     ///< `greatest` when changes were asked for the last time
   };
 
   /// @param by_fluid stretch that the pressure in the cracks makes good for, of a bond of the
@@ -68,8 +69,15 @@ public:
     }
   };
 
-  /// Of this rank's sites, each seen from each of its ends here.
-  std::vector<Softened> softened() const;
+  /// Of this rank's sites, each seen from each of its ends here, those that have softened, or
+  /// broken, since the last call.
+  std::vector<Softened> take_changes();
+
+  /// Of a bond of one of this rank's sites, by the last displacement [m].
+  double elongation(unsigned int site, unsigned int bond) const;
+
+  /// In what of the bonds holds, by the last displacement, on this rank's sites [J; J/m in 2-D].
+  double stored() const;
 
   /// By this rank's sites, since the start [J; J/m in 2-D].
   double dissipated() const
@@ -86,7 +94,25 @@ private:
   {
     unsigned int own; ///< number among the own sites
     std::vector<Bond> bonds;
+    bool has_changed = true; ///< since changes were asked for
   };
+
+  /// In the box.
+  std::size_t place_of(unsigned int site) const;
+
+  double elongation_at(std::size_t place, unsigned int bond) const
+  {
+    double sum = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum += coefficients[bond].direction[d] * (u[d][place + strides[bond]] - u[d][place]);
+    return sum;
+  }
+
+  /// 0: whole, 1: broken.
+  double damage(const Bond &bond) const
+  {
+    return bond.greatest > 0. ? softening.damage(bond.greatest) : 0.;
+  }
 
   void find_box();
   void find_sources();

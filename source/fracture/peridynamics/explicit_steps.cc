@@ -84,24 +84,26 @@ double Peridynamics<dim>::stretch_of_given_pressure() const
 
 
 template <int dim>
-void Peridynamics<dim>::open_explicit_bonds()
+void Peridynamics<dim>::open_explicit_bonds(const Collectives &collectives)
 {
-  crossed.reinit(zone, stencil, cells, parameters.horizon);
   std::vector<double> volumes(cells.size(), 0.);
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
-      if (bonds.is_broken(i, b))
-      {
-        // Half of a bond belongs to each end.
-        const double length = coefficients[b].length, modulus = rock_of_bonds.modulus(i, b),
-                     effective = elongation(i, b, displacement) +
-                                 stretch_of_given_pressure() / modulus * length,
-                     volume = 0.5 * zone.sites()[i].share * uncorrected_stiffness(i, b) * length *
-                              effective * strain_of_pressure;
-        for (const auto &[cell, share] : crossed.of(i, b, true))
-          volumes[cell] += share * volume;
-      }
-  for (unsigned int k = 0; k < owned_cells.size(); ++k)
+  for (const unsigned int i : bonds.damaged_sites())
+    if (zone.sites()[i].owner == rank)
+      bonds.for_each_broken(
+        i,
+        [&](const unsigned int b)
+        {
+          // Half of a bond belongs to each end.
+          const double length = coefficients[b].length, modulus = rock_of_bonds.modulus(i, b),
+                       effective = explicit_bonds->elongation(i, b) +
+                                   stretch_of_given_pressure() / modulus * length,
+                       volume = 0.5 * zone.sites()[i].share * uncorrected_stiffness(i, b) * length *
+                                effective * strain_of_pressure;
+          for (const auto &[cell, share] : crossed.of(i, b, true))
+            volumes[cell] += share * volume;
+        });
+  collectives.sum(volumes);
+  for (unsigned int k = 0; k < owned_segments.size(); ++k)
   {
     // What it does to the rock, bonds do.
     owned_segments[k].opening = LinearFunctional();
@@ -111,45 +113,62 @@ void Peridynamics<dim>::open_explicit_bonds()
 
 
 template <int dim>
-bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collectives &collectives)
+bool Peridynamics<dim>::take_explicit_changes(const Collectives &collectives)
 {
-  dissipated = energy_before_explicit + collectives.sum(explicit_bonds->dissipated());
   std::map<BondView, double> greatest;
-  for (const auto &[site, bond, stretch] : collectives.gather(explicit_bonds->softened()))
+  for (const auto &[site, bond, stretch] : collectives.gather(explicit_bonds->take_changes()))
   {
     double &known = greatest[views_of(site, bond).front()];
     known = std::max(known, stretch);
   }
-  softening_bonds.clear();
+  if (greatest.empty())
+    return false;
+  std::map<BondView, SofteningBond> softened;
+  for (const SofteningBond &bond : softening_bonds)
+    softened[bond.view] = bond;
   bool changed = false;
   for (const auto &[view, stretch] : greatest)
   {
     const auto &[site, bond] = view;
     if (stretch >= softening.last)
     {
+      softened.erase(view);
       changed = changed || !bonds.is_broken(site, bond);
       bonds.set_broken(site, bond);
       cracked.set_broken(site, bond);
       continue;
     }
-    SofteningBond softened;
-    softened.view = view;
-    softened.committed = softened.trial = stretch;
-    softening_bonds.push_back(softened);
-    if (!cracked.is_broken(site, bond) && lets_fluid_in(softened))
+    SofteningBond &soft = softened[view];
+    soft.view = view;
+    soft.committed = soft.trial = stretch;
+    if (!cracked.is_broken(site, bond) && lets_fluid_in(soft))
     {
       cracked.set_broken(site, bond);
       changed = true;
     }
   }
-  passes = 1; // what commit() keeps is new
+  softening_bonds.clear();
+  for (const auto &[view, bond] : softened)
+    softening_bonds.push_back(bond);
+  return changed;
+}
+
+
+template <int dim>
+bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collectives &collectives)
+{
+  dissipated = energy_before_explicit + collectives.sum(explicit_bonds->dissipated());
+  const bool changed = take_explicit_changes(collectives);
   if (changed)
+  {
     refresh_segments();
+    passes = 1; // what commit() keeps is new
+  }
   if (stretch_of_given_pressure() == 0.)
     return changed;
-  stored_by_fluid = collectives.sum(explicit_bonds->stored_by_fluid());
-  displacement = zone.displacement(state.current.bulk, collectives);
-  open_explicit_bonds();
+  if (changed)
+    crossed.reinit(zone, stencil, cells, parameters.horizon);
+  open_explicit_bonds(collectives);
   warn_of_pressure(state);
   return true;
 }
@@ -158,7 +177,8 @@ bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collecti
   template void Peridynamics<dim>::check_explicit_steps() const;               \
   template void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &); \
   template double Peridynamics<dim>::stretch_of_given_pressure() const;        \
-  template void Peridynamics<dim>::open_explicit_bonds();                      \
+  template void Peridynamics<dim>::open_explicit_bonds(const Collectives &);   \
+  template bool Peridynamics<dim>::take_explicit_changes(const Collectives &); \
   template bool Peridynamics<dim>::follow_explicit_bonds(const State &, const Collectives &);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -165,9 +165,6 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
 {
   const auto half_bond = [&](const unsigned int i, const unsigned int b)
   {
-    // Explicit steps need nothing that holds a site which has lost its bonds.
-    if (parameters.explicit_steps && bonds.is_broken(i, b))
-      return 0.;
     const double stretched = elongation(i, b, u);
     return 0.25 * zone.sites()[i].share * stiffness(i, b) * stretched * stretched;
   };

@@ -43,6 +43,25 @@ double sum_of_components(const Tensor<1, dim> &normal)
   return sum;
 }
 
+/// The places of the cells that have one of these sites at a corner, in their order. There may be
+/// no cell.
+template <int dim>
+std::vector<Place<dim>> cells_at(const Zone<dim> &zone, const std::vector<unsigned int> &sites)
+{
+  std::vector<Place<dim>> places;
+  for (const unsigned int i : sites)
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+    {
+      Place<dim> place = zone.sites()[i].place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] -= static_cast<int>(v >> d & 1);
+      places.push_back(place);
+    }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
 /// Planes of symmetry that a cell lies at; beyond them the fracture goes on.
 template <int dim>
 unsigned int planes_at(const Zone<dim> &zone, const Place<dim> &cell)
@@ -85,10 +104,16 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
   constexpr unsigned int enough = dim == 2 ? 2 : 7;
   std::vector<FractureCell<dim>> cells;
   std::array<unsigned int, n_corners> site;
-  for (const Place<dim> &place : zone.cells())
+  for (const Place<dim> &place : cells_at(zone, bonds.damaged_sites()))
   {
+    bool is_inside = true;
     for (unsigned int v = 0; v < n_corners; ++v)
+    {
       site[v] = zone.find(corner<dim>(place, v));
+      is_inside = is_inside && site[v] != none && zone.sites()[site[v]].peridynamic;
+    }
+    if (!is_inside)
+      continue;
     const auto for_each_own = [&](const auto &use)
     {
       for (unsigned int v = 0; v < n_corners; ++v)

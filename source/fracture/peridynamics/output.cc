@@ -48,7 +48,8 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   }
   result.dissipated_energy = dissipated;
   result.stored_energy =
-    strain_energy(zone.displacement(state.current.bulk, collectives)) + stored_by_fluid;
+    explicit_bonds ? collectives.sum(explicit_bonds->stored() + explicit_bonds->stored_by_fluid())
+                   : strain_energy(zone.displacement(state.current.bulk, collectives));
   result.cost = cost();
   return result;
 }
@@ -151,10 +152,12 @@ void Peridynamics<dim>::write_bonds(FieldSink<dim> &sink) const
           (parameters.written == Parameters<dim>::Bonds::broken && !broken))
         continue; // seen from the other end
       const Point<dim> from = zone.position(zone.sites()[i].place);
-      const double stretch = displacement.size() == dim * zone.sites().size()
-                               ? elongation(i, b, displacement) / coefficients[b].length /
-                                   critical_stretch / relative_stretch(i, b)
-                               : 0.;
+      const double longer = explicit_bonds ? explicit_bonds->elongation(i, b)
+                            : displacement.size() == dim * zone.sites().size()
+                              ? elongation(i, b, displacement)
+                              : 0.;
+      const double stretch =
+        longer / coefficients[b].length / critical_stretch / relative_stretch(i, b);
       sink.add_bond(from, from + coefficients[b].length * coefficients[b].direction,
                     {{"broken", broken ? 1. : 0.}, {"stretch", stretch}});
     }

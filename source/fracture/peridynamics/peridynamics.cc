@@ -196,9 +196,8 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     make_explicit_bonds(mesh_view);
   if (explicit_bonds && stretch_of_given_pressure() != 0.)
   {
-    displacement.assign(dim * zone.sites().size(), 0.); // until the next step
-    stored_by_fluid = collectives.sum(explicit_bonds->stored_by_fluid());
-    open_explicit_bonds();
+    crossed.reinit(zone, stencil, cells, parameters.horizon);
+    open_explicit_bonds(collectives);
   }
 }
 
@@ -208,7 +207,7 @@ void Peridynamics<dim>::refresh_segments()
 {
   const std::vector<double> damage_before = damage, corrected_before = corrected_damage;
   damage.assign(zone.sites().size(), 0.);
-  for (const unsigned int i : zone.peridynamic_sites())
+  for (const unsigned int i : bonds.damaged_sites())
     damage[i] = bonds.damage(i);
   if (parameters.surface_correction)
   {
@@ -277,7 +276,8 @@ void Peridynamics<dim>::refresh_segments()
   }
   if (parameters.in_bonds)
     open_by_bonds();
-  find_changed_rows(damage_before, corrected_before, cells_before);
+  if (!parameters.explicit_steps) // there is no matrix
+    find_changed_rows(damage_before, corrected_before, cells_before);
 }
 
 

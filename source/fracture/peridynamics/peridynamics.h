@@ -447,12 +447,16 @@ private:
   /// a uniform stress.
   double stretch_of_given_pressure() const;
 
-  /// Bonds are what they have become.
+  /// The fracture is what bonds have become.
   /// @return whether segments are others than before
   bool follow_explicit_bonds(const State &state, const Collectives &collectives);
 
-  /// Apertures are what broken bonds enclose, by `displacement`.
-  void open_explicit_bonds();
+  /// Bonds are what they have become.
+  /// @return whether others are broken, or let fluid in, than before
+  bool take_explicit_changes(const Collectives &collectives);
+
+  /// Apertures are what broken bonds enclose.
+  void open_explicit_bonds(const Collectives &collectives);
 
   /// The bonds of cells of this size [m].
   void set_law(double spacing);
@@ -595,7 +599,6 @@ private:
   std::vector<std::string> messages;
   RowVersions row_versions;                           ///< by whole bonds and cells' normals
   std::unique_ptr<ExplicitBonds<dim>> explicit_bonds; ///< null: steps are not explicit
-  double stored_by_fluid = 0.;                        ///< in broken explicit bonds [J; J/m in 2-D]
   double energy_before_explicit = 0.;                 ///< dissipated before they were made [J/m]
 
   // Committed.
