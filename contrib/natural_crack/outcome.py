@@ -50,9 +50,11 @@ class Outcome:
         for group in self._groups(np.flatnonzero(~natural)):
             self.parts[group] = self._part(group, off)
         lengths = pieces.lengths()
-        of = {name: lengths[self.parts == name].sum() for name in ("fracture", "beyond", "tips")}
+        # Cells may be cut and hold.
+        is_open = pieces.aperture > LEAST_APERTURE
+        of = {name: lengths[(self.parts == name) & is_open].sum() for name in ("fracture", "beyond", "tips")}
         self.beyond, self.tips = of["beyond"], of["tips"]
-        self.opened = lengths[natural & (pieces.aperture > LEAST_APERTURE)].sum()
+        self.opened = lengths[natural & is_open].sum()
         fracture = pieces.ends[self.parts == "fracture"].reshape(-1, 2) - np.array([MIDDLE, 0.])
         self.arrived = bool((np.abs(fracture @ np.array([-along[1], along[0]])) < SAME).any())
 
