@@ -2,16 +2,18 @@
 """A hydraulic fracture meets a natural crack: published criteria, runs over angle and contrast of stress, the map.
 
     contrib/natural_crack.py criteria [--friction 0.6] [--least 1] [--strength 1.48] [--output DIR]
-    contrib/natural_crack.py run      [--angles 30 45 60 90] [--contrasts 0 1 2 4] [--cemented SHARE] [--output DIR] [--set ...]
+    contrib/natural_crack.py run      [--model peridynamics cohesive_xfem] [--angles 30 45 60 90] [--contrasts 0 1 2 4]
+                                      [--cemented SHARE] [--output DIR] [--set ...]
     contrib/natural_crack.py map      [the same]
 
 `criteria` prints the least contrast of stress with which the natural crack is crossed after Blanton (1982), Renshaw &
-Pollard (1995) and Gu & Weng (2010), and draws the curves. `run` runs the decks prm/natural_crack/<angle>/peridynamics.prm
+Pollard (1995) and Gu & Weng (2010), and draws the curves. `run` runs the decks prm/natural_crack/<angle>/<model>.prm
 with each contrast; what is finished stays as it is. `map` prints what each run has done, the sum of its fluid, and
-draws the map beside the criteria and the fractures. Stresses are in MPa. With --cemented the natural crack holds, and
-takes this share of the rock's energy release rate. Results are in DIR/<open or cemented>/<friction and least>/<angle>/<contrast>.
+draws the map, both models beside the criteria, and the fractures. Stresses are in MPa. With --cemented the natural crack holds, and
+takes this share of the rock's energy release rate. Results are in DIR/<model>/<open or cemented>/<friction and least>/<angle>/<contrast>.
 """
 import argparse
+import itertools
 import math
 import os
 import subprocess
@@ -30,6 +32,7 @@ from natural_crack import criteria, outcome  # noqa: E402
 from results import ResultError, read_statistics, read_summary, script  # noqa: E402
 
 ANGLES = (30, 45, 60, 90)
+MODELS = {"peridynamics": ("bonds", -1.3, 10), "cohesive_xfem": ("cut cells", 1.3, 6)}  # name, place on the map, size
 SIGNS = {"crosses": ("^", "tab:green"), "both": ("D", "tab:olive"), "turns": ("s", "tab:orange"),
          "stops": ("o", "tab:red"), "not there": ("x", "0.5")}
 
@@ -77,10 +80,10 @@ def print_criteria(options):
     return 0
 
 
-def place(options, angle, contrast):
+def place(options, model, angle, contrast):
     kind = "open" if options.cemented is None else f"cemented_{options.cemented:g}"
     rest = f"friction_{options.friction:g}_least_{options.least:g}"
-    return os.path.join(options.output, kind, rest, str(angle), f"{contrast:g}")
+    return os.path.join(options.output, model, kind, rest, str(angle), f"{contrast:g}")
 
 
 def finished(directory):
@@ -90,38 +93,37 @@ def finished(directory):
         return False
 
 
-def settings(options, deck, contrast):
+def settings(options, model, deck, contrast):
     """What differs from the deck."""
     entries = [f"In situ/Stress={-(options.least + contrast):g} MPa, {-options.least:g} MPa",
-               f"Fracture/peridynamics/Friction coefficient={options.friction:g}"]
+               f"Fracture/{model}/Friction coefficient={options.friction:g}"]
     if options.cemented is not None:
         cracks = [line.split("=")[1] for line in open(deck, encoding="utf-8") if line.strip().startswith("set Open")][0]
         notch, natural = cracks.strip().split(";")
         entries += [f"Cracks/Open={notch}", f"Cracks/Cohesive={natural}",
-                    f"Fracture/peridynamics/Cohesive energy={options.cemented:g}"]
+                    f"Fracture/{model}/Cohesive energy={options.cemented:g}"]
     return entries + options.set
 
 
 def run(options):
     failed = 0
-    for angle in options.angles:
-        for contrast in options.contrasts:
-            directory = place(options, angle, contrast)
-            if finished(directory):
-                print(f"{directory}: finished before")
-                continue
-            os.makedirs(directory, exist_ok=True)
-            deck = os.path.join(ROOT, "prm", "natural_crack", str(angle), "peridynamics.prm")
-            part = os.path.join(ROOT, "prm", "cases", "natural_crack", f"{angle}.part.prm")
-            command = [options.program, deck, "--output", directory, "--set", "Resolution=coarse"]
-            for setting in settings(options, part, contrast):
-                command += ["--set", setting]
-            log_path = os.path.join(directory, "log")
-            with open(log_path, "w", encoding="utf-8") as log:
-                status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False,
-                                        stdin=subprocess.DEVNULL, env=dict(os.environ, OMP_NUM_THREADS="1")).returncode
-            print(f"{directory}: " + ("finished" if status == 0 else f"exit status {status}, see {log_path}"), flush=True)
-            failed += status != 0
+    for model, angle, contrast in itertools.product(options.model, options.angles, options.contrasts):
+        directory = place(options, model, angle, contrast)
+        if finished(directory):
+            print(f"{directory}: finished before")
+            continue
+        os.makedirs(directory, exist_ok=True)
+        deck = os.path.join(ROOT, "prm", "natural_crack", str(angle), f"{model}.prm")
+        part = os.path.join(ROOT, "prm", "cases", "natural_crack", f"{angle}.part.prm")
+        command = [options.program, deck, "--output", directory, "--set", "Resolution=coarse"]
+        for setting in settings(options, model, part, contrast):
+            command += ["--set", setting]
+        log_path = os.path.join(directory, "log")
+        with open(log_path, "w", encoding="utf-8") as log:
+            status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False,
+                                    stdin=subprocess.DEVNULL, env=dict(os.environ, OMP_NUM_THREADS="1")).returncode
+        print(f"{directory}: " + ("finished" if status == 0 else f"exit status {status}, see {log_path}"), flush=True)
+        failed += status != 0
     return 1 if failed else 0
 
 
@@ -140,46 +142,55 @@ def draw_fracture(ax, found, angle):
     ax.set_yticks([])
 
 
-def draw_map(options):
-    figure, ax = plt.subplots(figsize=(7., 5.), layout="constrained")
+def draw_ways(options, model, ax):
+    """The fractures of a model, each in a panel, and its signs on the map."""
+    name_of_model, aside, size = MODELS[model]
     ways, axes = plt.subplots(len(options.contrasts), len(options.angles), squeeze=False, layout="constrained",
                               figsize=(2.2 * len(options.angles), 2.2 * len(options.contrasts)))
-    draw_curves(options, ax)
-    shown = set()
-    for column, angle in enumerate(options.angles):
-        for row, contrast in enumerate(sorted(options.contrasts, reverse=True)):
-            directory = place(options, angle, contrast)
-            panel = axes[row, column]
-            panel.set_title(f"{angle}°, {contrast:g} MPa", fontsize=9)
-            try:
-                table, summary = read_statistics(directory), read_summary(directory)
-            except ResultError as error:
-                print(f"{angle} degrees, {contrast:g} MPa: {error}")
-                continue
+    for (row, contrast), (column, angle) in itertools.product(enumerate(sorted(options.contrasts, reverse=True)),
+                                                              enumerate(options.angles)):
+        directory = place(options, model, angle, contrast)
+        panel = axes[row, column]
+        panel.set_title(f"{angle}°, {contrast:g} MPa", fontsize=9)
+        at = f"{name_of_model}, {angle} degrees, {contrast:g} MPa: "
+        try:
+            table, summary = read_statistics(directory), read_summary(directory)
             time, pieces = outcome.Pieces.read(directory)
-            found = outcome.Outcome(pieces, angle)
-            name = found.name()
-            wanted = table["injected_volume"][-1]
-            missing = (table["fracture_volume"][-1] + table["leaked_volume"][-1]) / wanted - 1.
-            print(f"{angle} degrees, {contrast:g} MPa: {name}; beyond {found.beyond:.2f} m, natural crack open {found.opened:.2f} m, "
-                  f"grown at its ends {found.tips:.2f} m; {time:g} s, inlet {1e-6 * table['inlet_pressure'][-1]:.3f} MPa; fractures and "
-                  f"leak-off over injected, less 1: {missing:.1e}; {summary.get('status')}")
-            marker, color = SIGNS[name]
-            ax.plot(angle, contrast / options.strength, marker, color=color, ms=10, zorder=5, mec="black",
-                    label=None if name in shown else f"bonds: {name}")
-            shown.add(name)
-            draw_fracture(panel, found, angle)
-    ax.legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(1., 1.))
+        except ResultError as error:
+            print(f"{at}{error}")
+            continue
+        found = outcome.Outcome(pieces, angle)
+        name = found.name()
+        wanted = table["injected_volume"][-1]
+        missing = (table["fracture_volume"][-1] + table["leaked_volume"][-1]) / wanted - 1.
+        print(f"{at}{name}; beyond {found.beyond:.2f} m, natural crack open {found.opened:.2f} m, "
+              f"grown at its ends {found.tips:.2f} m; {time:g} s, inlet {1e-6 * table['inlet_pressure'][-1]:.3f} MPa; fractures and "
+              f"leak-off over injected, less 1: {missing:.1e}; {summary.get('status')}")
+        marker, color = SIGNS[name]
+        ax.plot(angle + aside, contrast / options.strength, marker, color=color, ms=size, zorder=5, mec="black")
+        draw_fracture(panel, found, angle)
+    return ways
+
+
+def draw_map(options):
+    figure, ax = plt.subplots(figsize=(7., 5.), layout="constrained")
+    draw_curves(options, ax)
     kind = "open" if options.cemented is None else f"cemented_{options.cemented:g}"
     os.makedirs(options.output, exist_ok=True)
+    for model in options.model:
+        save(draw_ways(options, model, ax), os.path.join(options.output, f"ways_{model}_{kind}.png"))
+    for name, (marker, color) in SIGNS.items():
+        ax.plot([], [], marker, color=color, ms=8, mec="black", label=name)
+    names = [f"{side} sign: {MODELS[model][0]}" for side, model in zip(("left, large", "right, small"), MODELS) if model in options.model]
+    ax.legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(1., 1.), title="\n".join(names), title_fontsize=8)
     save(figure, os.path.join(options.output, f"map_{kind}.png"))
-    save(ways, os.path.join(options.output, f"ways_{kind}.png"))
     return 0
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", choices=("criteria", "run", "map"))
+    parser.add_argument("--model", nargs="+", choices=MODELS, default=list(MODELS))
     parser.add_argument("--angles", type=int, nargs="+", choices=ANGLES, default=list(ANGLES))
     parser.add_argument("--contrasts", type=float, nargs="+", default=[0., 1., 2., 4.], metavar="MPA")
     parser.add_argument("--least", type=positive, default=1., metavar="MPA", help="compression across the fracture's way")

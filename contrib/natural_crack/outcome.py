@@ -43,14 +43,18 @@ class Outcome:
         away = pieces.ends - np.array([MIDDLE, 0.])
         off = away @ np.array([-along[1], along[0]])
         self.place = away @ along  # along the natural crack, of both ends
-        natural = (np.abs(off) < SAME).all(axis=1) & (np.abs(self.place) < HALF_LENGTH + SAME).all(axis=1)
+        # By the middle, for cracks that cut cells end between two of them, half of a piece from where the deck has it.
+        natural = (np.abs(off) < SAME).all(axis=1) & (np.abs(self.place.mean(axis=1)) < HALF_LENGTH + SAME)
         self.parts = np.where(natural, "natural crack", "")
+        self.extent = self.place[natural].min(), self.place[natural].max()
         for group in self._groups(np.flatnonzero(~natural)):
             self.parts[group] = self._part(group, off)
         lengths = pieces.lengths()
-        of = {name: lengths[self.parts == name].sum() for name in ("fracture", "beyond", "tips")}
+        # Cells may be cut and hold.
+        is_open = pieces.aperture > LEAST_APERTURE
+        of = {name: lengths[(self.parts == name) & is_open].sum() for name in ("fracture", "beyond", "tips")}
         self.beyond, self.tips = of["beyond"], of["tips"]
-        self.opened = lengths[natural & (pieces.aperture > LEAST_APERTURE)].sum()
+        self.opened = lengths[natural & is_open].sum()
         fracture = pieces.ends[self.parts == "fracture"].reshape(-1, 2) - np.array([MIDDLE, 0.])
         self.arrived = bool((np.abs(fracture @ np.array([-along[1], along[0]])) < SAME).any())
 
@@ -85,9 +89,9 @@ class Outcome:
         """'fracture' from the well; 'beyond' where it begins within the natural crack, 'tips' at its ends."""
         if np.linalg.norm(self.pieces.ends[group], axis=2).min() < SAME:
             return "fracture"
-        touching = np.abs(off[group]) < SAME
-        places = np.abs(self.place[group][touching])
-        return "beyond" if len(places) and places.min() < HALF_LENGTH - 0.1 else "tips"
+        places = self.place[group][np.abs(off[group]) < SAME]
+        within = (places > self.extent[0] + 0.1) & (places < self.extent[1] - 0.1)
+        return "beyond" if within.any() else "tips"
 
     def name(self):
         """In a word."""

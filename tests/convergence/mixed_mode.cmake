@@ -18,3 +18,8 @@ foreach(entry "0:0:1:1.5:100" "30:0.5:0.8660254:1.5:125" "45:0.7071068:0.7071068
     EXPECT "final/external_work = ${energy} within 0.001" "final/dissipated_energy = ${energy} within 1e-4"
            "final/broken_length == 1")
 endforeach()
+# Cement takes its share.
+stockwork_case_test(NAME convergence/mixed_mode/cement DECK tests/data/pulled_apart.prm
+  SET "Fracture/cohesive_xfem/Cohesive energy=0.5"
+  EXPECT "final/external_work = 85.35534 within 0.001" "final/dissipated_energy = 85.35534 within 1e-4"
+         "final/broken_length == 1")

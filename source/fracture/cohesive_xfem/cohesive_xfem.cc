@@ -17,6 +17,7 @@
 #include "stockwork/fracture/needs.h"
 #include "stockwork/fracture/registry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <numeric>
@@ -57,6 +58,13 @@ CohesiveXFEM<dim>::CohesiveXFEM(const Parameters &parameters, const Scene<dim> &
   needs::energy_release_rate(scene.rock, "cohesive_xfem");
   contact.keep_apart(propped_gaps(scene.cracks, discontinuity));
   needs::initial_crack(scene, "cohesive_xfem");
+  if (parameters.cohesive_energy < 1. &&
+      std::none_of(scene.cracks.begin(), scene.cracks.end(),
+                   [](const InitialCrack<dim> &crack)
+                   { return crack.kind == InitialCrack<dim>::Kind::cohesive; }))
+    throw EntryError("Fracture/cohesive_xfem/Cohesive energy",
+                     to_string(parameters.cohesive_energy, dimension::number),
+                     "1 without a crack in 'Cracks/Cohesive'");
   // Until the cell size is known, any positive strength will do.
   law = make_law(parameters, rock, std::isnan(rock.tensile_strength) ? 1. : rock.tensile_strength);
 }
@@ -153,12 +161,18 @@ void CohesiveXFEM<dim>::start(const Collectives &collectives)
   committed_damage.clear();
   committed_reach.clear();
   committed_bare_tips.clear();
+  cemented.clear();
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
   {
     const bool open = scene.cracks[c].kind != InitialCrack<dim>::Kind::cohesive;
     const auto &pieces = discontinuity.paths()[c].pieces;
     for (const auto &piece : pieces)
-      committed_damage[piece.key(scene.domain_size)].fill(open ? 1. : 0.);
+    {
+      const std::uint64_t key = piece.key(scene.domain_size);
+      committed_damage[key].fill(open ? 1. : 0.);
+      if (!open && parameters.cohesive_energy < 1.)
+        cemented.insert(key);
+    }
     for (const CrackSpan &span : discontinuity.spans(c))
     {
       const std::uint64_t key = discontinuity.key(c, span);
@@ -424,7 +438,8 @@ template <int dim>
 void CohesiveXFEM<dim>::save(boost::archive::binary_oarchive &archive) const
 {
   archive << committed_paths << committed_damage << committed_reach << committed_bare_tips
-          << dissipated << started << law.strength << contact << largest_cell << committed_limits;
+          << dissipated << started << law.strength << contact << largest_cell << committed_limits
+          << cemented;
 }
 
 
@@ -433,7 +448,7 @@ void CohesiveXFEM<dim>::load(boost::archive::binary_iarchive &archive)
 {
   double strength;
   archive >> committed_paths >> committed_damage >> committed_reach >> committed_bare_tips >>
-    dissipated >> started >> strength >> contact >> largest_cell >> committed_limits;
+    dissipated >> started >> strength >> contact >> largest_cell >> committed_limits >> cemented;
   limits = committed_limits;
   law = make_law(parameters, scene.rock.main(), strength);
   bare_tips = committed_bare_tips;

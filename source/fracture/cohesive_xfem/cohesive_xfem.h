@@ -179,13 +179,12 @@ private:
   /// Note what a tip has grown by. Returns as grow().
   std::string take_new_span(const GrowthPass &pass, unsigned int tip);
 
-  /// The law at a place. The strength is that of the whole rock times the factor of the place.
+  /// The law of rock at a place. The strength is that of the whole rock times the factor of the
+  /// place.
   CohesiveLaw law_at(dealii::types::material_id region, const dealii::Point<dim> &place) const;
 
-  CohesiveLaw law_at(const CrackPiece<dim> &piece) const
-  {
-    return law_at(piece.region, piece.centre());
-  }
+  /// The law of a piece: where it is of cement, that takes its share of the rock's energy.
+  CohesiveLaw law_at(const CrackPiece<dim> &piece) const;
 
   /// The strength of the rock half a cell ahead of an end of a crack [Pa].
   double strength_ahead(unsigned int crack, CrackEnd end) const;
@@ -210,9 +209,10 @@ private:
   std::unordered_set<std::uint64_t> committed_bare_tips;
   std::vector<CrackPath<dim>> committed_paths;
   GrowthLimits committed_limits;
-  double dissipated = 0.;   ///< [J/m]
-  double largest_cell = 0.; ///< of those along the initial cracks [m]
-  bool started = false;     ///< a step has been accepted
+  std::unordered_set<std::uint64_t> cemented; ///< cohesive cracks of the deck, if weaker than rock
+  double dissipated = 0.;                     ///< [J/m]
+  double largest_cell = 0.;                   ///< of those along the initial cracks [m]
+  bool started = false;                       ///< a step has been accepted
 
   // Of the current step.
   unsigned int n_presses = 0;                        ///< solves for faces that overlapped

@@ -196,6 +196,17 @@ CohesiveLaw CohesiveXFEM<dim>::law_at(const dealii::types::material_id region,
 
 
 template <int dim>
+CohesiveLaw CohesiveXFEM<dim>::law_at(const CrackPiece<dim> &piece) const
+{
+  const CohesiveLaw rock = law_at(piece.region, piece.centre());
+  const double share = parameters.cohesive_energy;
+  // The stiffness is the rock's, so the strength goes as the root of the energy.
+  return cemented.count(piece.key(scene.domain_size)) > 0 ? rock.times(std::sqrt(share), share)
+                                                          : rock;
+}
+
+
+template <int dim>
 double CohesiveXFEM<dim>::strength_ahead(const unsigned int crack, const CrackEnd end) const
 {
   const CrackPath<dim> &path = discontinuity.paths()[crack];
@@ -536,6 +547,7 @@ template double CohesiveXFEM<2>::reached_length(unsigned int, CrackEnd, const St
 template bool CohesiveXFEM<2>::press_faces(const State &);
 template CohesiveLaw CohesiveXFEM<2>::law_at(dealii::types::material_id,
                                              const dealii::Point<2> &) const;
+template CohesiveLaw CohesiveXFEM<2>::law_at(const CrackPiece<2> &) const;
 template double CohesiveXFEM<2>::strength_ahead(unsigned int, CrackEnd) const;
 template double CohesiveXFEM<2>::cohesive_length(dealii::types::material_id) const;
 template Verdict CohesiveXFEM<2>::advance(const StepContext &, const State &, const Collectives &);

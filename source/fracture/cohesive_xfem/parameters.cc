@@ -44,6 +44,10 @@ void Parameters::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Rings ahead", "8", dealii::Patterns::Integer(1),
                     "Cells of this size kept ready around a tip.");
   declare_friction(prm);
+  prm.declare_entry(
+    "Cohesive energy", "1", Quantity(dimension::number, Range{0., 1., true, false}),
+    "What cohesive cracks take to open, over the critical energy release rate of the rock: cement. "
+    "Its strengths are the root of that, over the rock's, as with bonds.");
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
                     "Cracks go straight on when the stress across their direction is enough, "
                     "whatever the stress along it: for a weak seam, or the joint of two beams.");
@@ -64,6 +68,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm)
   p.cell_size = get_quantity(prm, "Cell size", dimension::length);
   p.rings_ahead = prm.get_integer("Rings ahead");
   p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
+  p.cohesive_energy = get_quantity(prm, "Cohesive energy", dimension::number);
   p.straight = prm.get_bool("Straight growth");
   p.growth = prm.get_bool("Growth");
   return p;

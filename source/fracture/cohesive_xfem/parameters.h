@@ -18,6 +18,7 @@ struct Parameters
   double cell_size;            ///< wanted along the crack [m]; zero: as the mesh is
   unsigned int rings_ahead;    ///< cells of that size ahead of a tip
   double friction;             ///< coefficient, of faces that touch
+  double cohesive_energy;      ///< of cohesive cracks of the deck, over that of the rock
   bool straight;
   bool growth;
 

@@ -181,6 +181,7 @@ private:
     BondView view;
     dealii::Tensor<1, dim> direction; ///< of the bond, or of its image that crosses the path
     TrackedPaths::Crossing crossing;  ///< where it crosses a path
+    bool was_cut = false;             ///< by another crack of the deck, which is open
   };
 
   /// Those that cross a path; without paths the broken ones.

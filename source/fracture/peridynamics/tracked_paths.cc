@@ -136,6 +136,18 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
 }
 
 
+bool TrackedPaths::crosses_initial(const unsigned int path,
+                                   const Point<2> &a,
+                                   const Point<2> &b) const
+{
+  const Path &crack = paths[path];
+  for (unsigned int i = crack.ends[0].n_points; i < crack.n_pieces() - crack.ends[1].n_points; ++i)
+    if (meet(a, b, crack.point(i), crack.point(i + 1), same_spot * h))
+      return true;
+  return false;
+}
+
+
 unsigned int TrackedPaths::piece_at(const Crossing &crossing) const
 {
   const Path &path = paths[crossing.path];

@@ -54,6 +54,10 @@ public:
   /// Of the line from a to b, nearest to its middle; nothing if it crosses no path.
   std::optional<Crossing> crossing(const dealii::Point<2> &a, const dealii::Point<2> &b) const;
 
+  /// Whether the line from a to b crosses an initial crack, not its ways.
+  bool
+  crosses_initial(unsigned int path, const dealii::Point<2> &a, const dealii::Point<2> &b) const;
+
   dealii::Point<2> point(const Crossing &crossing) const;
 
   /// Unit normal of the piece that is crossed there, to its left.

@@ -118,6 +118,10 @@ void Peridynamics<dim>::find_crossing_bonds()
           if (const auto crossing = paths.crossing(zone.position(first), zone.position(last)))
           {
             bond.crossing = *crossing;
+            for (unsigned int c = 0; c < scene.cracks.size(); ++c)
+              bond.was_cut |= c != crossing->path &&
+                              scene.cracks[c].kind == InitialCrack<dim>::Kind::open &&
+                              paths.crosses_initial(c, zone.position(first), zone.position(last));
             crossing_bonds.push_back(bond);
             break;
           }
@@ -386,7 +390,7 @@ double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &end) const
 {
   double energy = 0.;
   for (const BondAcross &bond : crossing_bonds)
-    if (bond.crossing.path == end.path &&
+    if (bond.crossing.path == end.path && !bond.was_cut &&
         views_of(bond.view.first, bond.view.second).front() == bond.view)
       if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
         energy += energy_at_unit_stretch(bond.view) * softening.dissipated(softening.last);
