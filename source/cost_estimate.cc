@@ -13,23 +13,28 @@
 
 namespace stockwork
 {
+namespace
+{
+constexpr double program_memory = 1.9e8; // deal.II, Trilinos and MPI, before any cell is made
+constexpr double start_up = 0.5;         // loading libraries, making the mesh [s]
+} // namespace
+
 CostEstimate estimate_cost(const unsigned int dim,
                            const double n_unknowns,
                            const CostlyPhysics &physics,
                            const unsigned int n_ranks)
 {
   const double n = std::max(n_unknowns, 2.);
-  // deal.II, Trilinos and MPI, before any cell is made, and what the model keeps.
-  const double program = 1.9e8 * n_ranks + (physics.fracture ? physics.memory_per_unknown * n : 0.);
-  constexpr double start = 0.5; // loading libraries, making the mesh [s]
+  const double program =
+    program_memory * n_ranks + (physics.fracture ? physics.memory_per_unknown * n : 0.);
   const double looking = physics.yields ? 1.7 : 1.;
   const double beside_fracture = physics.fracture ? physics.time_of_step : 1.;
   const bool lasting = !physics.pore_pressure && !physics.inertia && !physics.yields;
   if (dim == 3 && lasting && n <= largest_lasting_factor)
-    return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.), start + 1e-9 * n * n,
+    return {program + 6e3 * n + 230. * std::pow(n, 4. / 3.), start_up + 1e-9 * n * n,
             physics.fracture ? 2e-7 * std::pow(n, 4. / 3.) * beside_fracture : 1e-6 * n};
   if (dim == 3)
-    return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.), start,
+    return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.), start_up,
             4e-5 * n * (physics.fracture ? 4. : 1.) * looking};
   const double factor = 60. * n * std::log2(n);
   const double new_factor = 3e-5 * n + 2e-8 * std::pow(n, 1.5), iteration = 1e-6 * n;
@@ -37,9 +42,22 @@ CostEstimate estimate_cost(const unsigned int dim,
   const double factors_per_step = changes_with_step                     ? 1.
                                   : physics.yields && !physics.fracture ? 1.5
                                                                         : 0.;
-  return {program + 2e3 * n + factor, start + new_factor,
+  return {program + 2e3 * n + factor, start_up + new_factor,
           factors_per_step * new_factor +
             iteration * (physics.fracture ? 4. * beside_fracture : 1.) * looking};
+}
+
+
+CostEstimate explicit_cost(const ExplicitWork &work,
+                           const double n_unknowns,
+                           const double memory_per_unknown,
+                           const unsigned int n_ranks)
+{
+  constexpr double time_of_term = 1e-9, time_of_unknown = 1e-8; // in each part [s]
+  constexpr double beside_parts = 2e-6; // the fracture and the report, per unknown [s]
+  return {program_memory * n_ranks + memory_per_unknown * n_unknowns, start_up,
+          work.parts * (time_of_term * work.terms + time_of_unknown * n_unknowns) +
+            beside_parts * n_unknowns};
 }
 
 

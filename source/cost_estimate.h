@@ -38,6 +38,19 @@ CostEstimate estimate_cost(unsigned int dim,
                            const CostlyPhysics &physics,
                            unsigned int n_ranks = 1);
 
+/// What an explicit step of a run adds up.
+struct ExplicitWork
+{
+  double parts; ///< of the step, each as long as is stable
+  double terms; ///< of a part: bonds, from both of their ends
+};
+
+/// Of explicit steps, from runs of dry/*: no matrix is formed.
+CostEstimate explicit_cost(const ExplicitWork &work,
+                           double n_unknowns,
+                           double memory_per_unknown,
+                           unsigned int n_ranks = 1);
+
 /// How many steps a run will take.
 struct ExpectedSteps
 {

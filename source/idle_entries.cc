@@ -52,6 +52,9 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
     { return !entry.value.empty() && everywhere(entry.path()) == "Rock/Random field/Properties"; });
   const bool has_pores = the_case.elements.has_pore_pressure;
   const bool has_inertia = the_case.scheme.kind() == TimeScheme::Kind::newmark;
+  const bool a_crack_holds = std::any_of(
+    the_case.scene.cracks.begin(), the_case.scene.cracks.end(),
+    [](const InitialCrack<dim> &crack) { return crack.kind == InitialCrack<dim>::Kind::cohesive; });
   using Solver = LinearSolverParameters::Type;
   const Solver solver = the_case.linear_solver.type;
   const bool makes_factors = solver == Solver::direct || solver == Solver::bordered ||
@@ -74,6 +77,13 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
     {!has_inertia,
      "there is no inertia",
      {"Time/Newmark beta", "Time/Newmark gamma", "Time/Theta"}},
+    // The weight that a gradient of the vertical stress should be is looked up in the density.
+    {!has_inertia && is_default("In situ/Stress gradient"),
+     "there is no inertia, and only estimates look at it",
+     {"Rock/Density"}},
+    {!the_case.scene.cracks.empty() && !the_case.model->requirements().may_grow && !a_crack_holds,
+     "no crack grows, and none holds together",
+     {"Rock/Tensile strength"}},
     {has_inertia && !has_pores, "no pore pressure is solved for", {"Time/Theta"}},
     {the_case.scheme.is_explicit(),
      "'Time/Scheme' is 'explicit'",

@@ -23,8 +23,8 @@ struct Outcome
   double minimum_pressure = 0.;  ///< total, of all segments at the end [Pa]
 
   double least_opening = 0., greatest_opening = 0.; ///< of faces of cracks, at any step [m]
-  double energy_error = 0.; ///< of the balance of energy, over the work done, at the end; of
-                            ///< explicit steps
+  double energy_error = 0.; ///< of the balance of energy, over the work done, at the end; zero
+                            ///< where there is none
 
   // Of what 'Physics = auto' has left out, the greatest of those that were looked at.
   double kinetic_share = 0.; ///< energy that the rock's motion would have, over what it stores

@@ -115,6 +115,8 @@ private:
   /// What has become of the rock's strength, for people.
   void say_how_far_rock_went() const;
 
+  std::pair<CostEstimate, ExpectedSteps> expected_cost(const MeshSizes<dim> &mesh);
+
   /// Before memory is taken for the unknowns of a mesh.
   void refuse_too_large() const;
   double unknowns_per_cell() const;
@@ -370,10 +372,14 @@ template <int dim>
 void Simulation<dim>::refuse_too_large() const
 {
   const double n_cells = triangulation.n_global_active_cells();
+  const double n_unknowns = n_cells * unknowns_per_cell();
   CostlyPhysics physics = costly_physics(the_case);
-  physics.memory_per_unknown = 0.; // which a model takes in its part of the mesh alone
-  const double needed =
-    estimate_cost(dim, n_cells * unknowns_per_cell(), physics, run.n_ranks).memory;
+  double needed = explicit_cost({}, n_unknowns, physics.memory_per_unknown, run.n_ranks).memory;
+  if (!the_case.scheme.is_explicit())
+  {
+    physics.memory_per_unknown = 0.; // which a model takes in its part of the mesh alone
+    needed = estimate_cost(dim, n_unknowns, physics, run.n_ranks).memory;
+  }
   const double available = physical_memory(run.communicator);
   if (needed > available)
     throw EntryError(
@@ -393,20 +399,30 @@ void Simulation<dim>::announce()
     run.warn(message);
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
+  const auto [cost, steps] = expected_cost(mesh);
+  run.out << "  " << in_words(cost, steps, run.n_ranks) << std::endl;
+}
+
+
+template <int dim>
+std::pair<CostEstimate, ExpectedSteps> Simulation<dim>::expected_cost(const MeshSizes<dim> &mesh)
+{
+  const CostlyPhysics physics = costly_physics(the_case);
+  const double duration = the_case.control.end_time - clock.time;
+  if (ExplicitMarch<dim> *const march = stepper.explicit_march())
+    return {explicit_cost(
+              {static_cast<double>(march->n_parts(std::min(clock.dt, duration))), march->n_terms()},
+              system.n_unknowns(), physics.memory_per_unknown, run.n_ranks),
+            {std::ceil(duration / clock.dt), the_case.control.growth > 1.}};
   const bool cracked = is_cracked(the_case);
   const double at_end =
     unknowns_at_end(the_case, mesh, system.n_unknowns(), the_case.network.segments().size());
-  const CostEstimate cost = estimate_cost(dim, at_end, costly_physics(the_case), run.n_ranks);
   const double cells =
     !cracked   ? 0.
     : dim == 3 ? std::numeric_limits<double>::quiet_NaN() // not all of a front comes on at once
                : (half_length_at_end(the_case) - half_length_at_start(the_case)) / mesh.smallest;
-  run.out << "  "
-          << in_words(cost,
-                      expected_steps(the_case.control, the_case.control.end_time - clock.time,
-                                     clock.dt, cracked, cells),
-                      run.n_ranks)
-          << std::endl;
+  return {estimate_cost(dim, at_end, physics, run.n_ranks),
+          expected_steps(the_case.control, duration, clock.dt, cracked, cells)};
 }
 
 
@@ -500,6 +516,7 @@ void Simulation<dim>::resume()
     *targets[i] = system.ghosted_vector();
     *targets[i] = values[i];
   }
+  stepper.make_explicit_march();
   run.out << "Restarted at t = " << clock.time << " s, after step " << clock.step << "."
           << std::endl;
 }

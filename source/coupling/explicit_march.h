@@ -38,6 +38,13 @@ public:
   /// @throws EntryError where they are too many to be meant
   unsigned int n_parts(double dt);
 
+  /// What a part of a step adds up, on all ranks. Collective.
+  double n_terms()
+  {
+    set_up();
+    return system.collectives().sum(rock->n_terms());
+  }
+
   /// Go on by a step, in equal parts that are stable; loads and what moves the boundary change
   /// linearly meanwhile. Collective.
   /// @return how many parts

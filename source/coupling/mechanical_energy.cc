@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace stockwork
 {
@@ -93,19 +94,89 @@ struct MovingCell
   FEFaceValues<dim> face_values;
   std::vector<Tensor<1, dim>> now, before;
 };
+
+
+/// What the rock exerts on held unknowns whose rows are a fracture model's own: bonds, not
+/// elements, hold a side that the deck moves there.
+template <int dim>
+class ModelForces
+{
+public:
+  explicit ModelForces(const FractureModel<dim> &model)
+    : model(model)
+  {
+  }
+
+  /// One that this rank owns.
+  void hold(const types::global_dof_index dof)
+  {
+    forces.emplace(dof, 0.);
+  }
+
+  bool any(const Collectives &collectives) const
+  {
+    return collectives.max(static_cast<double>(forces.size())) > 0.;
+  }
+
+  /// By unknown [N; N/m in 2-D].
+  const std::map<types::global_dof_index, double> &
+  at(const StepContext &context, const State &state, const IndexSet &owned)
+  {
+    IndexSet rows(owned.size());
+    for (auto &[dof, force] : forces)
+    {
+      rows.add_index(dof);
+      force = 0.;
+    }
+    Rows linear(forces, &state.current.bulk), others(forces, nullptr);
+    if (const KeptTerms *const kept = model.kept_terms())
+      kept->assemble(context, rows, linear);
+    model.assemble(context, state, others);
+    return forces;
+  }
+
+private:
+  struct Rows : public Sink
+  {
+    Rows(std::map<types::global_dof_index, double> &forces,
+         const TrilinosWrappers::MPI::BlockVector *const values)
+      : forces(forces)
+      , values(values)
+    {
+    }
+
+    void add(const LocalSystem &local) override
+    {
+      for (unsigned int i = 0; i < local.bulk.size(); ++i)
+        if (const auto row = forces.find(local.bulk[i]); row != forces.end())
+        {
+          if (values == nullptr)
+            row->second += local.residual(i);
+          for (unsigned int j = 0; j < local.bulk.size() && values != nullptr; ++j)
+            if (local.matrix(i, j) != 0.)
+              row->second += local.matrix(i, j) * (*values)(local.bulk[j]);
+        }
+    }
+
+    std::map<types::global_dof_index, double> &forces;
+    const TrilinosWrappers::MPI::BlockVector *values; ///< that the matrix acts on; null: a residual
+  };
+
+  const FractureModel<dim> &model;
+  std::map<types::global_dof_index, double> forces;
+};
 } // namespace
 
 
 template <int dim>
-MechanicalEnergy mechanical_energy(
-  const MeshView<dim> &mesh_view,
-  const Rock &rock,
-  const NonlinearRock<dim> *nonlinear,
-  const Loads<dim> &loads,
-  const std::function<CellRole<dim>(const typename DoFHandler<dim>::active_cell_iterator &)> &role,
-  const StepContext &context,
-  const State &state,
-  const Collectives &collectives)
+MechanicalEnergy mechanical_energy(const MeshView<dim> &mesh_view,
+                                   const Rock &rock,
+                                   const NonlinearRock<dim> *nonlinear,
+                                   const Loads<dim> &loads,
+                                   const FractureModel<dim> &model,
+                                   const StepContext &context,
+                                   const State &state,
+                                   const Collectives &collectives)
 {
   const auto &fe = mesh_view.dof_handler.get_fe();
   const auto &constraints = mesh_view.constraints;
@@ -114,6 +185,7 @@ MechanicalEnergy mechanical_energy(
   std::vector<unsigned int> held; // functions whose displacement is prescribed or hangs
 
   MovingCell<dim> moving(mesh_view, loads);
+  ModelForces<dim> of_model(model);
   double stored = 0., kinetic = 0., work = 0., force = 0., greatest = 0.;
   const auto add_work = [&](const unsigned int q, const SymmetricTensor<2, dim> &mean_stress,
                             const SymmetricTensor<2, dim> &stress)
@@ -133,12 +205,19 @@ MechanicalEnergy mechanical_energy(
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const CellRole<dim> cell_role = role(cell);
+      const CellRole<dim> cell_role = model.role(cell);
       evaluator.reinit(cell, cell_role.cut);
       held.clear();
       for (unsigned int k = 0; k < evaluator.layout.u.size(); ++k)
-        if (constraints.is_constrained(evaluator.dofs()[evaluator.layout.u[k]]))
-          held.push_back(k);
+        if (const auto dof = evaluator.dofs()[evaluator.layout.u[k]];
+            constraints.is_constrained(dof))
+        {
+          const unsigned int vertex = k / dim;
+          if (cell_role.skip_stiffness == nullptr || !(*cell_role.skip_stiffness)[vertex])
+            held.push_back(k);
+          else if (mesh_view.dof_handler.locally_owned_dofs().is_element(dof))
+            of_model.hold(dof);
+        }
       const RockProperties properties = rock.at(cell->material_id(), cell->center());
       const LinearStiffness<dim> hooke(properties);
       double share = 1.; // of the cell, that belongs to nodes of the elements
@@ -167,6 +246,23 @@ MechanicalEnergy mechanical_energy(
     work += nonlinear->totals().held_work_beyond;
     force += nonlinear->totals().held_force_beyond;
   }
+  if (of_model.any(collectives))
+  {
+    const IndexSet &owned = mesh_view.dof_handler.locally_owned_dofs();
+    const auto moved = [&](const types::global_dof_index dof)
+    { return state.current.bulk(dof) - state.committed.bulk(dof); };
+    const State before{state.committed,        state.committed,
+                       state.rate_reference,   state.acceleration_reference,
+                       state.segment_pressure, state.segment_unknown};
+    for (const auto &[dof, of_rock] : of_model.at(context, before, owned))
+      work += 0.5 * of_rock * moved(dof);
+    for (const auto &[dof, of_rock] : of_model.at(context, state, owned))
+    {
+      work += 0.5 * of_rock * moved(dof);
+      force += of_rock * state.current.bulk(dof);
+      greatest = std::max(greatest, std::abs(state.current.bulk(dof)));
+    }
+  }
   greatest = collectives.max(greatest);
   std::vector<double> sums{stored, kinetic, work, force};
   collectives.sum(sums);
@@ -174,22 +270,20 @@ MechanicalEnergy mechanical_energy(
 }
 
 
-template MechanicalEnergy
-mechanical_energy(const MeshView<2> &,
-                  const Rock &,
-                  const NonlinearRock<2> *,
-                  const Loads<2> &,
-                  const std::function<CellRole<2>(const DoFHandler<2>::active_cell_iterator &)> &,
-                  const StepContext &,
-                  const State &,
-                  const Collectives &);
-template MechanicalEnergy
-mechanical_energy(const MeshView<3> &,
-                  const Rock &,
-                  const NonlinearRock<3> *,
-                  const Loads<3> &,
-                  const std::function<CellRole<3>(const DoFHandler<3>::active_cell_iterator &)> &,
-                  const StepContext &,
-                  const State &,
-                  const Collectives &);
+template MechanicalEnergy mechanical_energy(const MeshView<2> &,
+                                            const Rock &,
+                                            const NonlinearRock<2> *,
+                                            const Loads<2> &,
+                                            const FractureModel<2> &,
+                                            const StepContext &,
+                                            const State &,
+                                            const Collectives &);
+template MechanicalEnergy mechanical_energy(const MeshView<3> &,
+                                            const Rock &,
+                                            const NonlinearRock<3> *,
+                                            const Loads<3> &,
+                                            const FractureModel<3> &,
+                                            const StepContext &,
+                                            const State &,
+                                            const Collectives &);
 } // namespace stockwork

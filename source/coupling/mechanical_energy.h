@@ -1,15 +1,13 @@
 #pragma once
 
-#include "stockwork/exchange/cell_role.h"
 #include "stockwork/exchange/collectives.h"
 #include "stockwork/exchange/state.h"
+#include "stockwork/fracture/model.h"
 #include "stockwork/mesh/mesh_view.h"
 #include "stockwork/rock/rock.h"
 
 #include "biot/boundary_conditions.h"
 #include "biot/nonlinear_rock.h"
-
-#include <functional>
 
 namespace stockwork
 {
@@ -35,14 +33,12 @@ struct MechanicalEnergy
 ///
 /// Collective.
 template <int dim>
-MechanicalEnergy mechanical_energy(
-  const MeshView<dim> &mesh_view,
-  const Rock &rock,
-  const NonlinearRock<dim> *nonlinear,
-  const Loads<dim> &loads,
-  const std::function<CellRole<dim>(const typename dealii::DoFHandler<dim>::active_cell_iterator &)>
-    &role,
-  const StepContext &context,
-  const State &state,
-  const Collectives &collectives);
+MechanicalEnergy mechanical_energy(const MeshView<dim> &mesh_view,
+                                   const Rock &rock,
+                                   const NonlinearRock<dim> *nonlinear,
+                                   const Loads<dim> &loads,
+                                   const FractureModel<dim> &model,
+                                   const StepContext &context,
+                                   const State &state,
+                                   const Collectives &collectives);
 } // namespace stockwork

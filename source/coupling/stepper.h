@@ -68,6 +68,10 @@ public:
   void start(double time);
 
   /// Null: steps are not explicit.
+  ExplicitMarch<dim> *explicit_march()
+  {
+    return march.get();
+  }
   const ExplicitMarch<dim> *explicit_march() const
   {
     return march.get();

@@ -92,6 +92,10 @@ Discontinuity<dim>::grow(const std::vector<Advance> &advances, const Collectives
     }
     moving = going_on;
   }
+  // Where each waits for the others, none of them will ever come.
+  if (std::all_of(outcomes.begin(), outcomes.end(),
+                  [](const Outcome outcome) { return outcome == Outcome::waits; }))
+    outcomes.assign(outcomes.size(), Outcome::reached_crack);
   if (undone)
     restore(cracks);
   else
@@ -145,9 +149,9 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
             finding.piece =
               continue_into<dim>(active, entry_face, crack.tip(advance.end), advance.direction);
             finding.piece.constrained = constrained_components(*mesh_view, active);
-            set(is_cut(next->id()) && !may_pass_beside(advance, finding.piece)
-                  ? Outcome::reached_crack
-                  : Outcome::grown);
+            set(!is_cut(next->id()) || may_pass_beside(advance, finding.piece) ? Outcome::grown
+                : is_underway(next->id())                                      ? Outcome::waits
+                                          : Outcome::reached_crack);
           }
         }
         findings.push_back(finding);
@@ -166,11 +170,13 @@ Discontinuity<dim>::grow_by_a_cell(const std::vector<Advance> &advances,
     const bool joins = outcome == Outcome::joined_crack;
     if (joins || outcome == Outcome::grown)
     {
-      if (!taken.insert(finding.piece.cell).second)
-        outcome = Outcome::reached_crack; // two tips met in this very pass
+      const Advance &advance = advances[finding.advance];
+      // What another tip has done in this very pass is looked at in the next one.
+      if (!taken.insert(finding.piece.cell).second ||
+          (joins && !can_join(advance, finding.piece.cell)))
+        outcome = Outcome::waits;
       else
       {
-        const Advance &advance = advances[finding.advance];
         const int end = static_cast<int>(advance.end);
         if (joins)
         {

@@ -92,6 +92,7 @@ public:
     reached_boundary, ///< has grown, and its tip has become a mouth on the domain's boundary
     joined_crack,     ///< has grown up to another crack, and ends on it
     reached_crack,    ///< the next cell is cut already, and cannot be joined
+    waits,            ///< a tip in its way is about to grow as well: once more when it has
     needs_mesh        ///< a cell ahead has another size: the mesh must be refined first
   };
 
@@ -216,6 +217,13 @@ private:
   void join_initial_cracks(const std::vector<InitialCrack<dim>> &given,
                            bool may_join,
                            const Collectives &collectives);
+
+  /// Whether a crack through a cell is half a span there, and may go on or be taken back.
+  bool is_underway(const dealii::CellId &cell) const;
+
+  /// Whether cracks let another one that advances into their cell end on the one that passes
+  /// through it.
+  bool can_join(const Advance &advance, const dealii::CellId &cell) const;
 
   /// The piece by which a crack that advances into a cut cell ends on the crack that passes through
   /// it, and the share of the other piece at which it does. Nothing if it cannot.

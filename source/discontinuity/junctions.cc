@@ -26,35 +26,59 @@ double unit_distance(const CrackPiece<2> &piece, const dealii::Point<2> &unit_po
 } // namespace
 
 template <int dim>
-std::optional<std::pair<CrackPiece<dim>, double>> Discontinuity<dim>::join(
-  const Advance &advance, const dealii::CellId &cell, const unsigned int face) const
+bool Discontinuity<dim>::is_underway(const dealii::CellId &cell) const
 {
-  const auto found = pieces_of_cells.find(cell);
-  if (found == pieces_of_cells.end() || !tips.empty())
-    return {};
-  const auto &in_cell = found->second;
-  const auto [other, index] = in_cell.front();
-  const CrackPath<dim> &path = cracks[other];
-  const CrackPiece<dim> &passing = path.pieces[index];
-  const CrackPath<dim> &own = cracks[advance.crack];
-  if (other == advance.crack || passing.inside[0] || passing.inside[1] ||
+  for (const auto &[crack, index] : pieces_of_cells.at(cell))
+  {
+    const auto &pieces = cracks[crack].pieces;
+    const auto spans = spans_of(cracks[crack]);
+    if ((pieces.front().joined[0] && index <= spans.front().last) ||
+        (pieces.back().joined[1] && index >= spans.back().first))
+      return true;
+  }
+  return false;
+}
+
+
+template <int dim>
+bool Discontinuity<dim>::can_join(const Advance &advance, const dealii::CellId &cell) const
+{
+  const auto [other, index] = pieces_of_cells.at(cell).front();
+  const CrackPath<dim> &path = cracks[other], &own = cracks[advance.crack];
+  if (other == advance.crack || path.pieces[index].inside[0] || path.pieces[index].inside[1] ||
       own.ends_on[1 - static_cast<int>(advance.end)] == static_cast<int>(other) ||
       path.ends_on[0] == static_cast<int>(advance.crack) ||
       path.ends_on[1] == static_cast<int>(advance.crack))
-    return {};
+    return false;
 
   // Functions of one junction do not reach to another one between other cracks.
   constexpr unsigned int reach = 2; // pieces
   for (unsigned int i = index - std::min(index, reach);
        i <= std::min<std::size_t>(index + reach, path.pieces.size() - 1); ++i)
     if (pieces_of_cells.at(path.pieces[i].cell).front().first != other)
-      return {};
+      return false;
   const unsigned int n = own.pieces.size();
   for (unsigned int k = 0; k < std::min(reach, n); ++k)
     if (const auto &piece = own.pieces[advance.end == CrackEnd::first ? k : n - 1 - k];
         pieces_of_cells.at(piece.cell).size() > 1)
-      return {};
+      return false;
+  return true;
+}
 
+
+template <int dim>
+std::optional<std::pair<CrackPiece<dim>, double>> Discontinuity<dim>::join(
+  const Advance &advance, const dealii::CellId &cell, const unsigned int face) const
+{
+  const auto found = pieces_of_cells.find(cell);
+  if (found == pieces_of_cells.end() || !tips.empty() || is_underway(cell) ||
+      !can_join(advance, cell))
+    return {};
+  const auto &in_cell = found->second;
+  const auto [other, index] = in_cell.front();
+  const CrackPath<dim> &path = cracks[other];
+  const CrackPiece<dim> &passing = path.pieces[index];
+  const CrackPath<dim> &own = cracks[advance.crack];
   std::optional<double> share;
   if (in_cell.size() > 1)
   {
@@ -250,6 +274,8 @@ void Discontinuity<dim>::join_initial_cracks(const std::vector<InitialCrack<dim>
 
 template std::optional<std::pair<CrackPiece<2>, double>>
 Discontinuity<2>::join(const Advance &, const dealii::CellId &, const unsigned int) const;
+template bool Discontinuity<2>::is_underway(const dealii::CellId &) const;
+template bool Discontinuity<2>::can_join(const Advance &, const dealii::CellId &) const;
 template bool Discontinuity<2>::may_pass_beside(const Advance &, const CrackPiece<2> &) const;
 template std::optional<Discontinuity<2>::FarSide> Discontinuity<2>::far_side(const unsigned int,
                                                                              const CrackEnd) const;

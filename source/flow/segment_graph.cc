@@ -138,6 +138,34 @@ void prune(Pieces &pieces)
   }
 }
 
+/// Forks beside one another are one: where fractures cross, the two branches of one may part from
+/// the other in two pieces.
+void join_forks(Pieces &pieces)
+{
+  for (unsigned int fork = 0; fork < pieces.neighbours.size(); ++fork)
+    while (pieces.neighbours[fork].size() > 2)
+    {
+      const auto &beside = pieces.neighbours[fork];
+      const auto found =
+        std::find_if(beside.begin(), beside.end(),
+                     [&](const unsigned int piece) { return pieces.neighbours[piece].size() > 2; });
+      if (found == beside.end())
+        break;
+      const unsigned int other = *found;
+      for (const unsigned int piece : std::set<unsigned int>(pieces.neighbours[other]))
+      {
+        pieces.neighbours[piece].erase(other);
+        if (piece == fork)
+          continue;
+        pieces.neighbours[piece].insert(fork);
+        pieces.neighbours[fork].insert(piece);
+      }
+      pieces.neighbours[other].clear();
+      pieces.segments[fork].insert(pieces.segments[fork].end(), pieces.segments[other].begin(),
+                                   pieces.segments[other].end());
+    }
+}
+
 Tensor<1, 2> direction(const Pieces &pieces,
                        const unsigned int fork,
                        const std::vector<unsigned int> &chain,
@@ -181,6 +209,7 @@ SegmentGraph segment_graph(const std::vector<NetworkSegment<2>> &network)
     const unsigned int end = std::max_element(distance.begin(), distance.end()) - distance.begin();
     Pieces pieces = pieces_of(distances_from(end, network, adjacency), length, adjacency, visited);
     prune(pieces);
+    join_forks(pieces);
 
     ++graph.n_fractures;
     unsigned int n_ends = 0;

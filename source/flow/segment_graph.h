@@ -7,9 +7,11 @@ namespace stockwork
 /// The shape of a fracture in the plane: how often it forks, and at which angles.
 struct SegmentGraph
 {
-  unsigned int n_fractures = 0;    ///< pieces that hang together
-  unsigned int n_branches = 0;     ///< between ends and forks; one for a fracture without forks
-  std::vector<double> fork_angles; ///< of each fork, the least between two of its branches [rad]
+  unsigned int n_fractures = 0; ///< pieces that hang together
+  /// Between ends and forks; one for a fracture without forks, three of a T, four of a crossing.
+  unsigned int n_branches = 0;
+  /// Of each fork, or crossing, the least between two of its branches [rad].
+  std::vector<double> fork_angles;
 };
 
 /// Read the graph of segments. A fracture is a band of segments rather than a line where a model

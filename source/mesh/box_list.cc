@@ -1,6 +1,7 @@
 #include "mesh/box_list.h"
 
 #include <regex>
+#include <sstream>
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -50,6 +51,23 @@ std::vector<LabelledBox<dim>> parse_boxes(const std::string &text)
   return boxes;
 }
 
+template <int dim>
+std::string to_string(const dealii::BoundingBox<dim> &box)
+{
+  const auto corner = [](const dealii::Point<dim> &point)
+  {
+    std::ostringstream text;
+    text.precision(5);
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d > 0 ? ", " : "(") << point[d] << " m";
+    return text.str() + ")";
+  };
+  const auto &[lower, upper] = box.get_boundary_points();
+  return corner(lower) + " to " + corner(upper);
+}
+
+template std::string to_string(const dealii::BoundingBox<2> &);
+template std::string to_string(const dealii::BoundingBox<3> &);
 template dealii::Point<2> parse_point<2>(const std::string &);
 template dealii::Point<3> parse_point<3>(const std::string &);
 template std::vector<LabelledBox<2>> parse_boxes<2>(const std::string &);

@@ -21,6 +21,10 @@ struct LabelledBox
 template <int dim>
 std::vector<LabelledBox<dim>> parse_boxes(const std::string &text);
 
+/// A box as a deck has it, "(0 m, -2 m) to (30 m, 2 m)", for messages.
+template <int dim>
+std::string to_string(const dealii::BoundingBox<dim> &box);
+
 /// A point "x, y[, z]", with or without parentheses. @throws InputError
 template <int dim>
 dealii::Point<dim> parse_point(const std::string &text);

@@ -340,22 +340,10 @@ bool Geometry<dim>::splits(const typename dealii::Triangulation<dim>::cell_itera
 template <int dim>
 void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
 {
-  const auto text = [](const BoundingBox<dim> &box)
-  {
-    const auto corners = box.get_boundary_points();
-    const auto coordinates = [](const Point<dim> &point)
-    {
-      std::ostringstream value;
-      for (unsigned int d = 0; d < dim; ++d)
-        value << (d > 0 ? ", " : "(") << point[d];
-      return value.str() + ")";
-    };
-    return coordinates(corners.first) + " to " + coordinates(corners.second);
-  };
   for (const RefinementBox &item : refinement_boxes)
     for (unsigned int d = 0; d < dim; ++d)
       if (item.box.upper_bound(d) <= lower()[d] || item.box.lower_bound(d) >= upper()[d])
-        throw EntryError("Mesh/Refinement boxes", text(item.box),
+        throw EntryError("Mesh/Refinement boxes", to_string(item.box),
                          "boxes that hold some of the mesh: this one lies beside it");
   const std::size_t n_regions = region_boxes.size();
   std::vector<unsigned int> n_held(n_regions + side_boxes.size(), 0); // cells, then faces
@@ -383,7 +371,7 @@ void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
     for (unsigned int i = 0; i < boxes.size(); ++i)
       if (n_held[first + i] == 0)
         throw EntryError(
-          "Mesh/" + name, boxes[i].label + ": " + text(boxes[i].box),
+          "Mesh/" + name, boxes[i].label + ": " + to_string(boxes[i].box),
           "boxes that hold the centre of a " + of +
             ": this one lies beside the mesh, is smaller than its cells, or lies beneath "
             "later ones");

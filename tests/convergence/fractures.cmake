@@ -188,10 +188,15 @@ stockwork_case_test(NAME convergence/peridynamics/layers/apart DECK tests/data/l
 # Cement takes its share of that.
 stockwork_case_test(NAME convergence/peridynamics/layers/apart/cement DECK tests/data/layers_apart.prm
   SET "Fracture/peridynamics/Cohesive energy=0.5" EXPECT "final/dissipated_energy = 160 within 1e-9")
-# A tip that comes to the rim of the zone is said to have, and its way beyond is nobody's.
-stockwork_case_test(NAME convergence/peridynamics/layers/apart/rim DECK tests/data/layers_apart.prm
-  SET "Cracks/Cohesive=0.3 m, -0.3 m -> 1.2 m, 0.1586 m"
-  WARNS "has reached the rim of the peridynamic zone" EXPECT "final/dissipated_energy > 250")
+# A tip that comes to the rim of the zone ends the run, as does a crack that slides as it opens, so that bonds across it
+# are pressed and hold what has parted. The zone may not come near a side that is moved.
+set(tall "Mesh/Box/Lower corner=0, -2.05 m" "Mesh/Box/Upper corner=1.6 m, 2.05 m" "Mesh/Region boxes=1: (0.8 m, -3 m) to (2 m, 3 m)")
+stockwork_stop_test(NAME convergence/peridynamics/layers/apart/rim DECK tests/data/layers_apart.prm
+  SET "Cracks/Cohesive=0.7 m, 0 -> 0.9 m, 0" "Fracture/peridynamics/Margin=4" SAYS "has reached the rim of the peridynamic zone")
+stockwork_stop_test(NAME convergence/peridynamics/layers/apart/slides DECK tests/data/layers_apart.prm
+  SET ${tall} "Cracks/Cohesive=0, -0.4 m -> 1.6 m, 0.4152 m" SAYS "is made to slide as it opens")
+stockwork_check_test(NAME convergence/peridynamics/layers/apart/near_side DECK tests/data/layers_apart.prm LABELS quick
+  SET "Cracks/Cohesive=0, -0.4 m -> 1.6 m, 0.4152 m" SAYS "to the side that the deck moves at the upper end of y")
 stockwork_case_test(NAME convergence/peridynamics/layers/apart/stiffer DECK tests/data/layers_apart.prm LABELS quick
   SET "Rock/Region 1/Young modulus=20 GPa"
   EXPECT "final/dissipated_energy = 320 within 1e-9" "final/broken_length = 1.6 within 1e-9")

@@ -103,4 +103,53 @@ TEST_CASE("two fractures, one of them with a knob that is no branch, and a T")
 
   CHECK(segment_graph({}).n_branches == 0);
 }
+
+TEST_CASE("a crossing is one fork of four branches, whichever of its fractures is the longer")
+{
+  for (const double half : {25., 50.})
+  {
+    // Straight lines of segments a unit long, as tracked paths have them: the way of one up to the
+    // other, and the one that goes on beyond it, which the fluid enters from both.
+    std::vector<NetworkSegment<2>> network;
+    const auto add = [&](const double x, const double y)
+    {
+      NetworkSegment<2> segment;
+      segment.key = network.size();
+      segment.centre = {x, y};
+      segment.area = 1.;
+      network.push_back(segment);
+      return network.size() - 1;
+    };
+    const auto connect = [&](const unsigned int a, const unsigned int b)
+    {
+      network[a].neighbours.push_back({b, 0.5, 1.});
+      network[b].neighbours.push_back({a, 0.5, 1.});
+    };
+    unsigned int crossed = 0, last = 0;
+    for (int x = -30; x <= 30; ++x)
+    {
+      const unsigned int segment = add(x, 0.);
+      if (x > -30)
+        connect(last, segment);
+      last = segment;
+      if (x == 0)
+        crossed = segment;
+    }
+    std::array<unsigned int, 2> mouths;
+    for (const int side : {0, 1})
+      for (int y = 0; y < half; ++y)
+      {
+        const unsigned int segment = add(0., (side == 0 ? -1. : 1.) * (y + 0.5));
+        connect(y == 0 ? crossed : last, segment);
+        if (y == 0)
+          mouths[side] = segment;
+        last = segment;
+      }
+    connect(mouths[0], mouths[1]);
+    const SegmentGraph graph = segment_graph(network);
+    CHECK(graph.n_branches == 4);
+    REQUIRE(graph.fork_angles.size() == 1);
+    CHECK(graph.fork_angles[0] / degree == Approx(90.).epsilon(0.05));
+  }
+}
 } // namespace stockwork::segment_graph_test

@@ -32,6 +32,10 @@ public:
   /// @param breaks let first break what this displacement breaks
   virtual void forces(const Vector &displacement, bool breaks, Vector &force) = 0;
 
+  /// Of what forces() adds up, the number on this rank, bonds seen from both of their ends: for the
+  /// estimate before a run.
+  virtual double n_terms() const = 0;
+
   /// By what acts inside of the rock, such as fluid of a given pressure in its cracks: on this
   /// rank since the start, and what it took to get there from nothing [J; J/m in 2-D].
   virtual double work() const = 0;

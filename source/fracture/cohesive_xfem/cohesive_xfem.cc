@@ -95,6 +95,23 @@ void CohesiveXFEM<dim>::check_lengths()
       throw EntryError(scene.cracks[c].entry, scene.cracks[c].text,
                        "a crack through two cells or more; this one lies in one of " +
                          to_string(pieces.front().cell_size(), dimension::length));
+    constexpr double far = 0.1; // cells
+    for (const CrackEnd end : {CrackEnd::first, CrackEnd::last})
+      if (const int other = discontinuity.paths()[c].ends_on[static_cast<int>(end)]; other >= 0)
+      {
+        const dealii::Point<dim> tip = discontinuity.paths()[c].tip(end),
+                                 &wanted =
+                                   end == CrackEnd::first ? corners.front() : corners.back();
+        const double off = tip.distance(wanted);
+        if (off <= far * discontinuity.paths()[c].piece_at(end).cell_size())
+          continue;
+        std::ostringstream text;
+        text << "Crack " << c + 1 << " ends on crack " << other + 1 << " at (" << tip << "), "
+             << std::setprecision(3) << off
+             << " m from where the deck has it: what reaches beyond the other is cut off, and in a "
+                "cell there is one place at which cracks end.";
+        messages.push_back(text.str());
+      }
     double given = 0., held = 0.;
     for (unsigned int k = 1; k < corners.size(); ++k)
       given += corners[k].distance(corners[k - 1]);

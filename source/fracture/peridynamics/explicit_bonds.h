@@ -49,6 +49,11 @@ public:
   void add_row_sums(Vector &sums) const override;
   void forces(const Vector &displacement, bool breaks, Vector &force) override;
 
+  double n_terms() const override
+  {
+    return static_cast<double>(own_sites.size()) * stencil.size();
+  }
+
   double work() const override
   {
     return work_of_fluid;

@@ -233,20 +233,15 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (parameters.tracked)
     track(state, of_cells);
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
-  if (rim == Rim::stays && std::isnan(scene.crack_pressure))
+  if (rim == Rim::stays)
   {
-    // Fluid that is pumped on would raise the pressure, and nothing else.
+    // Fluid that is pumped on would raise the pressure, and what pulls would stretch bonds that
+    // hold; nothing else would come of it.
     verdict.kind = Verdict::Kind::stop;
     verdict.reason = "a crack has reached the rim of the peridynamic zone, which has no room to "
                      "grow. Enlarge 'Fracture/peridynamics/Zone', or make the elements around it "
                      "squares";
     return verdict;
-  }
-  if (rim == Rim::stays && !told_of_rim)
-  {
-    messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
-                       "beyond. Enlarge 'Fracture/peridynamics/Zone'.");
-    told_of_rim = true;
   }
   if (rim == Rim::grows)
   {
@@ -273,6 +268,12 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     softening.brittle() ? !candidates.empty() : soften_bonds(displacement, of_cells, candidates);
   if (!changed)
   {
+    if (const std::string reason = why_sliding_crack_holds(); !reason.empty())
+    {
+      verdict.kind = Verdict::Kind::stop;
+      verdict.reason = reason;
+      return verdict;
+    }
     verdict = verdict_on(context, state, collectives);
     if (verdict.kind != Verdict::Kind::accept)
       return verdict;

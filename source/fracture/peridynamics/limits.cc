@@ -2,6 +2,7 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include "fracture/peridynamics/lattice_moduli.h"
+#include "mesh/box_list.h"
 #include "stockwork/base/error.h"
 #include "stockwork/fracture/needs.h"
 #include "verification/analytical/kgd.h"
@@ -26,11 +27,13 @@ constexpr double high_pressure = 0.5;
 constexpr double equal_stress = 0.1;
 /// That above which bonds break without end in the first step, or faces overlap, whatever its
 /// length.
-constexpr double hopeless_stress = 5.;
+constexpr double hopeless_stress = 2.5;
 /// Overlap of faces over the extent of the fracture that is no rounding error of a closed one.
 constexpr double overlap = 1e-7;
 /// Attempts at a step in which a fracture jumps, before it is believed that it does at any length.
 constexpr unsigned int attempts_for_jumps = 3;
+/// Of energy in bonds across what has parted, over what the crack has taken, that is no matter.
+constexpr double little_held = 0.05;
 /// A jump: so many times what 'Most advances per step' permits, or so many times the extent before
 /// and half of what it permits.
 constexpr double most_advances = 3.;
@@ -156,7 +159,7 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
           (shear > 1e-6 * unequal ? ", with a shear stress of " + megapascals(shear) : "") +
           ". Bonds ahead of the crack feel the difference, and hold " + megapascals(strength()) +
           " with cells of " + text(spacing) + " m. With more than " + text(hopeless_stress) +
-          " times that, runs fail in their first step. Use " + closure + ", a smaller difference" +
+          " times that, runs fail in their first steps. Use " + closure + ", a smaller difference" +
           (dim == 2 ? ", smaller cells, or 'cohesive_xfem'." : " or smaller cells."));
       message =
         "The in-situ stress along the crack '" + crack.text + "', " + megapascals(along) +
@@ -254,6 +257,58 @@ void Peridynamics<dim>::warn_off_paths()
 
 
 template <int dim>
+std::string Peridynamics<dim>::why_sliding_crack_holds() const
+{
+  if (!parameters.tracked || std::isnan(scene.crack_pressure))
+    return "";
+  double held = 0., most = 0.;
+  Point<dim> where;
+  if constexpr (dim == 2)
+    for (const BondAcross &bond : crossing_bonds)
+    {
+      const auto &[site, b] = bond.view;
+      const double stretched = elongation(site, b, displacement);
+      if (stretched >= 0. || bonds.is_broken(site, b) || views_of(site, b).front() != bond.view)
+        continue;
+      // How far its ends are apart across the path, of the image that crosses it.
+      const FarEnd end = zone.far_end(site, b);
+      Tensor<1, dim> normal = paths.left(bond.crossing);
+      if (normal * bond.direction < 0.)
+        normal = -normal;
+      double parted = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        parted += (bond.direction[d] * coefficients[b].direction[d] < 0. ? -1. : 1.) * normal[d] *
+                  ((end.mirrored >> d & 1 ? -1. : 1.) * displacement[end.site * dim + d] -
+                   displacement[site * dim + d]);
+      // Had they parted as much along it, it would be broken.
+      if (parted < softening.last * relative_stretch(site, b) * coefficients[b].length)
+        continue;
+      double energy = 0.;
+      for (const auto &[s, view] : views_of(site, b))
+        energy += 0.25 * zone.sites()[s].share * (1. - bond_damage(s, view)) * stiffness(s, view) *
+                  stretched * stretched;
+      held += energy;
+      if (energy > most)
+      {
+        most = energy;
+        where = paths.point(bond.crossing);
+      }
+    }
+  if (held <= little_held * dissipated)
+    return "";
+  std::ostringstream reason;
+  reason.precision(3);
+  reason << "the crack at (" << where
+         << ") m is made to slide as it opens. Bonds across it that this presses do not break, and "
+            "hold what has parted: they store "
+         << 100. * held / dissipated
+         << " % of what the crack has taken, and all that follows would be wrong. Let what pulls "
+            "act across the crack, or use 'cohesive_xfem'";
+  return reason.str();
+}
+
+
+template <int dim>
 double Peridynamics<dim>::fracture_volume(const State &state, const Collectives &collectives) const
 {
   std::vector<double> volume(1, 0.);
@@ -342,22 +397,10 @@ std::string Peridynamics<dim>::wanted_zone() const
     lower[d] = std::max(lower[d] - more, zone.room().lower_bound(d));
     upper[d] = std::min(upper[d] + more, zone.room().upper_bound(d));
   }
-  std::ostringstream box;
-  box.precision(5);
-  const auto write = [&](const Point<dim> &corner)
-  {
-    box << '(';
-    for (unsigned int d = 0; d < dim; ++d)
-      box << (d > 0 ? ", " : "") << corner[d] << " m";
-    box << ')';
-  };
-  write(lower);
-  box << " to ";
-  write(upper);
   return "bonds are stretched too far up to the rim of the peridynamic zone, however short the "
          "step "
          "is. A greater zone from the start: 'Fracture/peridynamics/Zone = " +
-         box.str() + "'" + what_bonds_carry();
+         to_string(dealii::BoundingBox<dim>({lower, upper})) + "'" + what_bonds_carry();
 }
 
 
@@ -377,6 +420,7 @@ std::string Peridynamics<dim>::what_bonds_carry() const
   template void Peridynamics<dim>::foresee_stress(double);                                      \
   template void Peridynamics<dim>::foresee_pressure(double);                                    \
   template void Peridynamics<dim>::warn_off_paths();                                            \
+  template std::string Peridynamics<dim>::why_sliding_crack_holds() const;                      \
   template void Peridynamics<dim>::warn_of_pressure(const State &);                             \
   template double Peridynamics<dim>::fracture_volume(const State &, const Collectives &) const; \
   template double Peridynamics<dim>::extent() const;                                            \

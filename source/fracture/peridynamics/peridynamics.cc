@@ -3,7 +3,9 @@
 #include "flow/permeability_tensor.h"
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/state_based.h"
+#include "mesh/box_list.h"
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
 #include "stockwork/fracture/needs.h"
 
 #include <boost/serialization/array.hpp>
@@ -14,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace stockwork::peridynamics
 {
@@ -121,6 +122,18 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   n_nodes = mesh_view.dof_handler.n_dofs() / mesh_view.dof_handler.get_fe().dofs_per_vertex;
   zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, scene.moves_side,
              parameters.free_boundaries, mesh_view, collectives);
+  // Where elements lie between, they pull with all of the stress at sites that have lost a part of
+  // their bonds, beyond the side.
+  if (zone.peridynamic_sites().size() < n_nodes && parameters.free_boundaries)
+    if (const auto side =
+          zone.moved_side_within((parameters.horizon - same_place) * zone.spacing()))
+      throw unsuitable_mesh(
+        std::string("The peridynamic zone comes nearer than a horizon, ") +
+        to_string(parameters.horizon * zone.spacing(), dimension::length) + ", to the side that " +
+        "the deck moves at the " + ((*side)[1] == 0 ? "lower" : "upper") + " end of " +
+        "xyz"[(*side)[0]] +
+        ": bonds would be missing there, and the force with them. Keep it away by a larger box, "
+        "smaller cells or less of 'Margin' and 'Zone', or let 'Zone' hold all of the rock.");
   unbreakable.clear();
   if (!parameters.unbreakable.empty())
     for (const Site<dim> &site : zone.sites())
@@ -136,10 +149,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
                      }) &&
         parameters.zone_growth == 0)
     {
-      std::ostringstream text;
-      text << "(" << box.get_boundary_points().first << ") to (" << box.get_boundary_points().second
-           << ")";
-      throw EntryError("Fracture/peridynamics/Unbreakable", text.str(),
+      throw EntryError("Fracture/peridynamics/Unbreakable", to_string(box),
                        "boxes that hold nodes of the peridynamic zone");
     }
   regions.clear();
@@ -307,7 +317,6 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   has_rejected = false;
   dissipated = committed_energy;
   n_messages_before = messages.size();
-  told_of_rim_before = told_of_rim;
   told_of_pressure_before = told_of_pressure;
   told_off_paths_before = told_off_paths;
   n_segments_before = cells.size();
@@ -401,7 +410,6 @@ template <int dim>
 void Peridynamics<dim>::rollback()
 {
   messages.resize(n_messages_before);
-  told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
   told_off_paths = told_off_paths_before;
   dissipated = committed_energy;
@@ -460,7 +468,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_correction << committed_energy
-          << committed_damage_relaxation << told_of_rim << told_of_pressure << committed_paths
+          << committed_damage_relaxation << told_of_pressure << committed_paths
           << committed_way_energy << told_off_paths << committed_cells << told_of_contact;
 }
 
@@ -472,7 +480,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_rim >> told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths >>
+    told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths >>
     committed_cells >> told_of_contact;
   paths = committed_paths;
   Point<dim> corner;

@@ -477,6 +477,10 @@ private:
   /// Once, when bonds are stretched too far where no crack may go, far from all paths.
   void warn_off_paths();
 
+  /// Where what is given opens a crack on a path and slides it as well: bonds across it that are
+  /// pressed by that do not break, and hold what has parted. A sentence once that counts.
+  std::string why_sliding_crack_holds() const;
+
   /// Once, when the net pressure is so high that bonds may break where no crack is.
   void warn_of_pressure(const State &state);
 
@@ -611,7 +615,7 @@ private:
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
-  bool told_of_rim = false, told_of_pressure = false, told_off_paths = false;
+  bool told_of_pressure = false, told_off_paths = false;
   bool told_of_contact = false;
 
   // Of the current step.
@@ -626,6 +630,6 @@ private:
   bool has_rejected = false;        ///< the last attempt
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
-  bool told_of_rim_before = false, told_of_pressure_before = false, told_off_paths_before = false;
+  bool told_of_pressure_before = false, told_off_paths_before = false;
 };
 } // namespace stockwork::peridynamics

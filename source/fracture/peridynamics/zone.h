@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace stockwork::peridynamics
@@ -138,6 +139,10 @@ public:
     return inside;
   }
 
+  /// A side that the deck moves and that is nearer than this to a peridynamic site, but holds none
+  /// of them back as a plane of symmetry: direction and side.
+  std::optional<std::array<unsigned int, 2>> moved_side_within(double distance) const;
+
   /// The largest box that the zone may fill: a horizon away from the boundaries of the domain that
   /// are not known to be planes of symmetry, and from cells that cannot be halved until they are
   /// those of the lattice.
@@ -256,6 +261,7 @@ private:
   /// Planes of symmetry: the place along each direction, of the lower and of the upper one.
   static constexpr int no_mirror = std::numeric_limits<int>::min();
   std::array<std::array<int, 2>, dim> mirrors;
+  std::array<std::array<bool, 2>, dim> moved{}; ///< sides near the zone that the deck moves
   dealii::BoundingBox<dim> domain, largest;
   unsigned int rank = 0;
   bool has_free_boundaries = false;

@@ -198,7 +198,8 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
   };
 
   std::map<Place<dim>, Site<dim>> mine;
-  std::vector<std::array<int, 3>> my_mirrors; // direction, side, place
+  std::vector<std::array<int, 3>> my_mirrors;        // direction, side, place
+  std::vector<std::array<unsigned int, 2>> my_moved; // direction, side
   std::vector<double> odd_cell; // centre of a cell in the zone that is of another size
   owned_cells.clear();
   for (const auto &cell : dof_handler.active_cell_iterators())
@@ -236,6 +237,9 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
         mine.emplace(site.place, site);
       }
       add_mirrors<dim>(cell, place, mesh_view.constraints, moves_side, my_mirrors);
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() && moves_side && moves_side(cell->face(f)->boundary_id()))
+          my_moved.push_back({{f / 2, f % 2}});
     }
 
   refuse_odd_cells<dim>(collectives.gather(odd_cell), h);
@@ -244,6 +248,9 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
     m = {{no_mirror, no_mirror}};
   for (const auto &m : collectives.gather(my_mirrors))
     mirrors[m[0]][m[1]] = m[2];
+  moved = {};
+  for (const auto &[direction, side] : collectives.gather(my_moved))
+    moved[direction][side] = true;
   find_room(in_zone.lower, in_zone.upper, reach, mesh_view, collectives);
   all_sites = unite<dim>(mine, collectives);
 }
@@ -315,18 +322,37 @@ dealii::BoundingBox<dim> room_among(const std::vector<dealii::BoundingBox<dim>> 
 
 
 template <int dim>
+std::optional<std::array<unsigned int, 2>> Zone<dim>::moved_side_within(const double distance) const
+{
+  for (const unsigned int i : peridynamic_sites())
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const unsigned int side : {0u, 1u})
+      {
+        const double place = position(all_sites[i].place)[d];
+        if (moved[d][side] &&
+            (side == 0 ? place - domain.lower_bound(d) : domain.upper_bound(d) - place) < distance)
+          return std::array<unsigned int, 2>{{d, side}};
+      }
+  return {};
+}
+
+
+template <int dim>
 void Zone<dim>::find_room(const Point<dim> &first,
                           const Point<dim> &last,
                           const unsigned int reach,
                           const MeshView<dim> &mesh_view,
                           const Collectives &collectives)
 {
-  const double rim = has_free_boundaries ? 0. : reach * h;
+  const auto rim = [&](const unsigned int d, const unsigned int side)
+  {
+    return mirrors[d][side] != no_mirror || (has_free_boundaries && !moved[d][side]) ? 0.
+                                                                                     : reach * h;
+  };
   Bounds<dim> bound;
   std::vector<dealii::BoundingBox<dim>> odd_cells;
   for (unsigned int d = 0; d < dim; ++d)
-    bound[d] = {{domain.lower_bound(d) + (mirrors[d][0] == no_mirror ? rim : 0.),
-                 domain.upper_bound(d) - (mirrors[d][1] == no_mirror ? rim : 0.)}};
+    bound[d] = {{domain.lower_bound(d) + rim(d, 0), domain.upper_bound(d) - rim(d, 1)}};
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
@@ -356,6 +382,7 @@ void Zone<dim>::find_room(const Point<dim> &first,
   template dealii::BoundingBox<dim> room_among<dim>(const std::vector<dealii::BoundingBox<dim>> &, \
                                                     const dealii::BoundingBox<dim> &, Bounds<dim>, \
                                                     double, const Collectives &);                  \
+  template std::optional<std::array<unsigned int, 2>> Zone<dim>::moved_side_within(double) const;  \
   template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int,         \
                                      const MeshView<dim> &, const Collectives &);
 INSTANTIATE(2)
