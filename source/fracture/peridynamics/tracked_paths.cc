@@ -235,6 +235,9 @@ void TrackedPaths::share_evenly(const Readings &readings)
 {
   for (Piece &piece : wet)
     piece.weight = 1.;
+  // Where paths meet, which of them a bond belongs to changes with ways that may still be others.
+  if (paths.size() > 1)
+    return;
   for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
   {
     std::vector<double> read(wet.size(), 0.);

@@ -76,7 +76,7 @@ public:
 
   /// From now on share bonds out so that all wet pieces read such an opening alike. A path that is
   /// oblique to the lattice is crossed by up to 5 per cent more bonds here than there, in the mean
-  /// over two pieces.
+  /// over two pieces. Of several paths shares stay as they are.
   void share_evenly(const Readings &readings);
 
   /// The end whose way is crossed there; nothing on an initial crack.

@@ -198,10 +198,9 @@ void Peridynamics<dim>::follow_paths()
     for (const BondAcross &bond : crossing_bonds)
     {
       const auto &[site, b] = bond.view;
-      readings.emplace_back(bond.crossing,
-                            zone.sites()[site].share * coefficients[b].stiffness *
-                              coefficients[b].length *
-                              std::abs(bond.direction * paths.left(bond.crossing)));
+      readings.emplace_back(bond.crossing, zone.sites()[site].share * coefficients[b].stiffness *
+                                             coefficients[b].length *
+                                             std::abs(bond.direction * paths.left(bond.crossing)));
     }
     paths.share_evenly(readings);
     for (const TrackedPaths::Piece &piece : paths.wet_pieces())
