@@ -6,6 +6,8 @@ A name is a path into summary.json (`errors/pore_pressure/final`), or one of
     minimum/COLUMN        and maximum/COLUMN, of all steps
     closure/QUANTITY      of contrib/closure.py
     direction             the slope of the fractures' diagonal [degrees]
+    pressure_and_length   the square of the net pressure at the first well times the equivalent length [Pa^2 m]: with one
+                          pressure in all of a straight fracture G = pi p^2 L/(2 E') (Griffith 1921)
     late_direction        that of what it has grown by in the second half of the run
     fields/FIELD/minimum  and fields/FIELD/maximum, over the last fields that were written; of a tensor or a vector, over
                           its components (needs numpy)
@@ -19,7 +21,7 @@ from results import read_statistics
 # What a name may begin with: numbers and groups of summary.json (source/base/run_summary.cc), and those from other files.
 BEGINNINGS = ("cells", "unknowns", "ranks", "steps", "rejected_steps", "nonlinear_iterations", "linear_iterations",
               "wall_seconds", "cpu_seconds", "peak_memory_bytes", "final", "errors", "fluid_balance", "warnings",
-              "rates", "minimum", "maximum", "closure", "direction", "late_direction",
+              "rates", "minimum", "maximum", "closure", "direction", "late_direction", "pressure_and_length",
               "fields")
 
 
@@ -39,6 +41,9 @@ def with_measures(directory, summary, names):
     if "direction" in kinds:
         final = summary["final"]
         found["direction"] = math.degrees(math.atan2(final["extent_y"], final["extent_x"]))
+    if "pressure_and_length" in kinds:
+        final = summary["final"]
+        found["pressure_and_length"] = final["net_inlet_pressure"]**2 * final["equivalent_length"]
     if "late_direction" in kinds:
         rates = late_rates(read_statistics(directory))
         found["late_direction"] = math.degrees(math.atan2(rates["extent_y"], rates["extent_x"]))

@@ -1,6 +1,7 @@
 // The ways of cracks between the vertices of a lattice.
 #include <doctest/doctest.h>
 
+#include "fracture/peridynamics/stencil.h"
 #include "fracture/peridynamics/tracked_paths.h"
 
 #include <cmath>
@@ -74,6 +75,53 @@ TEST_CASE("a bond crosses a path where it does, and its shares add up to one")
   // A node on a path is on its left side.
   CHECK(paths.crossing(Point<2>(1., 0.5), Point<2>(1., 0.)));
   CHECK(!paths.crossing(Point<2>(1., 0.5), Point<2>(1., 1.)));
+}
+
+
+TEST_CASE("pieces of a path read an opening that is the same everywhere alike, at any angle")
+{
+  const auto stencil = peridynamics::horizon_stencil<2>(3, peridynamics::VolumeRule::isotropic);
+  double most_before = 0.;
+  for (const double angle : {7.5, 15., 22.5, 30., 37.5, 45.})
+  {
+    const Tensor<1, 2> t({std::cos(angle * M_PI / 180.), std::sin(angle * M_PI / 180.)});
+    const Point<2> centre(0.31, 0.17);
+    TrackedPaths paths;
+    paths.reinit({crack({centre - 12.5 * t, centre + 12.5 * t})}, 1., anywhere);
+    TrackedPaths::Readings readings;
+    for (int x = -16; x <= 16; ++x)
+      for (int y = -16; y <= 16; ++y)
+        for (const auto &bond : stencil)
+        {
+          const Point<2> from(x, y), to(x + bond.offset[0], y + bond.offset[1]);
+          if (const auto crossing = paths.crossing(from, to))
+            readings.emplace_back(*crossing, bond.volume_fraction *
+                                               std::abs(bond.direction() * paths.left(*crossing)));
+        }
+    // Root of the mean square, of all but the four pieces at either end, over their mean.
+    const auto deviation = [&]
+    {
+      std::vector<double> read(paths.wet_pieces().size(), 0.);
+      for (const auto &[crossing, reading] : readings)
+      {
+        const auto shares = paths.shares(crossing, 0.);
+        CHECK(sum(shares) == doctest::Approx(crossing.arc < 0. || crossing.arc > 25. ? 0. : 1.));
+        for (const auto &[piece, share] : shares)
+          read[piece] += share * reading;
+      }
+      const unsigned int first = 4, n = read.size() - 2 * first;
+      double mean = 0., squares = 0.;
+      for (unsigned int i = first; i < first + n; ++i)
+        mean += read[i] / n;
+      for (unsigned int i = first; i < first + n; ++i)
+        squares += std::pow(read[i] / mean - 1., 2) / n;
+      return std::sqrt(squares);
+    };
+    most_before = std::max(most_before, deviation());
+    paths.share_evenly(readings);
+    CHECK(deviation() < 0.005);
+  }
+  CHECK(most_before > 0.015);
 }
 
 

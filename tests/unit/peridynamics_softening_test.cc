@@ -41,6 +41,27 @@ TEST_CASE("a bond that softens dissipates what a brittle one does, and unloads t
   }
 }
 
+TEST_CASE("with a pressure in its law, the fluid's work on a bond is that on its volume")
+{
+  // Of stiffness 1, under a pressure that lengthens it by g: the force is e - x, x = D (e + g), the
+  // volume is x times its length over C11 + (d-1) C12. So ends and fluid do the work f de + g dx.
+  const SofteningLaw law{0.5, 2.};
+  const double g = 0.3;
+  const auto lost = [&](const double kappa) { return law.damage(kappa) * kappa; };
+  double work = 0.;
+  const unsigned int n = 3000;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const double from = 1.2 * law.last * i / n, to = 1.2 * law.last * (i + 1) / n;
+    const double x0 = lost(from), x1 = lost(to);
+    work += (0.5 * (from + to) - g - 0.5 * (x0 + x1)) * (to - from) + g * (x1 - x0);
+    // What comes back, and the uniform field of the pressure, of which the bond has had nothing.
+    const double back = 0.5 * (to - x1) * to - g * (to - x1);
+    CHECK(work - back == doctest::Approx(0.5 * law.dissipated(to)).epsilon(1e-6));
+  }
+  CHECK(work == doctest::Approx(0.5).epsilon(1e-6));
+}
+
 TEST_CASE("one stretch is a brittle bond")
 {
   const SofteningLaw law{1e-4, 1e-4};

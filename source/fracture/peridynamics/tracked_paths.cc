@@ -15,6 +15,9 @@ namespace
 constexpr double same_spot = 1e-6;
 /// Shorter pieces are joined with the one before [pieces].
 constexpr double short_piece = 0.3;
+/// To share bonds out by. Pieces then read an opening alike to some tenths of a per cent, at any
+/// angle; more would carry what the ends of a path lack farther along it.
+constexpr unsigned int sweeps = 3;
 
 /// Where the line from a to b crosses the one from c to d, as shares of their lengths. A point on
 /// the second line belongs to its left side.
@@ -213,14 +216,17 @@ CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) co
   if (first == last || crossing.arc < wet[first].begin - reach ||
       crossing.arc > wet[last - 1].end + reach)
     return result;
+  double sum = 0.;
   const auto add = [&](const unsigned int piece, const double share)
   {
     if (share <= 0.)
       return;
+    const double weighted = wet[piece].weight * share;
+    sum += weighted;
     if (!result.empty() && (result.back().first == piece || result.size() == result.capacity()))
-      result.back().second += share;
+      result.back().second += weighted;
     else
-      result.emplace_back(piece, share);
+      result.emplace_back(piece, weighted);
   };
   const double from = crossing.arc - h, to = crossing.arc + h;
   const auto part = [&](const double begin, const double end)
@@ -229,7 +235,31 @@ CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) co
   for (unsigned int i = first; i < last; ++i)
     add(i, part(wet[i].begin, wet[i].end));
   add(last - 1, part(wet[last - 1].end, to));
+  for (auto &share : result)
+    share.second /= sum;
   return result;
+}
+
+
+/// Each bond is shared out wholly, so a uniform pressure remains one; and each piece shall have as
+/// much of bonds as it is long. Both by turns (iterative proportional fitting; Sinkhorn 1967).
+void TrackedPaths::share_evenly(const Readings &readings)
+{
+  for (Piece &piece : wet)
+    piece.weight = 1.;
+  // Where paths meet, which of them a bond belongs to changes with ways that may still be others.
+  if (paths.size() > 1)
+    return;
+  for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
+  {
+    std::vector<double> read(wet.size(), 0.);
+    for (const auto &[crossing, reading] : readings)
+      for (const auto &[piece, share] : shares(crossing, same_spot * h))
+        read[piece] += share * reading;
+    for (unsigned int i = 0; i < wet.size(); ++i)
+      if (read[i] > 0.)
+        wet[i].weight *= (wet[i].end - wet[i].begin) / read[i];
+  }
 }
 
 
@@ -278,9 +308,14 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
       growth.advance = std::min(advance({p, side}), way({p, side}));
       growth.wet = std::max(growth.wet, growth.advance);
     }
-  const std::size_t before = wet.size();
+  std::vector<Piece> before;
+  before.swap(wet);
   find_wet_pieces();
-  return wet.size() != before;
+  if (wet.size() != before.size())
+    return true;
+  for (unsigned int i = 0; i < wet.size(); ++i)
+    wet[i].weight = before[i].weight;
+  return false;
 }
 
 

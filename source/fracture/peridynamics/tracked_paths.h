@@ -37,6 +37,7 @@ public:
     double begin, end; ///< arc [m]
     bool at_tip;       ///< the fluid ends here, within rock
     std::vector<unsigned int> neighbours;
+    double weight = 1.; ///< in the shares of bonds
   };
 
   /// An end that grows, by its path and its side (0: before the first point, 1: after the last).
@@ -73,6 +74,14 @@ public:
   /// of the path, in the mean over some cells only; so a bond is shared out to all of a length of
   /// two pieces around. None if the fluid is farther than @p reach [m].
   CellShares shares(const Crossing &crossing, double reach) const;
+
+  /// Bonds that cross a path there, and what they read of an opening that is the same everywhere.
+  using Readings = std::vector<std::pair<Crossing, double>>;
+
+  /// From now on share bonds out so that all wet pieces read such an opening alike. A path that is
+  /// oblique to the lattice is crossed by up to 5 per cent more bonds here than there, in the mean
+  /// over two pieces. Of several paths shares stay as they are.
+  void share_evenly(const Readings &readings);
 
   /// The end whose way is crossed there; nothing on an initial crack.
   std::optional<End> end_at(const Crossing &crossing) const;

@@ -198,6 +198,15 @@ void Peridynamics<dim>::follow_paths()
   if constexpr (dim == 2)
   {
     const double h = zone.spacing();
+    TrackedPaths::Readings readings;
+    for (const BondAcross &bond : crossing_bonds)
+    {
+      const auto &[site, b] = bond.view;
+      readings.emplace_back(bond.crossing, zone.sites()[site].share * coefficients[b].stiffness *
+                                             coefficients[b].length *
+                                             std::abs(bond.direction * paths.left(bond.crossing)));
+    }
+    paths.share_evenly(readings);
     for (const TrackedPaths::Piece &piece : paths.wet_pieces())
     {
       Segment<dim> segment;
