@@ -125,9 +125,9 @@ void Report<dim>::observe_energy(const State &state,
     energy.work = march->work_of_step();
   }
   else
-    energy = mechanical_energy<dim>(system.mesh_view(), rock, system.nonlinear_rock(),
-                                    system.loads(), model, stepper.last_context(), state,
-                                    system.collectives());
+    energy =
+      mechanical_energy<dim>(system.mesh_view(), rock, system.nonlinear_rock(), system.loads(),
+                             model, stepper.last_context(), state, system.collectives());
   if (const OpeningControl<dim> *const control = system.opening_control())
   {
     const unsigned int index = system.index_of_control();

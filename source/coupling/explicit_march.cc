@@ -175,7 +175,7 @@ void ExplicitMarch<dim>::look_within(const double time, const double dt)
   const auto look = [&](const double t)
   {
     look_at_boundary(t);
-    return Values{loads, prescribed};
+    return Values{{loads, prescribed}};
   };
   const Values before = look(time), between = look(time + 0.5 * dt), after = look(time + dt);
   for (unsigned int k = 0; k < before.size(); ++k)

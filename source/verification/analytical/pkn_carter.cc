@@ -20,7 +20,7 @@ constexpr double ln_10 = 2.302585092994046, first_exponent = -12., rows_per_deca
 // with the tip. It keeps to the storage limit within 2e-8 and to the leak-off limit within 5e-11 in
 // length, both extrapolated with their known corrections, and to a second method, with cells that
 // stay, within 1e-5 at T = 0.9.
-constexpr std::array<double, 3> rows[] = {
+constexpr double rows[][3] = {
   {3.316681e-10, 0.004001076, 0.9995307}, {8.329954e-10, 0.00503683, 0.9993372},
   {2.091974e-09, 0.006340589, 0.9990639}, {5.253327e-09, 0.007981611, 0.9986781},
   {1.319053e-08, 0.01004698, 0.9981334},  {3.311458e-08, 0.01264613, 0.9973647},
