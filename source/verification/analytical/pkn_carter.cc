@@ -5,7 +5,6 @@
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
