@@ -233,7 +233,15 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   if (parameters.tracked)
     track(state, of_cells);
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
-  if (rim == Rim::stays)
+  if (rim == Rim::stays && context.acceleration > 0. && !std::isnan(scene.crack_pressure))
+  {
+    // Waves come to the rim, and what they leave there is no end of what runs elsewhere.
+    if (!told_of_rim)
+      messages.push_back("A crack has reached the rim of the peridynamic zone and cannot grow "
+                         "beyond. Enlarge 'Fracture/peridynamics/Zone'.");
+    told_of_rim = true;
+  }
+  else if (rim == Rim::stays)
   {
     // Fluid that is pumped on would raise the pressure, and what pulls would stretch bonds that
     // hold; nothing else would come of it.

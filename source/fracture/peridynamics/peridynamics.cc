@@ -469,7 +469,8 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   archive << origin << grown << committed_bonds << committed_cracked << committed_softening
           << committed_normals << committed_correction << committed_energy
           << committed_damage_relaxation << told_of_pressure << committed_paths
-          << committed_way_energy << told_off_paths << committed_cells << told_of_contact;
+          << committed_way_energy << told_off_paths << committed_cells << told_of_contact
+          << told_of_rim;
 }
 
 
@@ -481,7 +482,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
     told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths >>
-    committed_cells >> told_of_contact;
+    committed_cells >> told_of_contact >> told_of_rim;
   paths = committed_paths;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)

@@ -616,7 +616,7 @@ private:
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
   bool told_of_pressure = false, told_off_paths = false;
-  bool told_of_contact = false;
+  bool told_of_contact = false, told_of_rim = false;
 
   // Of the current step.
   std::size_t n_messages_before = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace stockwork::peridynamics
 {
@@ -18,6 +19,9 @@ constexpr double short_piece = 0.3;
 /// To share bonds out by. Pieces then read an opening alike to some tenths of a per cent, at any
 /// angle; more would carry what the ends of a path lack farther along it.
 constexpr unsigned int sweeps = 3;
+/// The most that a lattice makes a piece read too much or too little by. What is off by more lacks
+/// bonds, as the ends of paths do, or is other rock, and stays as it is.
+constexpr double most_of_lattice = 0.1;
 
 /// Where the line from a to b crosses the one from c to d, as shares of their lengths. A point on
 /// the second line belongs to its left side.
@@ -241,6 +245,14 @@ CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) co
 }
 
 
+bool TrackedPaths::begins_along_lattice(const Path &path) const
+{
+  const dealii::Tensor<1, 2> crack =
+    path.point(path.n_pieces() - path.ends[1].n_points) - path.point(path.ends[0].n_points);
+  return std::min(std::abs(crack[0]), std::abs(crack[1])) < same_spot * h;
+}
+
+
 /// Each bond is shared out wholly, so a uniform pressure remains one; and each piece shall have as
 /// much of bonds as it is long. Both by turns (iterative proportional fitting; Sinkhorn 1967).
 void TrackedPaths::share_evenly(const Readings &readings)
@@ -248,7 +260,8 @@ void TrackedPaths::share_evenly(const Readings &readings)
   for (Piece &piece : wet)
     piece.weight = 1.;
   // Where paths meet, which of them a bond belongs to changes with ways that may still be others.
-  if (paths.size() > 1)
+  // Along the lattice all pieces are crossed alike, whatever a way wanders by.
+  if (paths.size() != 1 || begins_along_lattice(paths.front()))
     return;
   for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
   {
@@ -256,9 +269,14 @@ void TrackedPaths::share_evenly(const Readings &readings)
     for (const auto &[crossing, reading] : readings)
       for (const auto &[piece, share] : shares(crossing, same_spot * h))
         read[piece] += share * reading;
+    double length = 0.;
+    for (const Piece &piece : wet)
+      length += piece.end - piece.begin;
+    const double mean = std::accumulate(read.begin(), read.end(), 0.) / length;
     for (unsigned int i = 0; i < wet.size(); ++i)
-      if (read[i] > 0.)
-        wet[i].weight *= (wet[i].end - wet[i].begin) / read[i];
+      if (const double wanted = mean * (wet[i].end - wet[i].begin);
+          std::abs(read[i] - wanted) < most_of_lattice * wanted)
+        wet[i].weight *= wanted / read[i];
   }
 }
 

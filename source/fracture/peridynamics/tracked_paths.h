@@ -228,6 +228,9 @@ private:
     double begin(unsigned int piece) const;
   };
 
+  /// Whether the initial crack of a path runs along an axis, from its first to its last point.
+  bool begins_along_lattice(const Path &path) const;
+
   /// Number of the piece that is crossed there.
   unsigned int piece_at(const Crossing &crossing) const;
 
