@@ -319,6 +319,11 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   p.cohesive_energy = prm.get_double("Cohesive energy");
   if (p.cohesive_energy < 1. && !p.tracked)
     throw bad("Cohesive energy", "1, or 'Tracking = path'");
+  if (p.cohesive_energy < 1. &&
+      std::none_of(scene.cracks.begin(), scene.cracks.end(),
+                   [](const InitialCrack<dim> &crack)
+                   { return crack.kind == InitialCrack<dim>::Kind::cohesive; }))
+    throw bad("Cohesive energy", "1 without a crack in 'Cracks/Cohesive'");
   p.free_boundaries = !p.state_based && (scene.crack_pressure == 0. || p.explicit_steps);
   p.growth = prm.get_bool("Growth");
   p.bonds_per_pass = prm.get_integer("Bonds per pass");
