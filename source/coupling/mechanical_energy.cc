@@ -215,8 +215,9 @@ MechanicalEnergy mechanical_energy(const MeshView<dim> &mesh_view,
           const unsigned int vertex = k / dim;
           if (cell_role.skip_stiffness == nullptr || !(*cell_role.skip_stiffness)[vertex])
             held.push_back(k);
-          else if (mesh_view.dof_handler.locally_owned_dofs().is_element(dof))
-            of_model.hold(dof);
+          else if (mesh_view.dof_handler.locally_owned_dofs().is_element(dof) &&
+                   (state.current.bulk(dof) != 0. || state.committed.bulk(dof) != 0.))
+            of_model.hold(dof); // one at rest takes no part in work or load
         }
       const RockProperties properties = rock.at(cell->material_id(), cell->center());
       const LinearStiffness<dim> hooke(properties);

@@ -317,6 +317,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   has_rejected = false;
   dissipated = committed_energy;
   n_messages_before = messages.size();
+  told_of_rim_before = told_of_rim;
   told_of_pressure_before = told_of_pressure;
   told_off_paths_before = told_off_paths;
   n_segments_before = cells.size();
@@ -410,6 +411,7 @@ template <int dim>
 void Peridynamics<dim>::rollback()
 {
   messages.resize(n_messages_before);
+  told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
   told_off_paths = told_off_paths_before;
   dissipated = committed_energy;

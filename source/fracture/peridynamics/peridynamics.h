@@ -615,8 +615,8 @@ private:
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
-  bool told_of_pressure = false, told_off_paths = false;
-  bool told_of_contact = false, told_of_rim = false;
+  bool told_of_rim = false, told_of_pressure = false, told_off_paths = false;
+  bool told_of_contact = false;
 
   // Of the current step.
   std::size_t n_messages_before = 0;
@@ -630,6 +630,6 @@ private:
   bool has_rejected = false;        ///< the last attempt
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
-  bool told_of_pressure_before = false, told_off_paths_before = false;
+  bool told_of_rim_before = false, told_of_pressure_before = false, told_off_paths_before = false;
 };
 } // namespace stockwork::peridynamics

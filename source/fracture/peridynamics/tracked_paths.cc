@@ -20,7 +20,7 @@ constexpr double short_piece = 0.3;
 /// angle; more would carry what the ends of a path lack farther along it.
 constexpr unsigned int sweeps = 3;
 /// The most that a lattice makes a piece read too much or too little by. What is off by more lacks
-/// bonds, as the ends of paths do, or is other rock, and stays as it is.
+/// bonds, as the ends of paths do, and stays as it is.
 constexpr double most_of_lattice = 0.1;
 
 /// Where the line from a to b crosses the one from c to d, as shares of their lengths. A point on
