@@ -16,7 +16,6 @@ import argparse
 import itertools
 import math
 import os
-import subprocess
 import sys
 
 import matplotlib
@@ -28,6 +27,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..")
 sys.path.insert(0, HERE)
 from arguments import PROGRAM, positive, program  # noqa: E402
+from deck_runs import run_deck  # noqa: E402
 from natural_crack import criteria, outcome  # noqa: E402
 from results import ResultError, read_statistics, read_summary, script  # noqa: E402
 
@@ -86,13 +86,6 @@ def place(options, model, angle, contrast):
     return os.path.join(options.output, model, kind, rest, str(angle), f"{contrast:g}")
 
 
-def finished(directory):
-    try:
-        return read_summary(directory).get("status") == "finished"
-    except ResultError:
-        return False
-
-
 def settings(options, model, deck, contrast):
     """What differs from the deck."""
     entries = [f"In situ/Stress={-(options.least + contrast):g} MPa, {-options.least:g} MPa",
@@ -106,25 +99,13 @@ def settings(options, model, deck, contrast):
 
 
 def run(options):
-    failed = 0
+    ended = True
     for model, angle, contrast in itertools.product(options.model, options.angles, options.contrasts):
-        directory = place(options, model, angle, contrast)
-        if finished(directory):
-            print(f"{directory}: finished before")
-            continue
-        os.makedirs(directory, exist_ok=True)
         deck = os.path.join(ROOT, "prm", "natural_crack", str(angle), f"{model}.prm")
         part = os.path.join(ROOT, "prm", "cases", "natural_crack", f"{angle}.part.prm")
-        command = [options.program, deck, "--output", directory, "--set", "Resolution=coarse"]
-        for setting in settings(options, model, part, contrast):
-            command += ["--set", setting]
-        log_path = os.path.join(directory, "log")
-        with open(log_path, "w", encoding="utf-8") as log:
-            status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False,
-                                    stdin=subprocess.DEVNULL, env=dict(os.environ, OMP_NUM_THREADS="1")).returncode
-        print(f"{directory}: " + ("finished" if status == 0 else f"exit status {status}, see {log_path}"), flush=True)
-        failed += status != 0
-    return 1 if failed else 0
+        entries = ["Resolution=coarse", *settings(options, model, part, contrast)]
+        ended &= run_deck(options.program, deck, place(options, model, angle, contrast), entries)
+    return 0 if ended else 1
 
 
 def draw_fracture(ax, found, angle):

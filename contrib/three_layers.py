@@ -15,45 +15,23 @@ import argparse
 import math
 import os
 import statistics
-import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..")
 sys.path.insert(0, HERE)
 from arguments import PROGRAM, positive, program, whole_from  # noqa: E402
-from results import ResultError, read_summary, script  # noqa: E402
+from deck_runs import run_deck  # noqa: E402
+from results import script  # noqa: E402
 from three_layers import figures, zone  # noqa: E402
 
 ANGLES = (0, 27, 45)
 
 
-def finished(directory):
-    try:
-        return read_summary(directory).get("status") == "finished"
-    except ResultError:
-        return False
-
-
 def run(options, angle, directory, settings):
-    """Whether the run in a directory has come to its end, now or before."""
-    if finished(directory):
-        print(f"{directory}: finished before")
-        return True
-    os.makedirs(directory, exist_ok=True)
     deck = os.path.join(ROOT, "prm", "three_layers", str(angle), "damage.prm")
-    command = [options.program, deck, "--output", directory, "--set", f"Resolution={options.resolution}"]
-    for setting in [*settings, *options.set]:
-        command += ["--set", setting]
-    if os.path.isdir(os.path.join(directory, "checkpoint")):
-        command.append("--restart")
-    log_path = os.path.join(directory, "log")
-    with open(log_path, "a", encoding="utf-8") as log:
-        status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False, stdin=subprocess.DEVNULL,
-                                env=dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
-                                         DEAL_II_NUM_THREADS="1")).returncode
-    print(f"{directory}: " + ("finished" if status == 0 else f"exit status {status}, see {log_path}"), flush=True)
-    return status == 0
+    return run_deck(options.program, deck, directory,
+                    [f"Resolution={options.resolution}", *settings, *options.set])
 
 
 def place(options, angle):

@@ -37,12 +37,14 @@ CostEstimate estimate_cost(const unsigned int dim,
     return {program + 1e4 * std::min(n, 3e4) + 6e3 * std::max(n - 3e4, 0.), start_up,
             4e-5 * n * (physics.fracture ? 4. : 1.) * looking};
   const double factor = 60. * n * std::log2(n);
-  const double new_factor = 3e-5 * n + 2e-8 * std::pow(n, 1.5), iteration = 1e-6 * n;
+  const double first_factor =
+    3e-5 * n + 2e-8 * std::pow(n, 1.5); // with the analysis of its pattern
+  const double new_factor = 1.5e-5 * n + 2.6e-8 * std::pow(n, 1.5), iteration = 1e-6 * n;
   const bool changes_with_step = physics.fracture && (physics.pore_pressure || physics.inertia);
   const double factors_per_step = changes_with_step                     ? 1.
-                                  : physics.yields && !physics.fracture ? 1.5
+                                  : physics.yields && !physics.fracture ? 3.
                                                                         : 0.;
-  return {program + 2e3 * n + factor, start_up + new_factor,
+  return {program + 2e3 * n + factor, start_up + first_factor,
           factors_per_step * new_factor +
             iteration * (physics.fracture ? 4. * beside_fracture : 1.) * looking};
 }

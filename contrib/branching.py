@@ -1,0 +1,144 @@
+#!/usr/bin/python3
+"""Does a hydraulic fracture branch? The eighteen runs of Sun et al. (2021), section 5: run, in a table, drawn.
+
+    contrib/branching.py run   [--factors rate modulus ...] [--resolution fine] [--output DIR] [--set ...]
+    contrib/branching.py table [the same]
+    contrib/branching.py draw  [the same]
+
+`run` runs the decks prm/branching/<factor>/<value>/peridynamics.prm; what is finished stays as it is, what was begun
+goes on from its checkpoint. `table` prints what each fracture has become, `draw` draws a picture per factor: damage
+and opening at the end of its three runs, mirrored at the inlet, and the pressure there in time. Results are in
+DIR/<resolution>/<factor>/<value>.
+"""
+import argparse
+import math
+import os
+import sys
+
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.join(HERE, "..")
+sys.path[:0] = [HERE, os.path.join(HERE, "plot")]
+import field  # noqa: E402
+from arguments import PROGRAM, program  # noqa: E402
+from deck_runs import run_deck  # noqa: E402
+from results import ResultError, read_deck, read_statistics, read_summary, script  # noqa: E402
+
+# Factor: its values.
+FACTORS = {"rate": ("0.001", "0.005", "0.01"), "modulus": ("15.96", "23.94", "31.92"), "porosity": ("0.2", "0.3", "0.4"),
+           "permeability": ("1e-14", "1e-13", "1e-12"), "viscosity": ("0.1", "0.01", "0.001"),
+           "toughness": ("1", "0.01", "0.001")}
+UNITS = {"rate": "m²/s per wing", "modulus": "GPa", "porosity": "", "permeability": "m²", "viscosity": "Pa s",
+         "toughness": "J/m²"}
+
+CELLS_OF_A_MEAN_SPEED = 4  # a tip goes from cell to cell: its speed is that over a horizon
+
+
+def place(options, factor, value):
+    return os.path.join(options.output, options.resolution, factor, value)
+
+
+def runs(options):
+    return [(factor, value) for factor in options.factors for value in FACTORS[factor]]
+
+
+def run(options):
+    ended = [run_deck(options.program, os.path.join(ROOT, "prm", "branching", factor, value, "peridynamics.prm"),
+                      place(options, factor, value), [f"Resolution={options.resolution}", *options.set])
+             for factor, value in runs(options)]
+    return 0 if all(ended) else 1
+
+
+def number(text):
+    """Of an entry of these decks in SI units."""
+    value, unit = (text.split() + [""])[:2]
+    return float(value) * {"GPa": 1e9}.get(unit, 1.)
+
+
+def rayleigh_speed(deck):
+    """Of the drained rock, after Viktorov (1967): c_s (0.862 + 1.14 nu)/(1 + nu)."""
+    stiffness, ratio = number(deck["Rock/Young modulus"]), number(deck["Rock/Poisson ratio"])
+    shear_speed = math.sqrt(0.5 * stiffness / (1. + ratio) / number(deck["Rock/Density"]))
+    return shear_speed * (0.862 + 1.14 * ratio) / (1. + ratio)
+
+
+def greatest_speed(times, places, least_way):
+    """Of a tip [m/s]: the shortest time in which it comes at least so far."""
+    fastest, last = 0., 0
+    for first in range(len(times)):
+        while last < len(times) and places[last] - places[first] < least_way:
+            last += 1
+        if last == len(times):
+            break
+        fastest = max(fastest, (places[last] - places[first]) / (times[last] - times[first]))
+    return fastest
+
+
+def table(options):
+    print("| | to [s] | inlet pressure, greatest, last [MPa] | aperture [mm] | extent in x, y [m] | branches, forks | "
+          "greatest speed of the tip over c_R | leaked [%] | balance | steps (tried again) | processor [min] |")
+    print("| --- | ---: | --- | ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |")
+    for factor, value in runs(options):
+        directory = place(options, factor, value)
+        try:
+            columns, summary, deck = read_statistics(directory), read_summary(directory), read_deck(directory)
+        except ResultError as error:
+            print(f"| {factor} {value} | {error} |")
+            continue
+        last = {name: column[-1] for name, column in columns.items()}
+        cell = number(deck["Fracture/peridynamics/Cell size"])
+        speed = greatest_speed(columns["time"], columns["extent_x"], CELLS_OF_A_MEAN_SPEED * cell)
+        end = number(deck["Time/End time"])
+        print(f"| `{factor}/{value}` | {last['time']:.3g}" + ("" if summary["status"] == "finished" else f" of {end:g}")
+              + f" | {1e-6 * max(columns['inlet_pressure']):.3g}, {1e-6 * last['inlet_pressure']:.3g}"
+              f" | {1e3 * last['inlet_aperture']:.3g} | {last['extent_x']:.3g}, {last['extent_y']:.2g}"
+              f" | {last['branches']:g}, {last['forks']:g} | {speed / rayleigh_speed(deck):.3f}"
+              f" | {100. * last['leaked_volume'] / last['injected_volume']:.2g}"
+              f" | {max(map(abs, columns['fluid_balance_error'])):.0e}"
+              f" | {summary['steps']} ({summary['rejected_steps']}) | {summary['cpu_seconds'] / 60.:.1f} |")
+    return 0
+
+
+def draw(options):
+    folder = os.path.join(options.output, options.resolution)
+    for factor in options.factors:
+        figure, axes = plt.subplots(1, 4, figsize=(16., 3.6), layout="constrained")
+        for axis, value in zip(axes, FACTORS[factor]):
+            directory = place(options, factor, value)
+            shown, _ = field.panel(axis, argparse.Namespace(
+                directory=directory, field="damage", component=None, window=(0., 5.5, -2., 2.), mirror=True, warp=None,
+                fluid=False), None)
+            for collection in shown:
+                collection.set_clim(0., 1.)
+            axis.set_title(f"{factor} {value} {UNITS[factor]}, {axis.get_title()}", fontsize=8)
+            columns = read_statistics(directory)
+            axes[3].plot(columns["time"], [1e-6 * p for p in columns["inlet_pressure"]], label=f"{value} {UNITS[factor]}")
+        axes[0].set_ylabel("y [m]")
+        axes[3].set_xlabel("time [s]")
+        axes[3].set_ylabel("pressure at the inlet [MPa]")
+        axes[3].grid(alpha=0.3)
+        axes[3].legend(frameon=False)
+        output = os.path.join(folder, f"{factor}.png")
+        figure.savefig(output, dpi=80)
+        plt.close(figure)
+        print(output)
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("command", choices=("run", "table", "draw"))
+    parser.add_argument("--factors", nargs="+", choices=FACTORS, default=list(FACTORS))
+    parser.add_argument("--resolution", choices=("coarse", "medium", "fine"), default="fine")
+    parser.add_argument("--output", default="branching", metavar="DIR")
+    parser.add_argument("--program", type=program, default=PROGRAM)
+    parser.add_argument("--set", action="append", default=[], metavar="'Section/Entry=value'")
+    options = parser.parse_args()
+    return {"run": run, "table": table, "draw": draw}[options.command](options)
+
+
+if __name__ == "__main__":
+    script(main)
