@@ -98,6 +98,7 @@ void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments,
   for (Well &well : wells)
     if (well.in_rock)
       locate_in_rock(well, segments);
+  const bool is_first = !has_started;
   has_started = true;
   for (Well &well : wells)
   {
@@ -126,6 +127,27 @@ void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &segments,
     }
     well.initial_pressure = segments[well.perforations[0].segments[0]].initial_pressure;
   }
+  if (is_first)
+    check_openings();
+}
+
+
+template <int dim>
+void Wells<dim>::check_openings() const
+{
+  // A segment has one pressure: nothing says how two rates divide that both follow from it.
+  for (const Well &well : wells)
+    for (const Well &other_well : wells)
+      if (!well.in_rock && !other_well.in_rock &&
+          (&well == &other_well || (well.pressure_control && other_well.pressure_control)))
+        for (const Perforation &one : well.perforations)
+          for (const Perforation &other : other_well.perforations)
+            if (&one != &other && one.segments == other.segments)
+              throw perforation_error(
+                well, one,
+                "opens into the same segment of the fracture as another perforation, which has one "
+                "pressure, so that the share of each is not known: leave one out, or take smaller "
+                "cells");
 }
 
 

@@ -341,6 +341,7 @@ private:
   /// The sources of perforations in the rock do not overlap, where boreholes' pressures follow.
   /// @throws EntryError naming a point
   void check_distances() const;
+  void check_openings() const;
 
   /// Where segments must not be.
   void locate_in_rock(Well &well, const std::vector<NetworkSegment<dim>> &segments) const;
