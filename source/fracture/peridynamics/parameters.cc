@@ -35,7 +35,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry(
     "Bond volumes", "auto", Patterns::Selection("auto|exact|isotropic|full|ramp"),
     "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path', and "
-    "with inertia where the pressure in the cracks is given, bonds being bond-based; else exact. "
+    "with explicit steps, or inertia and a given pressure by 'Closure = in bonds'; else exact. "
     "exact: its intersection with "
     "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
     "direction in the small. full: all of it if its centre is inside. ramp: a "
@@ -273,16 +273,16 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   p.tracked = prm.get("Tracking") == "path";
   p.explicit_steps = entry_of_time(prm, "Scheme") == "explicit";
   const bool explicit_fluid = p.explicit_steps && scene.crack_pressure != 0.;
-  // By implicit steps, rock that explicit ones could move is the same.
-  const bool may_fork =
-    p.explicit_steps || (entry_of_time(prm, "Inertia") == "on" && !p.tracked && !p.state_based &&
-                         !p.tensor_fluid && !std::isnan(scene.crack_pressure));
   if (p.explicit_steps && p.tracked)
     throw bad("Tracking", "none with 'Time/Scheme = explicit'");
+  // By implicit steps as by explicit ones.
+  const bool moves_by_given_pressure = entry_of_time(prm, "Inertia") == "on" && !p.tracked &&
+                                       !std::isnan(scene.crack_pressure) &&
+                                       scene.crack_pressure != 0.;
   if (prm.get("Closure") == "auto")
   {
-    const bool given =
-      may_fork && scene.crack_pressure != 0. && (p.explicit_steps || p.horizon >= 3);
+    const bool given = explicit_fluid || (moves_by_given_pressure && !p.state_based &&
+                                          !p.tensor_fluid && p.horizon >= 3);
     prm.set("Closure", p.tracked || given ? "in bonds" : "conserving");
     p.reasons["Closure"] = p.tracked ? "for a path"
                            : given   ? "where a pressure is given in cracks that may fork"
@@ -297,6 +297,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     p.in_bonds = false; // their pressure is ExplicitBonds' affair, and has no unknowns
   if (prm.get("Bond volumes") == "auto")
   {
+    const bool may_fork = p.explicit_steps || (p.in_bonds && moves_by_given_pressure);
     prm.set("Bond volumes", p.tracked || may_fork ? "isotropic" : "exact");
     p.reasons["Bond volumes"] = p.tracked  ? "a path may have any direction"
                                 : may_fork ? "cracks and waves may have any direction"
