@@ -75,10 +75,13 @@ function(stockwork_order_test)
   stockwork_run_test(order ${C_UNPARSED_ARGUMENTS} ARGS ${arguments})
 endfunction()
 
-# Two runs agree: on RANKS n,m, the second with SECOND_SET as well.
+# Two runs agree: on RANKS n,m, the second with SECOND_SET as well; IN_TIME: in these columns, though steps differ.
 function(stockwork_same_test)
-  cmake_parse_arguments(C "" "TOLERANCE;IGNORE" "SECOND_SET" ${ARGN})
+  cmake_parse_arguments(C "" "TOLERANCE;IGNORE" "SECOND_SET;IN_TIME" ${ARGN})
   set(arguments --tolerance ${C_TOLERANCE})
+  foreach(column IN LISTS C_IN_TIME)
+    list(APPEND arguments --in-time ${column})
+  endforeach()
   foreach(setting IN LISTS C_SECOND_SET)
     list(APPEND arguments --second-set ${setting})
   endforeach()

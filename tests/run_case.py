@@ -6,7 +6,8 @@
     case     one run; every --expect must hold. With --negative, every bound on an error must be
              broken against a reference solution that is off by twice that bound, up or down.
     order    one run per --series value; the observed order of a quantity in the last pair of runs
-    same     two runs on different numbers of ranks (or with different settings) agree
+    same     two runs on different numbers of ranks (or with different settings) agree; with --in-time, those columns
+             alone, at the times of the first run, however long the steps are
     restart  a run that is interrupted and restarted agrees with the run that is not, and has its warnings
     no_restart  a restart must be refused with every --says, because of --second-set or --damage
     steps    the run takes --steps steps, whose numbers are finite, and is then interrupted
@@ -21,6 +22,7 @@ VALUE is a number or another path. A list stands for its length (`warnings == 0`
 missing, null or not finite fails.
 """
 import argparse
+import bisect
 import glob
 import math
 import operator
@@ -282,11 +284,38 @@ def differences(first, second, tolerance, ignore=None):
     return found
 
 
+def between(time, table, name):
+    """A column at a time between two steps."""
+    times, values = table["time"], table[name]
+    after = min(max(bisect.bisect_left(times, time), 1), len(times) - 1)
+    share = (time - times[after - 1]) / (times[after] - times[after - 1])
+    return values[after - 1] + min(max(share, 0.), 1.) * (values[after] - values[after - 1])
+
+
+def apart_in_time(first, second, columns, tolerance):
+    """Where columns differ by more than `tolerance`, relative to the greatest value, at any time of the first table."""
+    one, two = read_statistics(first), read_statistics(second)
+    found = []
+    for name in columns:
+        scale = max(abs(x) for x in one[name])
+        worst, time = max((abs(x - between(time, two, name)), time) for time, x in zip(one["time"], one[name]))
+        print(f"  {name}: at {time:.6g} s they are {worst:.3e} apart, {worst / scale if scale else 0.:.1e} of the greatest value")
+        if not worst <= tolerance * scale:
+            found.append(f"{name}: at {time:.6g} s {worst:.3e} apart, {worst / scale if scale else math.inf:.1e} of the "
+                         "greatest value")
+    return found
+
+
 def run_same(runner, options):
     first, second = options.ranks_pair
     runner.run("first", options.deck, options.set, first)
     runner.run("second", options.deck, [*options.set, *options.second_set], second)
-    _require_same(runner, "first", "second", options)
+    if options.in_time:
+        found = apart_in_time(runner.output("first"), runner.output("second"), options.in_time, options.tolerance)
+        if found:
+            raise Failure("\n".join(found))
+    else:
+        _require_same(runner, "first", "second", options)
 
 
 def _require_same(runner, first, second, options):
@@ -479,6 +508,7 @@ def parse(arguments):
     parser.add_argument("--order", action="append", default=[], metavar="PATH=ORDER")
     parser.add_argument("--ratio", type=float, default=2.)
     parser.add_argument("--tolerance", type=float, default=None)
+    parser.add_argument("--in-time", action="append", default=[], metavar="COLUMN", help="same: compare this in time")
     parser.add_argument("--ignore", help="regular expression of columns not to compare")
     parser.add_argument("--second-set", action="append", default=[])
     parser.add_argument("--damage", metavar="PATTERN", help="files of the checkpoint")

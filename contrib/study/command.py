@@ -73,7 +73,7 @@ def check_quantities(study, planned, output):
     possible = [job for job in planned if job.deck]
     ended = [job for job in possible if (read(os.path.join(output, job.name)) or {}).get("status") == "finished"]
     if study.quantities and ended and {kind(job) for job in ended} == {kind(job) for job in possible}:
-        rows = table(results([os.path.join(output, job.name) for job in ended]))
+        rows = table(results([os.path.join(output, job.name) for job in ended]), study.quantities)
         wanted = [name for name in study.quantities if not rows["differs"].any() or name not in QUANTITIES]
         text = missing(rows, wanted)
         if text:

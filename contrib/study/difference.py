@@ -4,7 +4,7 @@ import numpy as np
 from results import ResultError, read_statistics
 from study.problem import problems
 
-# What is compared, as far as it is there.
+# What is compared, as far as it is there, besides the columns that a study asks for.
 QUANTITIES = ("equivalent_length", "fracture_volume", "inlet_aperture", "net_inlet_pressure", "leaked_volume",
               "displacement", "pore_pressure", "load", "dissipated_energy")
 
@@ -25,7 +25,7 @@ def baseline(results):
     return max(finished, key=lambda r: r.summary.get("unknowns", 0), default=None)
 
 
-def differences(results):
+def differences(results, wanted=()):
     """{directory: ({quantity: {"final", "mean"}}, the run measured against, until when)} of the runs of a case; the baseline of
     a problem is measured against itself, with no quantities, and a run that is alone is not among them. Relative to the
     greatest value of the baseline, over the time that both have run; the mean is over time. Until when: the end of that time
@@ -40,16 +40,16 @@ def differences(results):
         for result in group:
             own = histories(result)
             if result is not base and "time" in own and "time" in its:
-                found[result.directory] = apart(own, its, base)
+                found[result.directory] = apart(own, its, base, dict.fromkeys([*QUANTITIES, *wanted]))
     return found
 
 
-def apart(own, its, base):
+def apart(own, its, base, names):
     begin, end = max(own["time"][0], its["time"][0]), min(own["time"][-1], its["time"][-1])
     last = max(own["time"][-1], its["time"][-1])
     times = np.linspace(begin, end, 401)
     found = {}
-    for name in QUANTITIES:
+    for name in names:
         if name not in own or name not in its or not np.nanmax(np.abs(its[name])) > 0.:
             continue
         distance = np.abs(np.interp(times, own["time"], own[name]) - np.interp(times, its["time"], its[name]))

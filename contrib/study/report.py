@@ -19,7 +19,7 @@ CHART = ("Circles: the cheapest setting for the error beside them. Grey: the Par
 def write(results, folder, title, text="", wanted=(), chosen=None, map_file=None):
     """(path of the page, table of all runs). CSV, Markdown and pictures stand beside the page; chosen: what the study's
     map shows, which is written into a file of its own besides if one is named."""
-    rows = verdict.table(results)
+    rows = verdict.table(results, wanted)
     page = Page(title, place.folder(folder))
     if text:
         page.text(text)

@@ -25,8 +25,8 @@ STANDS_IN = "stands in"
 NO_OTHER = "no other finished run of this problem"
 
 
-def table(results):
-    """One row per run. error_end_X and error_mean_X are fractions: errors, or, where no run of the case has a reference,
+def table(results, wanted=()):
+    """One row per run; wanted: quantities that are asked for. error_end_X and error_mean_X are fractions: errors, or, where no run of the case has a reference,
     differences to the run that `against` names."""
     rows = []
     for case in dict.fromkeys(r.case for r in results):
@@ -37,7 +37,7 @@ def table(results):
         if any(errors.values()):
             rows += [row(r, errors[r.directory], reference(errors[r.directory]), number) for r in here]
             continue
-        found = differences(here)
+        found = differences(here, wanted)
         for r in here:
             its, base, until = found.get(r.directory, ({}, None, None))
             alone = NO_OTHER if r.status == "finished" else ""

@@ -323,9 +323,8 @@ void BulkAssembly<dim>::add_inertia(const StepContext &context,
       for (unsigned int a = 0; a < layout.n_u; ++a)
         for (unsigned int b = 0; b < layout.n_u; ++b)
           for (unsigned int i = 0; i < dim; ++i)
-            local(layout.u[a * dim + i]) -= inertia *
-                                            matrices.integrals.masses[a * layout.n_u + b] *
-                                            reference(layout.u[b * dim + i]);
+            local(layout.u[a * dim + i]) -=
+              inertia * matrices.mass(a, b) * reference(layout.u[b * dim + i]);
       mesh_view.constraints.distribute_local_to_global(local, dofs, residual);
     }
 }

@@ -2,6 +2,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <numeric>
+
 namespace stockwork
 {
 using namespace dealii;
@@ -60,7 +62,8 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
   const bool new_cell = integrals.reinit(cell) || new_rock || is_special || has_passed_over;
   has_passed_over = false;
   const CellRole<dim> role = role_of ? role_of(cell) : CellRole<dim>();
-  is_special = role.skip_stiffness != nullptr || role.fracture_normal != nullptr;
+  is_special = role.skip_stiffness != nullptr || role.fracture_normal != nullptr || role.lumps_mass;
+  lumps_mass = role.lumps_mass;
   const bool new_whole = new_cell || rate != context.rate ||
                          pressure_rate != context.pressure_rate ||
                          acceleration != context.acceleration;
@@ -84,6 +87,16 @@ void CellMatrices<dim>::reinit(const typename DoFHandler<dim>::active_cell_itera
 
 
 template <int dim>
+double CellMatrices<dim>::mass(const unsigned int a, const unsigned int b) const
+{
+  const double *const row = integrals.masses.data() + a * layout().n_u;
+  if (!lumps_mass)
+    return row[b];
+  return a == b ? std::accumulate(row, row + layout().n_u, 0.) : 0.;
+}
+
+
+template <int dim>
 void CellMatrices<dim>::skip_stiffness(const std::vector<bool> &vertices,
                                        const StepContext &context)
 {
@@ -95,7 +108,7 @@ void CellMatrices<dim>::skip_stiffness(const std::vector<bool> &vertices,
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
             whole(layout().u[a * dim + i], layout().u[b * dim + j]) =
-              i == j ? inertia * integrals.masses[a * layout().n_u + b] : 0.;
+              i == j ? inertia * mass(a, b) : 0.;
 }
 
 
@@ -174,7 +187,7 @@ void CellMatrices<dim>::whole_matrix(const StepContext &context)
         diagonal += integrals.gradients[((i * dim + i) * n_u + a) * n_u + b];
       diagonal *= mu;
       if (inertia > 0.)
-        diagonal += inertia * integrals.masses[a * n_u + b];
+        diagonal += inertia * mass(a, b);
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           whole(layout.u[a * dim + i], layout.u[b * dim + j]) =
@@ -262,8 +275,7 @@ void CellMatrices<dim>::matrices_by_quadrature(
     for (unsigned int a = 0; a < layout.n_u; ++a)
       for (unsigned int b = 0; b < layout.n_u; ++b)
         for (unsigned int i = 0; i < dim; ++i)
-          whole(layout.u[a * dim + i], layout.u[b * dim + i]) +=
-            inertia * integrals.masses[a * layout.n_u + b];
+          whole(layout.u[a * dim + i], layout.u[b * dim + i]) += inertia * mass(a, b);
   for (unsigned int a = 0; a < n_p; ++a)
     for (unsigned int b = 0; b < n_p; ++b)
       whole(layout.p[a], layout.p[b]) = -context.pressure_rate / context.rate * storage(a, b) -

@@ -74,6 +74,9 @@ public:
 
   CellIntegrals<dim> integrals;
 
+  /// Of the displacement's nodes, over the density; lumped where the cell's role says so.
+  double mass(unsigned int a, unsigned int b) const;
+
   /// Derivative of the residual of BulkAssembly, in the order of the cell's dofs.
   dealii::FullMatrix<double> whole;
 
@@ -105,6 +108,7 @@ private:
   const RockProperties *rock_of_cell = nullptr;
   RockProperties rock_of_place; ///< of a cell whose rock is no other's
   bool is_special = false;      ///< the cell has a role, so its matrices are no other's
+  bool lumps_mass = false;      ///< by its role
   bool has_passed_over = false; ///< a cell that has changed the integrals
   double rate = -1., pressure_rate = -1., acceleration = -1.; ///< of `whole`
 };

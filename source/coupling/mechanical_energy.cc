@@ -24,10 +24,14 @@ struct MovingCell
 {
   MovingCell(const MeshView<dim> &mesh_view, const Loads<dim> &loads)
     : loads(loads)
-    , values(mesh_view.mapping,
-             mesh_view.dof_handler.get_fe(),
-             QGauss<dim>(mesh_view.dof_handler.get_fe().degree + 1),
-             update_values | update_JxW_values)
+    , at_points(mesh_view.mapping,
+                mesh_view.dof_handler.get_fe(),
+                QGauss<dim>(mesh_view.dof_handler.get_fe().degree + 1),
+                update_values | update_JxW_values)
+    , at_vertices(mesh_view.mapping,
+                  mesh_view.dof_handler.get_fe(),
+                  QTrapezoid<dim>(),
+                  update_values | update_JxW_values)
     , face_values(mesh_view.mapping,
                   mesh_view.dof_handler.get_fe(),
                   QGauss<dim - 1>(mesh_view.dof_handler.get_fe().degree + 1),
@@ -36,11 +40,14 @@ struct MovingCell
   {
   }
 
+  /// @param lumps_mass the mass is that of points at the vertices, which are all of the nodes
   double kinetic_energy(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                        const bool lumps_mass,
                         const double density,
                         const StepContext &context,
                         const State &state)
   {
+    FEValues<dim> &values = lumps_mass ? at_vertices : at_points;
     values.reinit(cell);
     now.resize(values.n_quadrature_points);
     before.resize(now.size());
@@ -90,7 +97,7 @@ struct MovingCell
 
   const FEValuesExtractors::Vector displacement{0};
   const Loads<dim> &loads;
-  FEValues<dim> values;
+  FEValues<dim> at_points, at_vertices;
   FEFaceValues<dim> face_values;
   std::vector<Tensor<1, dim>> now, before;
 };
@@ -237,7 +244,8 @@ MechanicalEnergy mechanical_energy(const MeshView<dim> &mesh_view,
       }
       if (context.acceleration > 0.)
       {
-        kinetic += moving.kinetic_energy(cell, properties.density, context, state);
+        kinetic +=
+          moving.kinetic_energy(cell, cell_role.lumps_mass, properties.density, context, state);
         work += moving.work(cell, context, state);
       }
     }

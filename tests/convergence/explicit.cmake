@@ -7,7 +7,7 @@ stockwork_case_test(NAME convergence/explicit/pulled_plate DECK ${deck}
   SET "Resolution=fine" "Fracture/peridynamics/Growth=false"
   EXPECT "final/stored_energy = 100 within 0.005" "final/kinetic_energy < 1e-12"
          "final/energy_balance_error < 1e-12")
-# Pulled slowly enough for the cells, it moves as by implicit steps with a consistent mass.
+# It moves as by implicit steps, with mass points as well.
 stockwork_same_test(NAME convergence/explicit/pulled_plate/newmark DECK ${deck}
   SET "Resolution=medium" "Fracture/peridynamics/Growth=false" "Fracture/peridynamics/Bond volumes=isotropic"
     "Time/Start=at rest" "Time/Initial step=2e-5 s" "Boundary conditions/Normal traction=right: 5e8*t"
@@ -32,6 +32,10 @@ set(deck tests/data/explicit_notch.prm)
 stockwork_case_test(NAME convergence/explicit/notch DECK ${deck}
   EXPECT "final/energy_balance_error < 1e-10" "final/dissipated_energy > 1"
          "final/kinetic_energy > 100")
+# By implicit steps, with the same mass points.
+stockwork_case_test(NAME convergence/explicit/notch/newmark DECK ${deck} 
+  SET "Time/Scheme=Newmark" "Time/End time=0.5e-3 s" "Fracture/peridynamics/Bond volumes=isotropic"
+  EXPECT "final/energy_balance_error < 1e-4" "final/kinetic_energy > 1")
 stockwork_case_test(NAME convergence/explicit/notch/brittle DECK ${deck} SET "Fracture/peridynamics/Softening=1"
   EXPECT "final/energy_balance_error < 1e-10" "final/kinetic_energy > 100")
 stockwork_same_test(NAME convergence/explicit/notch.2ranks DECK ${deck} RANKS 1,2 TOLERANCE 1e-9
@@ -74,6 +78,15 @@ stockwork_same_test(NAME convergence/explicit/bridge.2ranks DECK ${deck}/1/perid
 stockwork_restart_test(NAME convergence/explicit/bridge/restart DECK ${deck}/1/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=1.6e-3 s" "Output/Fields=false" RANKS 1,2 TOLERANCE 1e-9
   INTERRUPT_SET "Time/End time=1.2e-3 s" "Checkpoint/Steps between=60" IGNORE "balance_error")
+# By implicit steps the tip is where it is by explicit ones at any time, within a cell (0.3 of 2.64 m), and forks as soon.
+stockwork_same_test(NAME convergence/explicit/bridge/newmark DECK ${deck}/1/peridynamics.prm LABELS nightly
+  SET "Resolution=coarse" "Time/End time=2e-3 s" "Output/Fields=false" SECOND_SET "Time/Scheme=Newmark"
+  IN_TIME extent_x dissipated_energy TOLERANCE 0.12)
+foreach(scheme explicit Newmark)
+  stockwork_case_test(NAME convergence/explicit/bridge/forks/${scheme} DECK ${deck}/1/peridynamics.prm LABELS nightly
+    SET "Resolution=coarse" "Time/End time=2.1e-3 s" "Output/Fields=false" "Time/Scheme=${scheme}"
+    EXPECT "final/forks = 1 within 0" "final/branches = 3 within 0" "final/extent_x = 2.64 within 0.12")
+endforeach()
 # The load has a ramp that a step of the run is longer than.
 stockwork_case_test(NAME convergence/explicit/notch/quick_load DECK tests/data/explicit_notch.prm
   SET "Time/Initial step=1e-3 s" "Time/Maximum step=1e-3 s"

@@ -89,6 +89,9 @@ class DriverTest(unittest.TestCase):
         self.passes("same", "noise 1e-9", "--second-set", "Again=1")
         self.fails("column y", "same", "noise 1e-7", "--second-set", "Again=1")
         self.fails("3 against 4 values", "same", "", "--second-set", "Time/Steps=4")
+        in_time = ("--in-time", "y", "--second-set", "Time/Steps=4", "--second-set", "Again=1")
+        self.passes("same", "noise 1e-9", *in_time)
+        self.fails("y: at 3 s", "same", "noise 1e-7", *in_time)
 
     def test_restart(self):
         early = ("--interrupt-set", "Time/Steps=2")

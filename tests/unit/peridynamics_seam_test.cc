@@ -182,6 +182,18 @@ TEST_CASE("peridynamics: long waves pass between elements and bonds, short ones 
   CHECK(reflected_energy(elements, lumped, 16.) > 0.004);
 }
 
+TEST_CASE("peridynamics: where all of the rock is bonds, sites are mass points")
+{
+  const Strip strip = Strip::assemble<2>({"Fracture/peridynamics/Zone=(0, 0) to (1 m, 300 m)",
+                                          "Boundary conditions/Roller=left, right, bottom, top"});
+  for (const unsigned int i : {1u, 150u, 299u})
+  {
+    CHECK(strip.masses(i, i) == doctest::Approx(1.).epsilon(1e-9));
+    CHECK(std::abs(strip.masses(i, i + 1)) < 1e-9);
+    CHECK(std::abs(strip.masses(i, i - 1)) < 1e-9);
+  }
+}
+
 TEST_CASE("peridynamics: waves across the rim in three dimensions")
 {
   const std::vector<std::string> zone{

@@ -67,5 +67,9 @@ struct CellRole
 
   /// Key of the segment whose fluid pressure that law sees.
   std::optional<std::uint64_t> segment = std::nullopt;
+
+  /// The mass is that of points at the vertices, the row sums of the elements' mass matrix. Linear
+  /// elements only.
+  bool lumps_mass = false;
 };
 } // namespace stockwork

@@ -38,14 +38,14 @@ void Peridynamics<dim>::check_explicit_steps() const
 
 
 template <int dim>
-void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &mesh_view)
+void Peridynamics<dim>::make_explicit_bonds()
 {
-  if (mesh_view.dof_handler.n_dofs() != dim * zone.peridynamic_sites().size())
+  if (!is_all_bonds())
     refuse_explicit(
       "Newmark, or a 'Fracture/peridynamics/Zone' that holds all of the domain: explicit "
       "steps move bonds and no elements, and of " +
-      std::to_string(mesh_view.dof_handler.n_dofs() / dim) + " vertices " +
-      std::to_string(zone.peridynamic_sites().size()) + " are in the zone");
+      std::to_string(n_nodes) + " vertices " + std::to_string(zone.peridynamic_sites().size()) +
+      " are in the zone");
   SofteningLaw law_of_bonds = softening;
   if (!parameters.growth)
     law_of_bonds.first = law_of_bonds.last = std::numeric_limits<double>::max();
@@ -175,7 +175,7 @@ bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collecti
 
 #define INSTANTIATE(dim)                                                       \
   template void Peridynamics<dim>::check_explicit_steps() const;               \
-  template void Peridynamics<dim>::make_explicit_bonds(const MeshView<dim> &); \
+  template void Peridynamics<dim>::make_explicit_bonds();                      \
   template double Peridynamics<dim>::stretch_of_given_pressure() const;        \
   template void Peridynamics<dim>::open_explicit_bonds(const Collectives &);   \
   template bool Peridynamics<dim>::take_explicit_changes(const Collectives &); \

@@ -30,8 +30,11 @@ template <int dim>
 CellRole<dim> Peridynamics<dim>::role(const CellIterator &cell) const
 {
   const auto normal = normals.find(cell->active_cell_index());
-  return {nullptr, zone.skipped_rows(cell->active_cell_index()),
-          normal != normals.end() ? &normal->second : nullptr};
+  CellRole<dim> role;
+  role.skip_stiffness = zone.skipped_rows(cell->active_cell_index());
+  role.fracture_normal = normal != normals.end() ? &normal->second : nullptr;
+  role.lumps_mass = is_all_bonds();
+  return role;
 }
 
 

@@ -34,8 +34,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "horizons apart and makes the solution dearer.");
   prm.declare_entry(
     "Bond volumes", "auto", Patterns::Selection("auto|exact|isotropic|full|ramp"),
-    "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path' or "
-    "'Time/Scheme = explicit', else exact. exact: its intersection with "
+    "How much of a cell counts as within the horizon. auto: isotropic with 'Tracking = path', and "
+    "with explicit steps, or inertia and a given pressure by 'Closure = in bonds'; else exact. "
+    "exact: its intersection with "
     "the disc (ball). isotropic: corrected, so that the lattice has no preferred "
     "direction in the small. full: all of it if its centre is inside. ramp: a "
     "share that falls linearly over the last cell; the least accurate.");
@@ -91,9 +92,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "rock under a uniform stress, which do not feel what bonds are left.");
   prm.declare_entry(
     "Closure", "auto", Patterns::Selection("auto|conserving|in bonds|as published"),
-    "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, or "
-    "explicit "
-    "steps have a pressure given, else conserving. conserving: it loads the faces, "
+    "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, and "
+    "with inertia where a pressure is given, bonds being bond-based with a horizon of 3 or more; "
+    "else conserving. conserving: it loads the faces, "
     "and does the work of their opening. in bonds: it is part of the law of bonds, as if rock "
     "under a uniform stress had cracks without load, less the uniform stress; then toughness does "
     "not depend on the direction, nor on the in-situ stress along the crack. as published: it "
@@ -274,12 +275,18 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   const bool explicit_fluid = p.explicit_steps && scene.crack_pressure != 0.;
   if (p.explicit_steps && p.tracked)
     throw bad("Tracking", "none with 'Time/Scheme = explicit'");
+  // By implicit steps as by explicit ones.
+  const bool moves_by_given_pressure = entry_of_time(prm, "Inertia") == "on" && !p.tracked &&
+                                       !std::isnan(scene.crack_pressure) &&
+                                       scene.crack_pressure != 0.;
   if (prm.get("Closure") == "auto")
   {
-    prm.set("Closure", p.tracked || explicit_fluid ? "in bonds" : "conserving");
-    p.reasons["Closure"] = p.tracked        ? "for a path"
-                           : explicit_fluid ? "where steps are explicit"
-                                            : "where no path is tracked";
+    const bool given = explicit_fluid || (moves_by_given_pressure && !p.state_based &&
+                                          !p.tensor_fluid && p.horizon >= 3);
+    prm.set("Closure", p.tracked || given ? "in bonds" : "conserving");
+    p.reasons["Closure"] = p.tracked ? "for a path"
+                           : given   ? "where a pressure is given in cracks that may fork"
+                                     : "where no path is tracked";
   }
   p.as_published = prm.get("Closure") == "as published";
   p.in_bonds = prm.get("Closure") == "in bonds";
@@ -290,10 +297,11 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     p.in_bonds = false; // their pressure is ExplicitBonds' affair, and has no unknowns
   if (prm.get("Bond volumes") == "auto")
   {
-    prm.set("Bond volumes", p.tracked || p.explicit_steps ? "isotropic" : "exact");
-    p.reasons["Bond volumes"] = p.tracked          ? "a path may have any direction"
-                                : p.explicit_steps ? "cracks and waves may have any direction"
-                                                   : "where no path is tracked";
+    const bool may_fork = p.explicit_steps || (p.in_bonds && moves_by_given_pressure);
+    prm.set("Bond volumes", p.tracked || may_fork ? "isotropic" : "exact");
+    p.reasons["Bond volumes"] = p.tracked  ? "a path may have any direction"
+                                : may_fork ? "cracks and waves may have any direction"
+                                           : "where no path is tracked";
   }
   const std::string volumes = prm.get("Bond volumes");
   p.volumes = volumes == "isotropic" ? VolumeRule::isotropic

@@ -124,7 +124,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
              parameters.free_boundaries, mesh_view, collectives);
   // Where elements lie between, they pull with all of the stress at sites that have lost a part of
   // their bonds, beyond the side.
-  if (zone.peridynamic_sites().size() < n_nodes && parameters.free_boundaries)
+  if (!is_all_bonds() && parameters.free_boundaries)
     if (const auto side =
           zone.moved_side_within((parameters.horizon - same_place) * zone.spacing()))
       throw unsuitable_mesh(
@@ -203,7 +203,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   paths_crossed = TrackedPaths(); // by other sites
   refresh_segments();
   if (parameters.explicit_steps)
-    make_explicit_bonds(mesh_view);
+    make_explicit_bonds();
   if (explicit_bonds && stretch_of_given_pressure() != 0.)
   {
     crossed.reinit(zone, stencil, cells, parameters.horizon);

@@ -91,6 +91,14 @@ private:
   void
   assemble(const StepContext &context, const dealii::IndexSet &rows, Sink &sink) const override;
 
+  /// No rock is elements. Sites are mass points then (Silling and Askari 2005), as by explicit
+  /// steps. Beside elements the mass is theirs, consistent, or waves would be thrown back where the
+  /// two meet: lumped masses make short ones slow (tests/unit/peridynamics_seam_test.cc).
+  bool is_all_bonds() const
+  {
+    return zone.peridynamic_sites().size() == n_nodes;
+  }
+
   /// A bond of a site in 'Unbreakable'.
   bool never_breaks(unsigned int site, unsigned int bond) const
   {
@@ -316,7 +324,16 @@ private:
                            const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
 
   /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
+  /// @param always of a bond that has lost something; else only where it feels the fluid
   CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
+
+  /// Whether brittle bonds feel a given pressure: one of the two sites has a broken bond, as in
+  /// ExplicitBonds. That is the same in all directions, and so does not keep a fracture straight,
+  /// as it does to count bonds across the plane ahead of its tip only.
+  bool is_wet_bond(const unsigned int site, const unsigned int bond) const
+  {
+    return damage[site] > 0. || damage[zone.far_end(site, bond).site] > 0.;
+  }
 
   /// The same for what a cell's faces have moved by: bonds ahead of the fluid belong to its last
   /// piece, but not to that one's jump.
@@ -447,7 +464,7 @@ private:
   void check_explicit_steps() const;
 
   /// @throws InputError where not all of the rock is bonds
-  void make_explicit_bonds(const MeshView<dim> &mesh_view);
+  void make_explicit_bonds();
 
   /// Of a bond of the lattice, by the pressure that the deck gives the fluid in all cracks, as of
   /// a uniform stress.
@@ -577,7 +594,7 @@ private:
   double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
   double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
   unsigned int rank = 0;
-  unsigned int n_nodes = 0;                        ///< of the mesh, about
+  unsigned int n_nodes = 0;                        ///< of the mesh
   std::vector<dealii::types::material_id> regions; ///< of the rock, by active cell index
   bool in_situ_is_zero = true;
 

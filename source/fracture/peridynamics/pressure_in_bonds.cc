@@ -119,7 +119,12 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
                                         const bool always) const
 {
   if (!parameters.tracked)
+  {
+    // What feels a given pressure is the same whatever the steps are.
+    if (softening.brittle() && !std::isnan(scene.crack_pressure) && !always)
+      return is_wet_bond(site, bond) ? crossed.of(site, bond, true) : CellShares();
     return crossed.of(site, bond, always);
+  }
   const auto crossing = crossing_of(site, bond);
   return crossing ? paths.shares(*crossing, (parameters.horizon + 1.) * zone.spacing())
                   : CellShares();
