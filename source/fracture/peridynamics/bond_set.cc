@@ -113,19 +113,31 @@ BondPlaces<dim> BondSet<dim>::places(const unsigned int site, const unsigned int
 
 
 template <int dim>
-void BondSet<dim>::set_broken(const std::vector<BondPlaces<dim>> &places)
+std::optional<std::pair<unsigned int, unsigned int>>
+BondSet<dim>::find(const BondPlaces<dim> &places) const
 {
-  for (const auto &[from, to] : places)
+  const auto [first, second] = places;
+  for (const auto &[from, to] : {std::make_pair(first, second), std::make_pair(second, first)})
   {
     const unsigned int site = zone->find(from);
     Place<dim> offset;
     for (unsigned int d = 0; d < dim; ++d)
       offset[d] = to[d] - from[d];
     const unsigned int b = bond(offset);
-    if (site != dealii::numbers::invalid_unsigned_int && zone->sites()[site].peridynamic &&
-        b != dealii::numbers::invalid_unsigned_int)
-      set_broken(site, b);
+    if (site != dealii::numbers::invalid_unsigned_int && zone->sites()[site].has_bonds &&
+        b != dealii::numbers::invalid_unsigned_int && can_break(site, b))
+      return std::make_pair(site, b);
   }
+  return {};
+}
+
+
+template <int dim>
+void BondSet<dim>::set_broken(const std::vector<BondPlaces<dim>> &places)
+{
+  for (const BondPlaces<dim> &ends : places)
+    if (const auto found = find(ends))
+      set_broken(found->first, found->second);
 }
 
 

@@ -4,6 +4,7 @@
 #include "fracture/peridynamics/broken_bonds.h"
 #include "fracture/peridynamics/zone.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace stockwork::peridynamics
 template <int dim>
 using BondPlaces = std::pair<Place<dim>, Place<dim>>;
 
-/// Which bonds of the lattice are broken. A bond is seen from each of its ends that is
-/// peridynamic, and from both sides of a plane of symmetry; breaking it breaks all of these.
+/// Which bonds of the lattice are broken. A bond is seen from each of its ends that has bonds, and
+/// from both sides of a plane of symmetry; breaking it breaks all of these.
 template <int dim>
 class BondSet
 {
@@ -35,7 +36,7 @@ public:
   /// Index of the bond with this offset; invalid if the stencil has none.
   unsigned int bond(const Place<dim> &offset) const;
 
-  /// Of a peridynamic site.
+  /// Of a site that has bonds.
   bool is_broken(const unsigned int site, const unsigned int bond) const
   {
     return broken(number[site], bond);
@@ -71,10 +72,13 @@ public:
   /// All broken bonds, each at least once, sorted.
   std::vector<BondPlaces<dim>> places() const;
 
-  /// The ends of a bond of a peridynamic site.
+  /// The ends of a bond of a site that has bonds.
   BondPlaces<dim> places(unsigned int site, unsigned int bond) const;
 
-  /// Break bonds by the places of their ends; those that do not exist are ignored.
+  /// Site and bond, as one of the ends that has bonds sees it; nothing of a bond that is not known.
+  std::optional<std::pair<unsigned int, unsigned int>> find(const BondPlaces<dim> &places) const;
+
+  /// Break bonds by the places of their ends; those that are not known are ignored.
   void set_broken(const std::vector<BondPlaces<dim>> &places);
 
 private:
@@ -96,17 +100,19 @@ void BondSet<dim>::for_each_view(const unsigned int site,
                                  const Function &use) const
 {
   const FarEnd far = zone->far_end(site, bond);
+  const Site<dim> &here = zone->sites()[site], &there = zone->sites()[far.site];
   use(site, bond);
-  if (!zone->sites()[far.site].peridynamic)
+  if (!there.peridynamic)
     return;
   const unsigned int back = reflected(opposite(bond, stencil.size()), far.mirrored);
-  use(far.site, back);
+  if (there.has_bonds)
+    use(far.site, back);
   // The images of bonds of sites on planes of symmetry are bonds of these sites as well.
   for (unsigned int m = 1; m < 1u << dim; ++m)
   {
-    if ((zone->planes_of(site) & m) == m)
+    if ((zone->planes_of(here.place) & m) == m)
       use(site, reflected(bond, m));
-    if ((zone->planes_of(far.site) & m) == m)
+    if (there.has_bonds && (zone->planes_of(there.place) & m) == m)
       use(far.site, reflected(back, m));
   }
 }

@@ -103,7 +103,7 @@ void Peridynamics<dim>::soften_cohesive_cracks()
 template <int dim>
 void Peridynamics<dim>::set_initial_normals()
 {
-  for (const FractureCell<dim> &cell : find_fracture_cells(zone, cracked))
+  for (const FractureCell<dim> &cell : fracture_cells())
   {
     Point<dim> centre = zone.position(cell.place);
     for (unsigned int d = 0; d < dim; ++d)

@@ -152,7 +152,7 @@ dealii::IndexSet ExplicitBonds<dim>::seen() const
     dofs.insert(dofs.end(), zone.sites()[source.site].dofs.begin(),
                 zone.sites()[source.site].dofs.end());
   std::sort(dofs.begin(), dofs.end());
-  dealii::IndexSet set(dim * zone.sites().size());
+  dealii::IndexSet set(dim * zone.n_peridynamic_sites());
   set.add_indices(dofs.begin(), std::unique(dofs.begin(), dofs.end()));
   return set;
 }
@@ -377,7 +377,7 @@ std::vector<typename ExplicitBonds<dim>::Softened> ExplicitBonds<dim>::take_chan
       if (Bond &bond = site.bonds[b];
           bond.stiffness > 0. && bond.greatest > std::max(bond.told, softening.first))
       {
-        result.push_back({own_sites[site.own], b, bond.greatest});
+        result.push_back({zone.sites()[own_sites[site.own]].place, b, bond.greatest});
         bond.told = bond.greatest;
       }
   }

@@ -64,13 +64,14 @@ public:
   /// A bond that has begun to soften, or has broken.
   struct Softened
   {
-    unsigned int site, bond;
+    Place<dim> place; ///< of the site
+    unsigned int bond;
     double greatest; ///< stretch
 
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &site &bond &greatest;
+      archive &place &bond &greatest;
     }
   };
 

@@ -3,6 +3,9 @@
 
 #include "stockwork/base/error.h"
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,7 +47,7 @@ void Peridynamics<dim>::make_explicit_bonds()
     refuse_explicit(
       "Newmark, or a 'Fracture/peridynamics/Zone' that holds all of the domain: explicit "
       "steps move bonds and no elements, and of " +
-      std::to_string(n_nodes) + " vertices " + std::to_string(zone.peridynamic_sites().size()) +
+      std::to_string(n_nodes) + " vertices " + std::to_string(zone.n_peridynamic_sites()) +
       " are in the zone");
   SofteningLaw law_of_bonds = softening;
   if (!parameters.growth)
@@ -115,14 +118,17 @@ void Peridynamics<dim>::open_explicit_bonds(const Collectives &collectives)
 template <int dim>
 bool Peridynamics<dim>::take_explicit_changes(const Collectives &collectives)
 {
-  std::map<BondView, double> greatest;
-  for (const auto &[site, bond, stretch] : collectives.gather(explicit_bonds->take_changes()))
-  {
-    double &known = greatest[views_of(site, bond).front()];
-    known = std::max(known, stretch);
-  }
-  if (greatest.empty())
+  const auto changes = collectives.gather(explicit_bonds->take_changes());
+  if (changes.empty())
     return false;
+  std::map<BondView, double> greatest;
+  for (const auto &[place, bond, stretch] : changes)
+    if (const unsigned int site = zone.find(place);
+        site != dealii::numbers::invalid_unsigned_int && zone.sites()[site].has_bonds)
+    {
+      double &known = greatest[views_of(site, bond).front()];
+      known = std::max(known, stretch);
+    }
   std::map<BondView, SofteningBond> softened;
   for (const SofteningBond &bond : softening_bonds)
     softened[bond.view] = bond;
@@ -150,7 +156,7 @@ bool Peridynamics<dim>::take_explicit_changes(const Collectives &collectives)
   softening_bonds.clear();
   for (const auto &[view, bond] : softened)
     softening_bonds.push_back(bond);
-  return changed;
+  return collectives.max(changed ? 1. : 0.) > 0.;
 }
 
 

@@ -4,8 +4,11 @@
 
 #include "stockwork/mesh/key.h"
 
+#include <boost/functional/hash.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace stockwork::peridynamics
 {
@@ -68,7 +71,7 @@ unsigned int planes_at(const Zone<dim> &zone, const Place<dim> &cell)
 {
   unsigned int planes = 0, number = 0;
   for (unsigned int v = 0; v < 1u << dim; ++v)
-    planes |= zone.planes_of(zone.find(corner<dim>(cell, v)));
+    planes |= zone.planes_of(corner<dim>(cell, v));
   for (unsigned int d = 0; d < dim; ++d)
     number += planes >> d & 1;
   return number;
@@ -91,6 +94,37 @@ Tensor<1, dim> axis(SymmetricTensor<2, dim> moment, const bool greatest)
       return (normal[d] > 0. ? 1. : -1.) * normal / normal.norm();
   return normal;
 }
+
+/// From the place of one cell to that of another.
+template <int dim>
+Tensor<1, dim> offset_between(const FractureCell<dim> &from, const FractureCell<dim> &to)
+{
+  Tensor<1, dim> offset;
+  for (unsigned int d = 0; d < dim; ++d)
+    offset[d] = to.place[d] - from.place[d];
+  return offset;
+}
+
+/// Of each cell, by index, those that have a corner in common with it, itself included.
+template <int dim>
+std::vector<std::vector<unsigned int>> neighbours_of(const std::vector<FractureCell<dim>> &cells)
+{
+  std::unordered_map<Place<dim>, unsigned int, boost::hash<Place<dim>>> index;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    index[cells[i].place] = i;
+  std::vector<std::vector<unsigned int>> neighbours(cells.size());
+  constexpr int n_beside = dim == 2 ? 9 : 27;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    for (int n = 0; n < n_beside; ++n)
+    {
+      Place<dim> place = cells[i].place;
+      for (int d = 0, rest = n; d < dim; ++d, rest /= 3)
+        place[d] += rest % 3 - 1;
+      if (const auto found = index.find(place); found != index.end())
+        neighbours[i].push_back(found->second);
+    }
+  return neighbours;
+}
 } // namespace
 
 
@@ -110,7 +144,7 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
     for (unsigned int v = 0; v < n_corners; ++v)
     {
       site[v] = zone.find(corner<dim>(place, v));
-      is_inside = is_inside && site[v] != none && zone.sites()[site[v]].peridynamic;
+      is_inside = is_inside && site[v] != none && zone.sites()[site[v]].has_bonds;
     }
     if (!is_inside)
       continue;
@@ -149,39 +183,33 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
 
 
 template <int dim>
-void align_normals(std::vector<FractureCell<dim>> &cells, const unsigned int radius)
+void align_normals(std::vector<FractureCell<dim>> &cells,
+                   const unsigned int radius,
+                   const std::function<bool(const Place<dim> &)> &is_settled)
 {
   constexpr double thin = 0.3; // of what is a band: its width over its length, squared
-  std::map<Place<dim>, unsigned int> index;
+  const std::vector<std::vector<unsigned int>> beside = neighbours_of(cells);
+  // The cells around that are joined to this one: another crack nearby does not count.
+  std::vector<unsigned int> joined, joined_to(cells.size(), none);
   for (unsigned int i = 0; i < cells.size(); ++i)
-    index[cells[i].place] = i;
-  constexpr int n_beside = dim == 2 ? 9 : 27;
-  for (FractureCell<dim> &cell : cells)
   {
-    // The cells around that are joined to this one: another crack nearby does not count.
-    std::vector<Place<dim>> joined{cell.place};
+    FractureCell<dim> &cell = cells[i];
+    if (is_settled(cell.place))
+      continue;
+    joined.assign(1, i);
+    joined_to[i] = i;
     std::vector<Tensor<1, dim>> around;
     Tensor<1, dim> mean;
     for (unsigned int k = 0; k < joined.size(); ++k)
     {
-      Tensor<1, dim> offset;
-      for (unsigned int d = 0; d < dim; ++d)
-        offset[d] = joined[k][d] - cell.place[d];
-      around.push_back(offset);
-      mean += offset;
-      for (int n = 0; n < n_beside; ++n)
-      {
-        Place<dim> place = joined[k];
-        double square = 0.;
-        for (int d = 0, rest = n; d < dim; ++d, rest /= 3)
+      around.push_back(offset_between(cell, cells[joined[k]]));
+      mean += around.back();
+      for (const unsigned int j : beside[joined[k]])
+        if (joined_to[j] != i && offset_between(cell, cells[j]).norm() < radius + 0.5)
         {
-          place[d] += rest % 3 - 1;
-          square += std::pow(place[d] - cell.place[d], 2);
+          joined.push_back(j);
+          joined_to[j] = i;
         }
-        if (std::sqrt(square) < radius + 0.5 && index.count(place) != 0 &&
-            std::find(joined.begin(), joined.end(), place) == joined.end())
-          joined.push_back(place);
-      }
     }
     mean /= around.size();
     SymmetricTensor<2, dim> spread;
@@ -228,26 +256,23 @@ double broken_share(const Zone<dim> &zone,
 
 
 template <int dim>
-std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &cells,
-                             const std::vector<double> &apertures,
-                             const double reach)
+bool is_beside(const std::vector<FractureCell<dim>> &cells,
+               const std::vector<double> &apertures,
+               const double reach,
+               const unsigned int i)
 {
   constexpr double small = 0.1, same_direction = 0.9;
-  std::vector<bool> beside(cells.size(), false);
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    for (unsigned int j = 0; j < cells.size() && !beside[i]; ++j)
-    {
-      if (!(apertures[i] < small * apertures[j]) ||
-          std::abs(cells[i].normal * cells[j].normal) < same_direction)
-        continue;
-      Tensor<1, dim> away; // [cells]
-      for (unsigned int d = 0; d < dim; ++d)
-        away[d] = cells[i].place[d] - cells[j].place[d];
-      const double across = std::abs(away * cells[j].normal);
-      beside[i] =
-        across > 0.75 && across < reach && away.norm_square() - across * across < 0.75 * 0.75;
-    }
-  return beside;
+  for (unsigned int j = 0; j < cells.size(); ++j)
+  {
+    if (!(apertures[i] < small * apertures[j]) ||
+        std::abs(cells[i].normal * cells[j].normal) < same_direction)
+      continue;
+    const Tensor<1, dim> away = offset_between(cells[j], cells[i]); // [cells]
+    const double across = std::abs(away * cells[j].normal);
+    if (across > 0.75 && across < reach && away.norm_square() - across * across < 0.75 * 0.75)
+      return true;
+  }
+  return false;
 }
 
 
@@ -303,7 +328,13 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
       segment.opening.bulk_coefficients.push_back(jump * segment.normal);
     for (unsigned int v = 0; v < 1u << dim; ++v)
     {
-      const Site<dim> &site = zone.sites()[zone.find(corner<dim>(cells[i].place, v))];
+      const unsigned int number = zone.find(corner<dim>(cells[i].place, v));
+      if (number == none) // of another rank, far away
+      {
+        segment.opening = LinearFunctional();
+        break;
+      }
+      const Site<dim> &site = zone.sites()[number];
       segment.opening.bulk.insert(segment.opening.bulk.end(), site.dofs.begin(), site.dofs.end());
       if (site.pressure_dof == dealii::numbers::invalid_dof_index)
         continue;
@@ -369,19 +400,20 @@ bool is_at_front(const Zone<dim> &zone, const FractureCell<dim> &cell, const Seg
 }
 
 
-#define INSTANTIATE(dim)                                                                    \
-  template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,            \
-                                                              const BondSet<dim> &);        \
-  template void align_normals(std::vector<FractureCell<dim>> &, const unsigned int);        \
-  template double broken_share(const Zone<dim> &, const std::vector<StencilBond<dim>> &,    \
-                               const FractureCell<dim> &,                                   \
-                               const std::function<double(unsigned int, unsigned int)> &);  \
-  template std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &,             \
-                                        const std::vector<double> &, const double);         \
-  template double fracture_area(const Tensor<1, dim> &, const double);                      \
-  template std::vector<Tensor<1, dim>> jumps(const Zone<dim> &, const FractureCell<dim> &); \
-  template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                       \
-                                                   const std::vector<FractureCell<dim>> &); \
+#define INSTANTIATE(dim)                                                                       \
+  template std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &,               \
+                                                              const BondSet<dim> &);           \
+  template void align_normals<dim>(std::vector<FractureCell<dim>> &, const unsigned int,       \
+                                   const std::function<bool(const Place<dim> &)> &);           \
+  template double broken_share(const Zone<dim> &, const std::vector<StencilBond<dim>> &,       \
+                               const FractureCell<dim> &,                                      \
+                               const std::function<double(unsigned int, unsigned int)> &);     \
+  template bool is_beside(const std::vector<FractureCell<dim>> &, const std::vector<double> &, \
+                          const double, const unsigned int);                                   \
+  template double fracture_area(const Tensor<1, dim> &, const double);                         \
+  template std::vector<Tensor<1, dim>> jumps(const Zone<dim> &, const FractureCell<dim> &);    \
+  template std::vector<Segment<dim>> make_segments(const Zone<dim> &,                          \
+                                                   const std::vector<FractureCell<dim>> &);    \
   template bool is_at_front(const Zone<dim> &, const FractureCell<dim> &, const Segment<dim> &);
 INSTANTIATE(2)
 INSTANTIATE(3)

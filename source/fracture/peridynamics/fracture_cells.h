@@ -13,11 +13,18 @@ struct FractureCell
 {
   Place<dim> place;
   dealii::Tensor<1, dim> normal; ///< unit
+
+  template <class Archive>
+  void serialize(Archive &ar, const unsigned int)
+  {
+    ar &place &normal;
+  }
 };
 
 /// The cells with enough of their own bonds (between two of their corners) broken that cross the
 /// fracture: two of them, seven in space. Its normal is the direction of most of the broken bonds
-/// of the cell's corners. In the order of the places.
+/// of the cell's corners. In the order of the places. Of all the cells of a rank all are found; of
+/// others, if the zone is divided, some.
 template <int dim>
 std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone,
                                                    const BondSet<dim> &bonds);
@@ -25,8 +32,11 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone,
 /// Where the fracture cells within @p radius cells lie along a line (plane), normals are those of
 /// that line: what is broken around a tip alone is too few bonds to tell, and a normal that is
 /// wrong there loads the faces unevenly and turns the fracture.
+/// @param is_settled of the place of a cell whose normal is to stay as it is
 template <int dim>
-void align_normals(std::vector<FractureCell<dim>> &cells, const unsigned int radius);
+void align_normals(std::vector<FractureCell<dim>> &cells,
+                   const unsigned int radius,
+                   const std::function<bool(const Place<dim> &)> &is_settled);
 
 /// Mean damage of the bonds of the cell's corners that lead across the fracture: one where nothing
 /// holds any more, less within a horizon of a tip.
@@ -37,13 +47,14 @@ double broken_share(const Zone<dim> &zone,
                     const FractureCell<dim> &cell,
                     const std::function<double(unsigned int, unsigned int)> &damage);
 
-/// Which cells are beside a fracture rather than in it: one across from them, no farther than @p
+/// Whether a cell is beside a fracture rather than in it: one across from it, no farther than @p
 /// reach cells, with the same normal, is open ten times as wide. Of a fracture that is oblique to
 /// the mesh and hardly open, cells are so as well.
 template <int dim>
-std::vector<bool> are_beside(const std::vector<FractureCell<dim>> &cells,
-                             const std::vector<double> &apertures,
-                             const double reach);
+bool is_beside(const std::vector<FractureCell<dim>> &cells,
+               const std::vector<double> &apertures,
+               const double reach,
+               const unsigned int cell);
 
 /// Area of the fracture in a cell, such that a long one has the right area in all [m^(dim-1)]: a
 /// plane passes through |n_x| + |n_y| (+ |n_z|) cells per area of a face.
@@ -58,7 +69,8 @@ double fracture_area(const dealii::Tensor<1, dim> &normal, const double spacing)
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> jumps(const Zone<dim> &zone, const FractureCell<dim> &cell);
 
-/// Segments of all fracture cells, with opening and pore pressure; pressures are left to the model.
+/// Segments of all fracture cells, with opening and pore pressure where the cell's corners are
+/// known; pressures are left to the model.
 /// In space, of a fracture oblique to the mesh, conductances between neighbours are approximate.
 template <int dim>
 std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,

@@ -18,18 +18,22 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   for (unsigned int k = 0; k < owned_cells.size(); ++k)
     apertures[owned_cells[k]] = aperture(k, state);
   collectives.sum(apertures);
-  const std::vector<bool> beside = are_beside(cells, apertures, parameters.horizon + 1.);
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  std::vector<double> sums(3, 0.); // length, broken length, tips
+  for (const unsigned int i : owned_cells)
   {
     const double broken = broken_share<dim>(zone, stencil, cells[i],
                                             [this](const unsigned int site, const unsigned int bond)
                                             { return bond_damage(site, bond); });
-    if (beside[i] && broken < 0.5)
+    if (broken < 0.5 && is_beside(cells, apertures, parameters.horizon + 1., i))
       continue; // it has softened without opening
-    result.length += all_segments[i].area;
-    result.broken_length += broken * all_segments[i].area;
-    result.n_tips += all_segments[i].at_tip;
+    sums[0] += all_segments[i].area;
+    sums[1] += broken * all_segments[i].area;
+    sums[2] += all_segments[i].at_tip;
   }
+  collectives.sum(sums);
+  result.length = sums[0];
+  result.broken_length = sums[1];
+  result.n_tips = static_cast<unsigned int>(sums[2]);
   if (parameters.tracked)
   {
     // The tip of an elastic crack that is the same from afar: by the M-integral about the front it
@@ -92,10 +96,10 @@ std::string Peridynamics<dim>::cost() const
         reach.insert(place);
       }
   const double of_elements = std::pow(3., dim), longer = reach.size() / of_elements;
-  const double share = static_cast<double>(zone.peridynamic_sites().size()) / n_nodes;
+  const double share = static_cast<double>(zone.n_peridynamic_sites()) / n_nodes;
   std::ostringstream text;
   text.precision(3);
-  text << "Peridynamic zone: " << zone.peridynamic_sites().size() << " nodes, " << 100. * share
+  text << "Peridynamic zone: " << zone.n_peridynamic_sites() << " nodes, " << 100. * share
        << " % of all; their momentum rows have " << longer << " times the entries of elements', "
        << "which makes the matrix of the rock " << 1. + share * (longer - 1.) << " times as large";
   return text.str();

@@ -118,13 +118,17 @@ void Peridynamics<dim>::set_law(const double spacing)
 template <int dim>
 void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives &collectives)
 {
+  ranks = collectives;
   rank = collectives.rank();
+  if (parameters.explicit_steps && !zone.sites().empty())
+    keep_bonds();
   n_nodes = mesh_view.dof_handler.n_dofs() / mesh_view.dof_handler.get_fe().dofs_per_vertex;
-  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based, scene.moves_side,
-             parameters.free_boundaries, mesh_view, collectives);
+  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based,
+             parameters.explicit_steps, scene.moves_side, parameters.free_boundaries, mesh_view,
+             collectives);
   // Where elements lie between, they pull with all of the stress at sites that have lost a part of
   // their bonds, beyond the side.
-  if (!is_all_bonds() && parameters.free_boundaries)
+  if (!is_all_bonds() && parameters.free_boundaries && !zone.is_divided())
     if (const auto side =
           zone.moved_side_within((parameters.horizon - same_place) * zone.spacing()))
       throw unsuitable_mesh(
@@ -142,16 +146,16 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
         [&](const auto &box)
         { return box.point_inside(zone.position(site.place), same_place * zone.spacing()); }));
   for (const auto &box : parameters.unbreakable)
-    if (std::none_of(zone.peridynamic_sites().begin(), zone.peridynamic_sites().end(),
-                     [&](const unsigned int i) {
-                       return box.point_inside(zone.position(zone.sites()[i].place),
-                                               same_place * zone.spacing());
-                     }) &&
-        parameters.zone_growth == 0)
-    {
+  {
+    const bool holds_some = std::any_of(
+      zone.peridynamic_sites().begin(), zone.peridynamic_sites().end(),
+      [&](const unsigned int i) {
+        return box.point_inside(zone.position(zone.sites()[i].place), same_place * zone.spacing());
+      });
+    if (collectives.max(holds_some ? 1. : 0.) == 0. && parameters.zone_growth == 0)
       throw EntryError("Fracture/peridynamics/Unbreakable", to_string(box),
                        "boxes that hold nodes of the peridynamic zone");
-    }
+  }
   regions.clear();
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     regions.push_back(cell->material_id());
@@ -170,6 +174,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   for (const unsigned int i : zone.peridynamic_sites())
     in_situ_is_zero =
       in_situ_is_zero && scene.in_situ_stress(zone.position(zone.sites()[i].place)).norm() == 0.;
+  in_situ_is_zero = collectives.max(in_situ_is_zero ? 0. : 1.) == 0.;
 
   if (started)
   {
@@ -179,8 +184,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   else
   {
     cut_initial_cracks();
-    committed_bonds = bonds.places();
-    committed_cracked = cracked.places();
+    keep_bonds();
     soften_cohesive_cracks();
     if constexpr (dim == 2)
       if (parameters.tracked)
@@ -213,6 +217,44 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
 
 
 template <int dim>
+void Peridynamics<dim>::keep_bonds()
+{
+  committed_bonds = of_all_ranks(bonds.places());
+  committed_cracked = of_all_ranks(cracked.places());
+}
+
+
+template <int dim>
+template <class T>
+std::vector<T> Peridynamics<dim>::of_all_ranks(std::vector<T> mine) const
+{
+  if (!zone.is_divided())
+    return mine;
+  mine = ranks->gather(mine);
+  std::sort(mine.begin(), mine.end());
+  mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+  return mine;
+}
+
+
+template <int dim>
+std::vector<FractureCell<dim>> Peridynamics<dim>::fracture_cells() const
+{
+  std::vector<FractureCell<dim>> found = find_fracture_cells(zone, cracked);
+  if (!zone.is_divided())
+    return found;
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [this](const FractureCell<dim> &cell)
+                             { return !zone.owns(cell.place); }),
+              found.end());
+  found = ranks->gather(found);
+  std::sort(found.begin(), found.end(),
+            [](const auto &a, const auto &b) { return a.place < b.place; });
+  return found;
+}
+
+
+template <int dim>
 void Peridynamics<dim>::refresh_segments()
 {
   const std::vector<double> damage_before = damage, corrected_before = corrected_damage;
@@ -231,8 +273,10 @@ void Peridynamics<dim>::refresh_segments()
     follow_paths();
   else
   {
-    cells = find_fracture_cells(zone, cracked);
-    align_normals(cells, parameters.horizon + 1);
+    cells = fracture_cells();
+    align_normals<dim>(cells, parameters.horizon + 1,
+                       [this](const Place<dim> &place)
+                       { return committed_normals.count(place) != 0; });
     for (FractureCell<dim> &cell : cells)
       if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
         for (unsigned int d = 0; d < dim; ++d)
@@ -331,11 +375,8 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
 template <int dim>
 bool Peridynamics<dim>::commit(const StepContext &, const State &state)
 {
-  if (passes > 0)
-  {
-    committed_bonds = bonds.places();
-    committed_cracked = cracked.places();
-  }
+  if (passes > 0 && !parameters.explicit_steps) // no such step is taken back, see save()
+    keep_bonds();
   if (parameters.tracked)
   {
     committed_paths = paths;
@@ -368,7 +409,8 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
     if (at_front[i])
       front.push_back(all_segments[i].centre);
   for (unsigned int i = 0; i < cells.size() && !parameters.tracked; ++i)
-    if (std::none_of(front.begin(), front.end(),
+    if (committed_normals.count(cells[i].place) == 0 &&
+        std::none_of(front.begin(), front.end(),
                      [&](const Point<dim> &end)
                      { return end.distance(all_segments[i].centre) < settled; }))
       committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
@@ -468,9 +510,15 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   std::vector<std::array<Point<dim>, 2>> grown;
   for (auto box = shape.boxes.begin() + parameters.boxes.size(); box != shape.boxes.end(); ++box)
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
-  archive << origin << grown << committed_bonds << committed_cracked << committed_softening
-          << committed_normals << committed_correction << committed_energy
-          << committed_damage_relaxation << told_of_pressure << committed_paths
+  const auto broken = parameters.explicit_steps ? of_all_ranks(bonds.places()) : committed_bonds,
+             open = parameters.explicit_steps ? of_all_ranks(cracked.places()) : committed_cracked;
+  const auto softened = of_all_ranks(committed_softening);
+  std::map<Place<dim>, double> correction;
+  for (const auto &[place, corrected] : of_all_ranks(std::vector<std::pair<Place<dim>, double>>(
+         committed_correction.begin(), committed_correction.end())))
+    correction[place] = corrected;
+  archive << origin << grown << broken << open << softened << committed_normals << correction
+          << committed_energy << committed_damage_relaxation << told_of_pressure << committed_paths
           << committed_way_energy << told_off_paths << committed_cells << told_of_contact
           << told_of_rim;
 }

@@ -14,6 +14,7 @@
 #include "stockwork/fracture/model.h"
 
 #include <functional>
+#include <optional>
 
 namespace stockwork::peridynamics
 {
@@ -132,6 +133,16 @@ private:
 
   /// The fracture cells of initial cracks have the cracks' own normals.
   void set_initial_normals();
+
+  /// Those that are broken, or let fluid in, are committed.
+  void keep_bonds();
+
+  /// In a divided zone, what all ranks have, sorted, each once; else what this one has.
+  template <class T>
+  std::vector<T> of_all_ranks(std::vector<T> mine) const;
+
+  /// Of all ranks.
+  std::vector<FractureCell<dim>> fracture_cells() const;
 
   /// Fracture cells and segments follow the broken bonds. The normal of a cell that tips have
   /// left behind does not change any more.
@@ -590,9 +601,10 @@ private:
   std::vector<BondCoefficients<dim>> coefficients;
   double critical_stretch = 0.;
   SofteningLaw softening;
-  double strain_of_pressure = 0.; ///< of the lattice, in each direction [1/Pa]
-  double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
-  double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
+  double strain_of_pressure = 0.;   ///< of the lattice, in each direction [1/Pa]
+  double relief_by_fluid = 0.;      ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
+  double energy_over_spring = 1.;   ///< that a breaking bond sets free, over that of a mere spring
+  std::optional<Collectives> ranks; ///< null: before setup()
   unsigned int rank = 0;
   unsigned int n_nodes = 0;                        ///< of the mesh
   std::vector<dealii::types::material_id> regions; ///< of the rock, by active cell index

@@ -146,6 +146,21 @@ void RockOfBonds<dim>::reinit(
                      here.lame_lambda() - here.shear_modulus(), here.biot_coefficient});
   }
   cells = collectives.gather(cells);
+  // No bond that is known here goes through a cell whose corners are not.
+  const auto is_far = [&](const OfCell &cell)
+  {
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+    {
+      Place<dim> corner = cell.place;
+      for (unsigned int d = 0; d < dim; ++d)
+        corner[d] += static_cast<int>(v >> d & 1);
+      if (zone.find(corner) != dealii::numbers::invalid_unsigned_int)
+        return false;
+    }
+    return true;
+  };
+  if (zone.is_divided())
+    cells.erase(std::remove_if(cells.begin(), cells.end(), is_far), cells.end());
   std::map<Place<dim>, OfCell> all;
   for (OfCell cell : cells)
   {

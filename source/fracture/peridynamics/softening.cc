@@ -322,13 +322,9 @@ void Peridynamics<dim>::restore_softening()
   cracked.set_broken(committed_cracked);
   softening_bonds.clear();
   for (const auto &[places, values] : committed_softening)
-  {
-    Place<dim> offset;
-    for (unsigned int d = 0; d < dim; ++d)
-      offset[d] = places.second[d] - places.first[d];
-    softening_bonds.push_back({views_of(zone.find(places.first), bonds.bond(offset)).front(),
-                               values[0], values[0], values[1]});
-  }
+    if (const auto found = bonds.find(places))
+      softening_bonds.push_back(
+        {views_of(found->first, found->second).front(), values[0], values[0], values[1]});
   std::sort(softening_bonds.begin(), softening_bonds.end(),
             [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
 }

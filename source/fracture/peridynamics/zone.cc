@@ -1,5 +1,10 @@
 #include "fracture/peridynamics/zone.h"
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,47 +81,52 @@ unsigned int Zone<dim>::find(const Place<dim> &place) const
 
 
 template <int dim>
-unsigned int Zone<dim>::planes_of(const unsigned int site) const
+unsigned int Zone<dim>::planes_of(const Place<dim> &place) const
 {
   unsigned int planes = 0;
   for (unsigned int d = 0; d < dim; ++d)
     for (const int m : mirrors[d])
-      if (m == all_sites[site].place[d])
+      if (m == place[d])
         planes |= 1u << d;
   return planes;
 }
 
 
 template <int dim>
-void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil, const bool with_rim)
+void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil,
+                              const bool with_rim,
+                              const Collectives &collectives)
 {
+  std::vector<Missing> missing;
   far_ends.clear();
   inner_sites.clear();
   outer_sites.clear();
   first_far_end.assign(all_sites.size(), 0);
   for (unsigned int i = 0; i < all_sites.size(); ++i)
   {
-    const unsigned int planes = planes_of(i);
+    const unsigned int planes = planes_of(all_sites[i].place);
     all_sites[i].share = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       if (planes >> d & 1)
         all_sites[i].share *= 0.5;
-    if (!all_sites[i].peridynamic)
+    if (!all_sites[i].has_bonds)
       continue;
     inner_sites.push_back(i);
-    find_far_ends_of(i, stencil);
+    find_far_ends_of(i, stencil, missing);
   }
-  if (!with_rim)
-    return;
   std::vector<bool> is_outer(all_sites.size(), false);
-  for (const FarEnd &end : far_ends)
-    is_outer[end.site] = !all_sites[end.site].peridynamic;
+  if (with_rim)
+    for (const FarEnd &end : far_ends)
+      is_outer[end.site] = !all_sites[end.site].peridynamic;
   for (unsigned int i = 0; i < all_sites.size(); ++i)
     if (is_outer[i])
     {
       outer_sites.push_back(i);
-      find_far_ends_of(i, stencil);
+      find_far_ends_of(i, stencil, missing);
     }
+  missing = collectives.gather(missing);
+  if (!missing.empty())
+    throw unsuitable_mesh(std::min_element(missing.begin(), missing.end())->second);
 }
 
 
@@ -153,7 +163,9 @@ double Zone<dim>::absent_share(const unsigned int site,
 
 
 template <int dim>
-void Zone<dim>::find_far_ends_of(const unsigned int i, const std::vector<StencilBond<dim>> &stencil)
+void Zone<dim>::find_far_ends_of(const unsigned int i,
+                                 const std::vector<StencilBond<dim>> &stencil,
+                                 std::vector<Missing> &missing)
 {
   const Site<dim> &site = all_sites[i];
   first_far_end[i] = far_ends.size();
@@ -191,6 +203,9 @@ void Zone<dim>::find_far_ends_of(const unsigned int i, const std::vector<Stencil
         far_ends.push_back({i, 0, true});
         continue;
       }
+      far_ends.push_back({i, 0, true});
+      if (!missing.empty())
+        continue;
       std::ostringstream message;
       message << "The horizon of the peridynamic node at (" << position(site.place) << ") m ";
       if (outside)
@@ -201,7 +216,8 @@ void Zone<dim>::find_far_ends_of(const unsigned int i, const std::vector<Stencil
         message << "leaves the cells of size " << h
                 << " m. Uniform cells must go on for the horizon around the zone; change the "
                    "spacing in subsection Mesh, or set 'Cell size'.";
-      throw unsuitable_mesh(message.str());
+      missing.emplace_back(site.place, message.str());
+      continue;
     }
     far_ends.push_back(end);
   }
@@ -213,6 +229,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
                       const double spacing,
                       const std::vector<StencilBond<dim>> &stencil,
                       const bool with_rim,
+                      const bool divided,
                       const std::function<bool(dealii::types::boundary_id)> &moves_side,
                       const bool free_boundaries,
                       const MeshView<dim> &mesh_view,
@@ -220,6 +237,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
 {
   rank = collectives.rank();
   has_free_boundaries = free_boundaries;
+  knows_own_part = divided;
   int reach = 0;
   for (const StencilBond<dim> &bond : stencil)
     for (unsigned int d = 0; d < dim; ++d)
@@ -232,9 +250,14 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
   }
   gather_sites(shape, with_rim ? 2 * reach : reach, moves_side, mesh_view, collectives);
   for (Site<dim> &site : all_sites)
-    site.peridynamic = shape.contains(position(site.place), h);
+    site.has_bonds = site.peridynamic = shape.contains(position(site.place), h);
+  if (divided)
+    leave_what_is_needed(reach);
+  n_inner_sites = static_cast<unsigned int>(collectives.sum(static_cast<double>(std::count_if(
+    all_sites.begin(), all_sites.end(),
+    [this](const Site<dim> &site) { return site.peridynamic && site.owner == rank; }))));
   find_volumes();
-  find_far_ends(stencil, with_rim);
+  find_far_ends(stencil, with_rim, collectives);
 
   patterns.assign(1u << (1u << dim), std::vector<bool>(1 << dim, false));
   for (unsigned int pattern = 0; pattern < patterns.size(); ++pattern)
@@ -260,7 +283,7 @@ void Zone<dim>::setup(const ZoneShape<dim> &shape,
     for (unsigned int v = 1; v < 1u << dim; ++v)
     {
       const unsigned int other = corner_site(all_sites[i].place, v);
-      all &= other != dealii::numbers::invalid_unsigned_int && all_sites[other].peridynamic;
+      all &= other != dealii::numbers::invalid_unsigned_int && all_sites[other].has_bonds;
     }
     if (all)
       inner_cells.push_back(all_sites[i].place);

@@ -56,6 +56,7 @@ struct Site
   dealii::types::global_dof_index pressure_dof = dealii::numbers::invalid_dof_index;
   unsigned int owner = 0;   ///< the rank that gives its values; of a peridynamic site, of its rows
   bool peridynamic = false; ///< its momentum rows are bonds'
+  bool has_bonds = false;   ///< it is peridynamic, and the far ends of its bonds are known here
   double share = 1.;        ///< of its cell that lies in the domain: a half on a plane of symmetry
   double volume = 1.;       ///< of its cell and its images that is rock: a half on a free boundary
 
@@ -94,7 +95,9 @@ dealii::BoundingBox<dim> room_among(const std::vector<dealii::BoundingBox<dim>> 
 
 /// The lattice: vertices of the cells that are uniform in and around the zone, and which of them
 /// are peridynamic. The same on every rank, so that a horizon may cross any number of them; the
-/// zone is a thin one around the cracks.
+/// zone is a thin one around the cracks. Or, in a zone that is all of the rock, what each rank
+/// needs: the bonds of all sites no farther than a horizon from its cells, and the sites that these
+/// lead to. Sites are numbered on each rank then, in the same order.
 template <int dim>
 class Zone
 {
@@ -104,6 +107,7 @@ public:
   /// @param spacing [m]; zero: the edge of the smallest cell in the zone
   /// @param with_rim whether the bonds of sites count that a bond leads to from the zone
   /// @param moves_side whether a side of the domain is moved, and so no plane of symmetry
+  /// @param divided whether each rank is to know no more than it needs
   /// @param free_boundaries whether a horizon may leave the domain through a boundary that is not a
   /// plane of symmetry, where bonds are absent then
   /// @throws InputError where cells in the zone differ, or a horizon leaves the domain and may not
@@ -111,10 +115,17 @@ public:
              double spacing,
              const std::vector<StencilBond<dim>> &stencil,
              const bool with_rim,
+             const bool divided,
              const std::function<bool(dealii::types::boundary_id)> &moves_side,
              const bool free_boundaries,
              const MeshView<dim> &mesh_view,
              const Collectives &collectives);
+
+  /// Whether this rank knows no more than it needs.
+  bool is_divided() const
+  {
+    return knows_own_part;
+  }
 
   /// Where place 0 is; of an earlier run, before the first setup().
   void set_origin(const dealii::Point<dim> &point);
@@ -157,10 +168,16 @@ public:
     return all_sites;
   }
 
-  /// Numbers of those sites that are peridynamic.
+  /// Numbers of those sites that are peridynamic and whose bonds are known.
   const std::vector<unsigned int> &peridynamic_sites() const
   {
     return inner_sites;
+  }
+
+  /// Peridynamic ones, of all ranks.
+  unsigned int n_peridynamic_sites() const
+  {
+    return n_inner_sites;
   }
 
   /// Numbers of the sites beside the zone whose bonds are known, if asked for.
@@ -174,7 +191,7 @@ public:
 
   dealii::Point<dim> position(const Place<dim> &place) const;
 
-  /// Far end of a bond of a peridynamic site, or of one of the rim.
+  /// Far end of a bond of a site that has bonds, or of one of the rim.
   FarEnd far_end(const unsigned int site, const unsigned int bond) const
   {
     return far_ends[first_far_end[site] + bond];
@@ -183,15 +200,15 @@ public:
   /// Of the bonds of a peridynamic site, the share by volume that is beyond free boundaries.
   double absent_share(const unsigned int site, const std::vector<StencilBond<dim>> &stencil) const;
 
-  /// Planes of symmetry that a site lies on: bit d, one normal to direction d.
-  unsigned int planes_of(const unsigned int site) const;
+  /// Planes of symmetry that a place lies on: bit d, one normal to direction d.
+  unsigned int planes_of(const Place<dim> &place) const;
 
   /// Call `use(place, mirrored)` for a cell, and for its images beyond planes of symmetry that are
   /// no farther than @p reach cells from it.
   template <class Function>
   void for_each_image(const Place<dim> &cell, const int reach, const Function &use) const;
 
-  /// Lower corners of the cells whose corners are all peridynamic.
+  /// Lower corners of the cells whose corners all have bonds.
   const std::vector<Place<dim>> &cells() const
   {
     return inner_cells;
@@ -242,8 +259,21 @@ private:
                  const MeshView<dim> &,
                  const Collectives &);
   void find_volumes();
-  void find_far_ends(const std::vector<StencilBond<dim>> &stencil, const bool with_rim);
-  void find_far_ends_of(const unsigned int site, const std::vector<StencilBond<dim>> &stencil);
+
+  /// Leave the sites that are needed here, and mark those that have bonds.
+  void leave_what_is_needed(int reach);
+
+  void find_far_ends(const std::vector<StencilBond<dim>> &stencil,
+                     const bool with_rim,
+                     const Collectives &);
+
+  /// Where a bond leads to no site, although there has to be one, and why.
+  using Missing = std::pair<Place<dim>, std::string>;
+
+  /// @param missing the first of these, if empty so far
+  void find_far_ends_of(const unsigned int site,
+                        const std::vector<StencilBond<dim>> &stencil,
+                        std::vector<Missing> &missing);
 
   dealii::Point<dim> corner;
   bool has_corner = false;
@@ -263,8 +293,8 @@ private:
   std::array<std::array<int, 2>, dim> mirrors;
   std::array<std::array<bool, 2>, dim> moved{}; ///< sides near the zone that the deck moves
   dealii::BoundingBox<dim> domain, largest;
-  unsigned int rank = 0;
-  bool has_free_boundaries = false;
+  unsigned int rank = 0, n_inner_sites = 0;
+  bool has_free_boundaries = false, knows_own_part = false;
 };
 
 

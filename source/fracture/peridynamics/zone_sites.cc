@@ -1,9 +1,11 @@
 // The lattice as the mesh has it.
+#include "fracture/peridynamics/bond_forces.h"
 #include "fracture/peridynamics/zone.h"
 
 #include <deal.II/dofs/dof_accessor.h>
 
 #include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -120,15 +122,48 @@ void refuse_odd_cells(const std::vector<double> &odd, const double h)
   throw unsuitable_mesh(message.str());
 }
 
-/// The sites of all ranks in their order; of one that several know, the owner's word counts.
+/// This rank's sites, and those of others that lie in the box which these fill, enlarged.
+/// @param more in each direction [spacings]
 template <int dim>
-std::vector<Site<dim>> unite(const std::map<Place<dim>, Site<dim>> &mine,
-                             const Collectives &collectives)
+std::vector<Site<dim>>
+with_sites_around(std::vector<Site<dim>> mine, const int more, const Collectives &collectives)
 {
-  std::vector<Site<dim>> known;
-  for (const auto &[place, site] : mine)
-    known.push_back(site);
-  known = collectives.gather(known);
+  using Box = std::array<int, 2 * dim>; // lower and upper end in each direction
+  Box box;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    box[2 * d] = std::numeric_limits<int>::max();
+    box[2 * d + 1] = std::numeric_limits<int>::lowest();
+    for (const Site<dim> &site : mine)
+    {
+      box[2 * d] = std::min(box[2 * d], site.place[d] - more);
+      box[2 * d + 1] = std::max(box[2 * d + 1], site.place[d] + more);
+    }
+  }
+  std::vector<Box> others = collectives.gather(std::vector<Box>{box});
+  others.erase(others.begin() + collectives.rank());
+  const auto is_in = [](const Site<dim> &site, const Box &box)
+  {
+    bool inside = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      inside = inside && site.place[d] >= box[2 * d] && site.place[d] <= box[2 * d + 1];
+    return inside;
+  };
+  std::vector<Site<dim>> wanted; // by some other rank
+  for (const Site<dim> &site : mine)
+    if (std::any_of(others.begin(), others.end(),
+                    [&](const Box &other) { return is_in(site, other); }))
+      wanted.push_back(site);
+  for (const Site<dim> &site : collectives.gather(wanted))
+    if (is_in(site, box))
+      mine.push_back(site);
+  return mine;
+}
+
+/// Sites in their order; of one that several ranks know, the owner's word counts.
+template <int dim>
+std::vector<Site<dim>> unite(std::vector<Site<dim>> known)
+{
   std::stable_sort(known.begin(), known.end(),
                    [](const auto &a, const auto &b)
                    { return std::tie(a.place, a.owner) < std::tie(b.place, b.owner); });
@@ -252,7 +287,74 @@ void Zone<dim>::gather_sites(const ZoneShape<dim> &shape,
   for (const auto &[direction, side] : collectives.gather(my_moved))
     moved[direction][side] = true;
   find_room(in_zone.lower, in_zone.upper, reach, mesh_view, collectives);
-  all_sites = unite<dim>(mine, collectives);
+  std::vector<Site<dim>> known;
+  for (const auto &[place, site] : mine)
+    known.push_back(site);
+  all_sites = unite(knows_own_part ? with_sites_around(known, 2 * reach, collectives)
+                                   : collectives.gather(known));
+}
+
+
+template <int dim>
+void Zone<dim>::leave_what_is_needed(const int reach)
+{
+  if (all_sites.empty())
+    return;
+  // The box of all that is known.
+  Place<dim> lower = all_sites.front().place, upper = lower;
+  for (const Site<dim> &site : all_sites)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = std::min(lower[d], site.place[d]);
+      upper[d] = std::max(upper[d], site.place[d]);
+    }
+  LatticeBox<dim> box;
+  for (unsigned int d = 0; d < dim; ++d)
+    box.size[d] = upper[d] - lower[d] + 1;
+  const auto index_of = [&](const Place<dim> &place)
+  {
+    std::array<int, dim> offset;
+    for (unsigned int d = 0; d < dim; ++d)
+      offset[d] = place[d] - lower[d];
+    return box.stride(offset);
+  };
+
+  std::vector<bool> is_near(box.n_sites(), false);
+  for (const auto &[cell, index] : owned_cells)
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+    {
+      Place<dim> corner_of_cell = cell;
+      for (unsigned int d = 0; d < dim; ++d)
+        corner_of_cell[d] += static_cast<int>(v >> d & 1);
+      is_near[index_of(corner_of_cell)] = true;
+    }
+  // A horizon away, in all directions alike. Images lie no farther than what they are images for.
+  const auto widen = [&]()
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const std::vector<bool> before = is_near;
+      std::array<int, dim> unit{};
+      unit[d] = 1;
+      const std::ptrdiff_t step = box.stride(unit);
+      for (std::size_t i = 0; i < before.size(); ++i)
+        if (before[i])
+        {
+          const int at = box.position(i)[d];
+          for (int k = std::max(-reach, -at); k <= std::min<int>(reach, box.size[d] - 1 - at); ++k)
+            is_near[i + k * step] = true;
+        }
+    }
+  };
+  widen();
+  for (Site<dim> &site : all_sites)
+    site.has_bonds = site.peridynamic && is_near[index_of(site.place)];
+  widen();
+  all_sites.erase(std::remove_if(all_sites.begin(), all_sites.end(),
+                                 [&](const Site<dim> &site)
+                                 { return !is_near[index_of(site.place)]; }),
+                  all_sites.end());
+  all_sites.shrink_to_fit();
 }
 
 
@@ -383,6 +485,7 @@ void Zone<dim>::find_room(const Point<dim> &first,
                                                     const dealii::BoundingBox<dim> &, Bounds<dim>, \
                                                     double, const Collectives &);                  \
   template std::optional<std::array<unsigned int, 2>> Zone<dim>::moved_side_within(double) const;  \
+  template void Zone<dim>::leave_what_is_needed(int);                                              \
   template void Zone<dim>::find_room(const Point<dim> &, const Point<dim> &, unsigned int,         \
                                      const MeshView<dim> &, const Collectives &);
 INSTANTIATE(2)
