@@ -106,6 +106,28 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
      "rock and fluid are solved together ('Coupling/Scheme = monolithic')",
      {"Coupling/Stabilisation factor", "Coupling/Maximum passes", "Coupling/Acceleration",
       "Coupling/Force"}}};
+  const std::string model = given("Fracture/Model");
+  IdleGroup of_others{true, "'Fracture/Model' is '" + model + "'", {}};
+  for (const DeclaredEntry &entry : declared)
+    if (entry.section.rfind("Fracture/", 0) == 0 && entry.section != "Fracture/" + model)
+      of_others.entries.push_back(entry.path());
+  groups.push_back(of_others);
+  const bool goes_straight = given("Fracture/" + model + "/Straight growth") == "true";
+  const auto of_model = [&](std::vector<std::string> names)
+  {
+    for (std::string &name : names)
+      name.insert(0, "Fracture/" + model + "/");
+    return names;
+  };
+  if (model == "damage" || model == "cohesive_xfem")
+  {
+    groups.push_back({!the_case.model->requirements().may_grow, "no crack grows",
+                      of_model({"Growth threshold", "Averaging radius", "Direction radius",
+                                "Most advances per step", "Straight growth"})});
+    groups.push_back({the_case.model->requirements().may_grow && goes_straight,
+                      "cracks go straight on ('Straight growth = true')",
+                      of_model({"Direction radius"})});
+  }
   const std::string reference = given("Verification/Reference");
   groups.push_back({reference == "none",
                     "there is no reference ('Verification/Reference')",

@@ -103,8 +103,9 @@ void Damage<dim>::find_segments()
     Segment<dim> &segment = all_segments[i];
     const CrackCell<dim> &crack = band.cells[band.owned()[i].number];
     // Half of Carter's leak-off in the middle of the process zone, where the tip of an elastic
-    // fracture with the same toughness would be.
-    segment.bare_aperture = 0.7 * law(crack).critical;
+    // fracture with the same toughness would be. What is broken, such as a notch of the deck, has
+    // bare faces however narrow it is.
+    segment.bare_aperture = broken_share(crack) < 1. ? 0.7 * law(crack).critical : 0.;
     // Zhang et al., Eqs 23 and 24: with D the compressibility of the pores grows by 1/(1 - D). That
     // of the rock is 1/K for grains that are not compressed. At D = 1 it would be infinite.
     const double integrity = std::max(1. - damage(crack), parameters.least_integrity);
