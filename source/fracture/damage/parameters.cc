@@ -79,7 +79,7 @@ Parameters Parameters::parse(dealii::ParameterHandler &prm, const unsigned int d
   prm.leave_subsection();
   prm.enter_subsection("Fracture");
   prm.enter_subsection("damage");
-  if (prm.get("Least integrity") != "0.01" && !divides_storage)
+  if (p.least_integrity != 0.01 && !divides_storage)
     throw EntryError(
       "Fracture/damage/Least integrity", prm.get("Least integrity"),
       "0.01 without 'Coupling/Scheme = as published' and 'Storage = 1/(1-D)': it has "
