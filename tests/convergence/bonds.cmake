@@ -143,17 +143,15 @@ foreach(tracking none path)
     EXPECT "final/fracture_volume = 4.659e-4 within 0.01" "final/fluid_volume_defect < 1e-12"
            "final/fluid_volume_defect > -1e-12")
 endforeach()
-# A growing one, beside cut cells of the same size (cohesive_xfem, medium: 0.959 MPa, 0.2456 mm). Stress along it, at equal
+# A growing one, beside cut cells of half the size (cohesive_xfem, medium: 0.959 MPa, 0.2456 mm). Stress along it, at equal
 # effective stress across it, makes no difference.
-set(in_bonds "Output/Fields=false" "Fracture/peridynamics/Closure=in bonds")
+set(in_bonds "Resolution=coarse" "Output/Fields=false" "Fracture/peridynamics/Closure=in bonds")
 stockwork_case_test(NAME convergence/kgd/sun/permeable/in_bonds
-  DECK prm/kgd/sun/permeable/peridynamics.prm
-  SET ${in_bonds} "Resolution=medium" "Fracture/peridynamics/Tracking=path" "Time/End time=5 s" # 0.017, 0.009
+  DECK prm/kgd/sun/permeable/peridynamics.prm SET ${in_bonds} "Fracture/peridynamics/Tracking=path" "Time/End time=5 s"
   EXPECT "final/net_inlet_pressure = 9.59e5 within 0.03" "final/inlet_aperture = 2.456e-4 within 0.02"
          "fluid_balance/relative_error < 1e-8" "final/fluid_volume_defect < 1e-12" "final/fluid_volume_defect > -1e-12")
 stockwork_same_test(NAME convergence/kgd/sun/permeable/in_bonds/stress
-  DECK prm/kgd/sun/permeable/peridynamics.prm
-  SET ${in_bonds} "Resolution=coarse" "Fracture/peridynamics/Tracking=none" "Time/End time=2 s"
+  DECK prm/kgd/sun/permeable/peridynamics.prm SET ${in_bonds} "Fracture/peridynamics/Tracking=none" "Time/End time=2 s"
   SECOND_SET "In situ/Stress=-23 MPa, -17 MPa" "In situ/Pore pressure=17 MPa" TOLERANCE 1e-7
   IGNORE "error|^inlet_pressure|^minimum_pressure|^maximum_pressure|borehole_pressure|energy|load")
 

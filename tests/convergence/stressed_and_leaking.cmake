@@ -21,15 +21,6 @@ stockwork_case_test(NAME convergence/kgd/wang/permeable
   DECK prm/kgd/wang/permeable/cohesive_xfem.prm SET "Resolution=coarse" "Time/End time=2 s"
   EXPECT "fluid_balance/relative_error < 1e-8" "final/fluid_balance_error < 1e-8"
          "fluid_balance/leaked > 0" "final/fracture_length > 1.6" "rejected_steps == 0")
-# With bonds, beside cut cells of the same size (coarse; 2 s: 7.43e-7 m^2 leaked off; 40 s: 13.81 m, 0.931 mm, 0.2537 MPa,
-# 7.47e-5 m^2), whose process zone holds fluid and leaks as well.
-set(bonds DECK prm/kgd/wang/permeable/peridynamics.prm SET "Resolution=coarse" "Output/Fields=false")
-stockwork_case_test(NAME convergence/kgd/wang/permeable/peridynamics/start ${bonds} "Time/End time=2 s"
-  EXPECT "final/leaked_volume = 7.43e-7 within 0.12" "fluid_balance/relative_error < 1e-11" "rejected_steps == 0")
-stockwork_case_test(NAME convergence/kgd/wang/permeable/peridynamics ${bonds} LABELS nightly
-  EXPECT "final/equivalent_length = 13.81 within 0.03" "final/inlet_aperture = 9.31e-4 within 0.03"
-         "final/net_inlet_pressure = 2.537e5 within 0.05" "final/leaked_volume = 7.469e-5 within 0.05"
-         "fluid_balance/relative_error < 1e-11" "rejected_steps == 0")
 # In the rock that Sun et al. give, which is permeable, beside what bonds give (1.6 m, 0.951 MPa, 0.238 mm).
 stockwork_case_test(NAME convergence/kgd/sun/permeable
   DECK prm/kgd/sun/permeable/cohesive_xfem.prm SET "Resolution=medium" "Time/End time=5 s" "Output/Fields=false"

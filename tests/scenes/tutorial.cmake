@@ -43,8 +43,8 @@ stockwork_case_test(NAME scenes/tutorial/carter DECK prm/tutorial/carter/cohesiv
 # With bonds, whose path is that of the stress, 25 degrees: as far, and as fast, as with cut cells.
 stockwork_case_test(NAME scenes/tutorial/path DECK prm/tutorial/peridynamics.prm LABELS nightly TIMEOUT 1800
   EXPECT "closure/first_contact = 18.17e6 within 0.005" "closure/g_function = 18.17e6 within 0.005"
-         "closure/isip = 18.466e6 within 0.005" "minimum/minimum_aperture > -9.07e-6" "maximum/inlet_aperture = 9.07e-4 within 0.03"
-         "maximum/equivalent_length = 44.8 within 0.03" "fluid_balance/relative_error < 1e-8")
+         "closure/isip = 18.466e6 within 0.005" "minimum/minimum_aperture > -9.07e-6" "maximum/inlet_aperture = 9.07e-4 within 0.04"
+         "maximum/equivalent_length = 43.9 within 0.06" "fluid_balance/relative_error < 1e-8")
 stockwork_scene_test(tutorial/bonds DECK prm/tutorial/cohesive_xfem.prm LABELS quick
   ARGS --set "Fracture/Model=peridynamics" --set "Discretisation/Elements=Q1-Q1 stabilised" --set "Fracture/peridynamics/Closure=conserving"
        --checked --ends 1 --says "In situ/Stress: along the crack" --says "and hold 0.762 MPa with cells of 1 m"

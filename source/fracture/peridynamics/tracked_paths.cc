@@ -315,8 +315,7 @@ double TrackedPaths::way(const End &end) const
 }
 
 
-bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance,
-                                const std::function<double(const End &)> &fluid)
+bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance)
 {
   for (unsigned int p = 0; p < paths.size(); ++p)
     for (const unsigned int side : {0u, 1u})
@@ -325,7 +324,7 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
       if (growth.n_points == 0)
         continue;
       growth.advance = std::min(advance({p, side}), way({p, side}));
-      growth.wet = std::max({growth.wet, growth.advance, fluid({p, side})});
+      growth.wet = std::max(growth.wet, growth.advance);
     }
   std::vector<Piece> before;
   before.swap(wet);
@@ -338,11 +337,11 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
 }
 
 
-double TrackedPaths::along_way(const Crossing &crossing, const End &end) const
+double TrackedPaths::beyond_tip(const Crossing &crossing, const End &end) const
 {
   const Path &path = paths[end.path];
   const double start = path.begin(path.n_pieces() - path.ends[1].n_points);
-  return end.side == 0 ? -crossing.arc : crossing.arc - start;
+  return (end.side == 0 ? -crossing.arc : crossing.arc - start) - at(end).advance;
 }
 
 

@@ -100,14 +100,12 @@ public:
     return at(end).advance;
   }
 
-  /// How far the tip of an end has come, on the way that is there [m], and fluid where it is ahead
-  /// of that.
+  /// How far the tip of an end has come, on the way that is there [m].
   /// @return whether fluid has reached other pieces than before
-  bool set_advances(const std::function<double(const End &)> &advance,
-                    const std::function<double(const End &)> &fluid);
+  bool set_advances(const std::function<double(const End &)> &advance);
 
-  /// How far along the way of an end that is crossed there [m].
-  double along_way(const Crossing &crossing, const End &end) const;
+  /// How far ahead of the tip of an end its way is crossed there [m].
+  double beyond_tip(const Crossing &crossing, const End &end) const;
 
   /// Length of the way of an end [m].
   double way(const End &end) const;
@@ -187,7 +185,7 @@ private:
   {
     bool grows = false;
     unsigned int n_points = 0;     ///< of its way
-    double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
+    double advance = 0., wet = 0.; ///< of the tip, and the greatest so far [m]
     bool joined = false;           ///< it has met another path
     unsigned int joined_path = 0;  ///< which
     double joined_arc = 0.;        ///< and where on it
