@@ -97,7 +97,7 @@ private:
   /// two meet: lumped masses make short ones slow (tests/unit/peridynamics_seam_test.cc).
   bool is_all_bonds() const
   {
-    return zone.peridynamic_sites().size() == n_nodes;
+    return zone.n_peridynamic_sites() == n_nodes;
   }
 
   /// A bond of a site in 'Unbreakable'.
