@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -143,11 +144,13 @@ void Wells<dim>::check_openings() const
         for (const Perforation &one : well.perforations)
           for (const Perforation &other : other_well.perforations)
             if (&one != &other && one.segments == other.segments)
-              throw perforation_error(
-                well, one,
-                "opens into the same segment of the fracture as another perforation, which has one "
-                "pressure, so that the share of each is not known: leave one out, or take smaller "
-                "cells");
+            {
+              std::ostringstream message;
+              message << "opens into the same segment of the fracture as (" << other.point
+                      << "), so that the share of each is not known: leave one out, or take "
+                         "smaller cells";
+              throw perforation_error(well, one, message.str());
+            }
 }
 
 

@@ -33,7 +33,7 @@ stockwork_case_test(NAME convergence/explicit/notch DECK ${deck}
   EXPECT "final/energy_balance_error < 1e-10" "final/dissipated_energy > 1"
          "final/kinetic_energy > 100")
 # By implicit steps, with the same mass points.
-stockwork_case_test(NAME convergence/explicit/notch/newmark DECK ${deck} 
+stockwork_case_test(NAME convergence/explicit/notch/newmark DECK ${deck}
   SET "Time/Scheme=Newmark" "Time/End time=0.5e-3 s" "Fracture/peridynamics/Bond volumes=isotropic"
   EXPECT "final/energy_balance_error < 1e-4" "final/kinetic_energy > 1")
 stockwork_case_test(NAME convergence/explicit/notch/brittle DECK ${deck} SET "Fracture/peridynamics/Softening=1"
