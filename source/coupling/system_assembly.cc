@@ -174,9 +174,7 @@ void SystemAssembly<dim>::assemble_linear(const StepContext &context, const Stat
     system.residual_bulk.compress(VectorOperation::add);
     unknowns.communication.sum(linear_residual_extra);
   }
-  all_linear_extra_extra.rows = all_gather(run.communicator, linear_extra_extra.rows);
-  all_linear_extra_extra.columns = all_gather(run.communicator, linear_extra_extra.columns);
-  all_linear_extra_extra.values = all_gather(run.communicator, linear_extra_extra.values);
+  all_linear_extra_extra.reset();
   linear_residual_bulk = system.residual_bulk;
   system.bulk_extra.shrink_to_fit();
   system.extra_bulk.shrink_to_fit();
@@ -296,11 +294,14 @@ void SystemAssembly<dim>::update_linear(const double step,
 
 
 template <int dim>
-std::vector<double>
-SystemAssembly<dim>::linear_change_by_extra(const std::vector<double> &dx_extra) const
+std::vector<double> SystemAssembly<dim>::linear_change_by_extra(const std::vector<double> &dx_extra)
 {
+  if (!all_linear_extra_extra)
+    all_linear_extra_extra = Triplets{all_gather(run.communicator, linear_extra_extra.rows),
+                                      all_gather(run.communicator, linear_extra_extra.columns),
+                                      all_gather(run.communicator, linear_extra_extra.values)};
   std::vector<double> change(dx_extra.size(), 0.);
-  const Triplets &all = all_linear_extra_extra;
+  const Triplets &all = *all_linear_extra_extra;
   for (std::size_t k = 0; k < all.values.size(); ++k)
     change[all.rows[k]] += all.values[k] * dx_extra[all.columns[k]];
   return change;

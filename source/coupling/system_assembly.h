@@ -73,8 +73,8 @@ public:
     rock_change *= 1. - share;
   }
 
-  /// What that changes by with the extra unknowns while the bulk stays as it is.
-  std::vector<double> linear_change_by_extra(const std::vector<double> &dx_extra) const;
+  /// What that changes by with the extra unknowns while the bulk stays as it is. Collective.
+  std::vector<double> linear_change_by_extra(const std::vector<double> &dx_extra);
 
   /// The kept matrix has terms of the last iteration in it, and they are not linear.
   bool bulk_is_touched() const
@@ -191,7 +191,8 @@ private:
   // The part of the system that is linear in the unknowns, kept through the iteration.
   BlockVector linear_residual_bulk;
   std::vector<double> linear_residual_extra;
-  Triplets linear_extra_extra, all_linear_extra_extra; ///< this rank's, all ranks'
+  Triplets linear_extra_extra;                    ///< this rank's
+  std::optional<Triplets> all_linear_extra_extra; ///< all ranks', once they have been asked for
   std::size_t n_linear_bulk_extra = 0, n_linear_extra_bulk = 0;
 
   // What of the kept matrix is not what it should be.

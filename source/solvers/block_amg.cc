@@ -24,14 +24,12 @@ class BlockTriangular
 {
 public:
   BlockTriangular(const SystemOperator &op,
-                  const MPI_Comm communicator,
                   const DisplacementMultigrid &displacement,
                   const PatchSolver &patch,
                   const SparseFractureSchur &extra,
                   const AMG &pressure,
                   const double pressure_unit)
     : op(op)
-    , communicator(communicator)
     , displacement(displacement)
     , patch(patch)
     , extra(extra)
@@ -53,15 +51,15 @@ public:
     }
     if (op.n_extra() > 0)
     {
-      std::vector<double> drained(op.n_extra(), 0.);
+      std::vector<double> drained(z.extra.size(), 0.);
       for (const auto &e : op.extra_bulk())
       {
         const auto [block, local] = op.locate(e.column);
         if (block > 0)
           drained[e.row] += e.value * SystemOperator::entry(z.bulk, block, local);
       }
-      Utilities::MPI::sum(drained, communicator, drained);
-      for (unsigned int i = 0; i < op.n_extra(); ++i)
+      op.extra_layout().combine(drained);
+      for (std::size_t i = 0; i < drained.size(); ++i)
         z.extra[i] = r.extra[i] - drained[i];
       extra.solve(z.extra);
       for (const auto &e : op.bulk_extra())
@@ -77,7 +75,6 @@ public:
 
 private:
   const SystemOperator &op;
-  MPI_Comm communicator;
   const DisplacementMultigrid &displacement;
   const PatchSolver &patch;
   const SparseFractureSchur &extra;
@@ -132,7 +129,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
                                    std::vector<double> &dx_extra)
 {
   LinearReport report;
-  const SystemOperator op(system, communicator);
+  const SystemOperator op(system, communicator, nullptr, SystemOperator::Extra::shared_out);
   const bool poroelastic = system.bulk.n_block_rows() > 1;
   Stopwatch stopwatch;
   // The displacement part is dear and tolerates a matrix that has changed a little; the pressure
@@ -161,8 +158,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   SystemVector dx = op.make_vector();
   const auto iterate = [&]()
   {
-    BlockTriangular preconditioner(op, communicator, displacement, patch, extra, pressure,
-                                   schur_unit);
+    BlockTriangular preconditioner(op, displacement, patch, extra, pressure, schur_unit);
     solve_by_krylov(op, communicator, std::ref(preconditioner), limits, dx, report);
   };
   iterate();
@@ -178,7 +174,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   if (report.factorised)
     first_iterations = last_iterations;
   dx_bulk = dx.bulk;
-  dx_extra = dx.extra;
+  dx_extra = op.extra_layout().to_all(dx.extra);
   return report;
 }
 } // namespace stockwork

@@ -124,9 +124,7 @@ std::unique_ptr<CondensedSystem> BorderedSolver::condense(const LinearSystem &sy
       stamps.bulk_values != values_with_changes || system.residual_extra.empty())
     return nullptr;
   auto op = std::make_unique<SystemOperator>(system, communicator, &factor_scaling.bulk);
-  SystemVector r = op->make_vector();
-  r.bulk = system.residual_bulk;
-  r.extra = system.residual_extra;
+  const SystemVector r = op->load();
   if (!in_balance(*op, r, tolerance * op->scaled_norm(r)))
     return nullptr;
   schur.update_border(*op, op->border(), op->n_bulk(), true, &factor_scaling.bulk);

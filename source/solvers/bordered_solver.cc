@@ -343,9 +343,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
   prepare(anew);
   report.setup_seconds = stopwatch.seconds();
 
-  SystemVector dx = op->make_vector(), r = op->make_vector();
-  r.bulk = system.residual_bulk;
-  r.extra = system.residual_extra;
+  SystemVector dx = op->make_vector(), r = op->load();
   const double size = op->scaled_norm(r);
   double last = size;
   if (size == 0.)
@@ -372,8 +370,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
         break;
       prepare(true); // the values have changed behind the stamps' back
       dx = op->make_vector();
-      r.bulk = system.residual_bulk;
-      r.extra = system.residual_extra;
+      r = op->load();
       last = size;
       continue;
     }

@@ -153,9 +153,7 @@ LinearReport DirectSolver::solve(const LinearSystem &system,
   const BulkTransfer transfer(system.residual_bulk, communicator);
   const bool root = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
   std::vector<double> x(root ? factor->size() : 0);
-  SystemVector dx = op.make_vector(), r = op.make_vector(), correction = op.make_vector();
-  r.bulk = system.residual_bulk;
-  r.extra = system.residual_extra;
+  SystemVector dx = op.make_vector(), r = op.load(), correction = op.make_vector();
   const double size = op.scaled_norm(r);
   double last = size;
   if (size > 0.)
@@ -188,8 +186,7 @@ LinearReport DirectSolver::solve(const LinearSystem &system,
         factorise(op);
         report.factorised = true;
         dx = op.make_vector();
-        r.bulk = system.residual_bulk;
-        r.extra = system.residual_extra;
+        r = op.load();
         last = size;
         continue;
       }

@@ -1,6 +1,5 @@
 #include "solvers/krylov.h"
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 
@@ -18,27 +17,20 @@ constexpr unsigned int max_cycles = 4;
 using BlockVector = TrilinosWrappers::MPI::BlockVector;
 
 /// All unknowns as one block vector, for the library's Krylov methods. The extra ones, if any, are
-/// its last block, on rank 0.
+/// its last block, each with its owner.
 class Joined
 {
 public:
   Joined(const SystemOperator &op, const MPI_Comm communicator)
-    : n_extra(op.n_extra())
-    , communicator(communicator)
-    , is_root(Utilities::MPI::this_mpi_process(communicator) == 0)
+    : extra(op.extra_layout())
   {
     const auto &bulk = op.scaling().bulk;
     const unsigned int n_bulk = bulk.n_blocks();
-    zero.reinit(n_bulk + (n_extra > 0 ? 1 : 0));
+    zero.reinit(n_bulk + (extra.size() > 0 ? 1 : 0));
     for (unsigned int b = 0; b < n_bulk; ++b)
       zero.block(b).reinit(bulk.block(b).locally_owned_elements(), communicator);
-    if (n_extra > 0)
-    {
-      IndexSet owned(n_extra);
-      if (is_root)
-        owned.add_range(0, n_extra);
-      zero.block(n_bulk).reinit(owned, communicator);
-    }
+    if (extra.size() > 0)
+      zero.block(n_bulk).reinit(extra.owned(), communicator);
     zero.collect_sizes();
   }
 
@@ -53,29 +45,24 @@ public:
   {
     for (unsigned int b = 0; b < from.bulk.n_blocks(); ++b)
       to.block(b) = from.bulk.block(b);
-    if (n_extra > 0 && is_root)
-      std::copy(from.extra.begin(), from.extra.end(),
-                to.block(to.n_blocks() - 1).trilinos_vector()[0]);
+    if (extra.size() > 0)
+      std::copy_n(from.extra.begin(), extra.n_owned(),
+                  to.block(to.n_blocks() - 1).trilinos_vector()[0]);
   }
 
   void split(SystemVector &to, const BlockVector &from) const
   {
     for (unsigned int b = 0; b < to.bulk.n_blocks(); ++b)
       to.bulk.block(b) = from.block(b);
-    if (n_extra == 0)
+    if (extra.size() == 0)
       return;
-    if (is_root)
-    {
-      const double *extra = from.block(from.n_blocks() - 1).trilinos_vector()[0];
-      to.extra.assign(extra, extra + n_extra);
-    }
-    MPI_Bcast(to.extra.data(), static_cast<int>(n_extra), MPI_DOUBLE, 0, communicator);
+    std::copy_n(from.block(from.n_blocks() - 1).trilinos_vector()[0], extra.n_owned(),
+                to.extra.begin());
+    extra.update(to.extra);
   }
 
 private:
-  unsigned int n_extra;
-  MPI_Comm communicator;
-  bool is_root;
+  const ExtraLayout &extra;
   BlockVector zero;
 };
 
@@ -135,10 +122,7 @@ void solve_by_krylov(const SystemOperator &op,
   const Scaled matrix(op, joined, scaling,
                       [&](SystemVector &dst, SystemVector &src) { op.vmult(dst, src); });
   const Scaled scaled_preconditioner(op, joined, inverse_scaling, preconditioner);
-  SystemVector load = op.make_vector();
-  load.bulk = op.system().residual_bulk;
-  load.extra = op.system().residual_extra;
-  BlockVector b = joined.join(load), x(scaling), r(scaling);
+  BlockVector b = joined.join(op.load()), x(scaling), r(scaling);
   b.scale(scaling);
   b *= -1.;
   x = 0.;

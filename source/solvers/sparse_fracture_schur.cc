@@ -14,13 +14,19 @@ namespace
 {
 using BorderEntries = std::vector<SystemOperator::Entry>;
 
-void add_to_hash(std::size_t &hash, const BorderEntries &entries, const bool with_values)
+/// With extra unknowns by their numbers, for their places change with what a rank sees.
+template <class Row, class Column>
+void add_to_hash(std::size_t &hash,
+                 const BorderEntries &entries,
+                 const bool with_values,
+                 const Row &row,
+                 const Column &column)
 {
   boost::hash_combine(hash, entries.size());
   for (const auto &e : entries)
   {
-    boost::hash_combine(hash, e.row);
-    boost::hash_combine(hash, e.column);
+    boost::hash_combine(hash, row(e.row));
+    boost::hash_combine(hash, column(e.column));
     if (with_values)
       boost::hash_combine(hash, e.value);
   }
@@ -46,9 +52,11 @@ void SparseFractureSchur::update(const SystemOperator &op, const Epetra_CrsMatri
 {
   const auto on_any_rank = [this](const bool here)
   { return dealii::Utilities::MPI::max(here ? 1 : 0, communicator) == 1; };
+  const auto bulk = [](const auto i) { return i; };
+  const auto extra = [&op](const auto place) { return op.extra_layout().number(place); };
   std::size_t border = op.n_extra();
-  add_to_hash(border, op.bulk_extra(), true);
-  add_to_hash(border, op.extra_bulk(), true);
+  add_to_hash(border, op.bulk_extra(), true, bulk, extra);
+  add_to_hash(border, op.extra_bulk(), true, extra, bulk);
   if (on_any_rank(border != border_seen))
   {
     product = patches.product(op, K);
@@ -56,8 +64,8 @@ void SparseFractureSchur::update(const SystemOperator &op, const Epetra_CrsMatri
     pattern_seen = values_seen = 0;
   }
   std::size_t pattern = border, values = border;
-  add_to_hash(pattern, op.extra_extra(), false);
-  add_to_hash(values, op.extra_extra(), true);
+  add_to_hash(pattern, op.extra_extra(), false, extra, extra);
+  add_to_hash(values, op.extra_extra(), true, extra, extra);
   if (!on_any_rank(values != values_seen))
     return;
   const bool new_pattern = on_any_rank(!factor || pattern != pattern_seen);
@@ -70,30 +78,29 @@ void SparseFractureSchur::update(const SystemOperator &op, const Epetra_CrsMatri
 
 void SparseFractureSchur::factorise(const SystemOperator &op, const bool new_pattern)
 {
-  // Each rank brings its shares of the product, and some of the rows that all of them know.
-  const unsigned int n = op.n_extra(), me = dealii::Utilities::MPI::this_mpi_process(communicator),
-                     n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-  scaling = op.scaling().extra;
   std::vector<int> rows, columns;
   std::vector<double> values;
-  const auto add = [&](const auto &e, const double sign)
+  const auto add = [&](const BorderEntries &entries, const ExtraLayout &of_entries,
+                       const std::vector<double> &scale, const double sign)
   {
-    values.push_back(sign * e.value * scaling[e.row] * scaling[e.column]);
-    if (new_pattern)
+    for (const auto &e : entries)
     {
-      rows.push_back(static_cast<int>(e.row) + 1);
-      columns.push_back(static_cast<int>(e.column) + 1);
+      values.push_back(sign * e.value * scale[e.row] * scale[e.column]);
+      if (new_pattern)
+      {
+        rows.push_back(static_cast<int>(of_entries.number(e.row)) + 1);
+        columns.push_back(static_cast<int>(of_entries.number(e.column)) + 1);
+      }
     }
   };
-  for (const auto &e : op.extra_extra())
-    if (std::size_t(e.row) * n_ranks / n == me)
-      add(e, 1.);
-  for (const auto &e : product)
-    add(e, -1.);
+  layout = op.extra_layout();
+  scaling = op.scaling().extra;
+  add(op.extra_extra(), layout, scaling, 1.);
+  add(product.entries, product.layout, op.scaling_in(product.layout), -1.);
   if (new_pattern)
   {
     factor = std::make_unique<Mumps>(communicator, Mumps::Kind::unsymmetric);
-    factor->analyse(static_cast<int>(n), std::move(rows), std::move(columns));
+    factor->analyse(static_cast<int>(op.n_extra()), std::move(rows), std::move(columns));
   }
   factor->factorise(values);
 }
@@ -101,11 +108,15 @@ void SparseFractureSchur::factorise(const SystemOperator &op, const bool new_pat
 
 void SparseFractureSchur::solve(std::vector<double> &x) const
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] *= scaling[i];
-  factor->solve(x);
-  MPI_Bcast(x.data(), static_cast<int>(x.size()), MPI_DOUBLE, 0, communicator);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] *= scaling[i];
+  const auto scale = [&]()
+  {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] *= scaling[i];
+  };
+  scale();
+  std::vector<double> all = layout.to_root(x);
+  factor->solve(all);
+  layout.from_root(all, x);
+  scale();
 }
 } // namespace stockwork

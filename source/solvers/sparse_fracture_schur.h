@@ -22,7 +22,7 @@ public:
   /// kept. Throws SolveError when the matrix is singular. Collective.
   void update(const SystemOperator &op, const Epetra_CrsMatrix &K);
 
-  /// x <- S^-1 x, the same on every rank. Collective.
+  /// x <- S^-1 x, in the layout of the system of the last update. Collective.
   void solve(std::vector<double> &x) const;
 
 private:
@@ -31,8 +31,9 @@ private:
 
   MPI_Comm communicator;
   StiffnessPatches patches;
-  std::vector<SystemOperator::Entry> product; ///< C K^-1 B, this rank's shares
+  StiffnessPatches::Product product; ///< C K^-1 B
   std::unique_ptr<Mumps> factor;
+  ExtraLayout layout;
   std::vector<double> scaling;
 
   /// Hashes of this rank's entries for which `product` was found, the matrix ordered, factorised.

@@ -33,7 +33,8 @@ constexpr double smallest_share = 0.1;
 /// apart.
 constexpr double smallest_entry = 0.06;
 
-/// C X, where C is sorted by row and X, too; what is small between scalings is left out.
+/// C X, where C is sorted by row and X, too; what is small between scalings of the extra unknowns
+/// is left out.
 std::vector<SystemOperator::Entry> multiply(const std::vector<SystemOperator::Entry> &C,
                                             const std::vector<SystemOperator::Entry> &X,
                                             const std::vector<double> &scaling)
@@ -130,18 +131,18 @@ void StiffnessPatches::forget()
 std::vector<StiffnessPatches::Group> StiffnessPatches::find_groups(const SystemOperator &op) const
 {
   // A column is solved for by the lowest rank that has entries of it.
+  const ExtraLayout &layout = op.extra_layout();
   const unsigned int me = dealii::Utilities::MPI::this_mpi_process(communicator);
   const auto end = op.system().residual_bulk.block(0).size();
-  std::vector<unsigned int> hosts(op.n_extra(), static_cast<unsigned int>(-1));
+  std::vector<double> hosts(layout.n_seen(), std::numeric_limits<double>::max());
   Triplets mine;
   for (const auto &e : op.bulk_extra())
     if (e.row < end && e.value != 0.)
     {
       hosts[e.column] = me;
-      mine.add(e.row, e.column, e.value);
+      mine.add(e.row, layout.number(e.column), e.value);
     }
-  dealii::Utilities::MPI::min(dealii::make_array_view(std::as_const(hosts)), communicator,
-                              dealii::make_array_view(hosts));
+  layout.combine(hosts, dealii::VectorOperation::min);
   auto entries = op.to_hosts_of_columns(mine, hosts);
   std::sort(entries.begin(), entries.end(),
             [](const auto &a, const auto &b)
@@ -324,8 +325,8 @@ void StiffnessPatches::forget_unused(const std::vector<Group> &groups)
 }
 
 
-std::vector<SystemOperator::Entry> StiffnessPatches::product(const SystemOperator &op,
-                                                             const Epetra_CrsMatrix &K)
+StiffnessPatches::Product StiffnessPatches::product(const SystemOperator &op,
+                                                    const Epetra_CrsMatrix &K)
 {
   const std::vector<Group> groups = find_groups(op);
   solve_new(groups, K);
@@ -359,6 +360,20 @@ std::vector<SystemOperator::Entry> StiffnessPatches::product(const SystemOperato
   auto X = op.to_owners_of_rows(solved);
   solved = {};
   std::sort(X.begin(), X.end(), [](const auto &a, const auto &b) { return a.row < b.row; });
-  return multiply(C, X, op.scaling().extra);
+
+  dealii::IndexSet wanted(op.n_extra());
+  std::vector<dealii::types::global_dof_index> touched;
+  for (auto &e : C)
+    touched.push_back(e.row = op.extra_layout().number(e.row));
+  for (const auto &e : X)
+    touched.push_back(e.column);
+  std::sort(touched.begin(), touched.end());
+  wanted.add_indices(touched.begin(), std::unique(touched.begin(), touched.end()));
+  const ExtraLayout layout = ExtraLayout::shared_out(op.n_extra(), wanted, communicator);
+  for (auto &e : C)
+    e.row = layout.place(e.row);
+  for (auto &e : X)
+    e.column = layout.place(e.column);
+  return {multiply(C, X, op.scaling_in(layout)), layout};
 }
 } // namespace stockwork

@@ -26,9 +26,16 @@ public:
   /// K is another one.
   void forget();
 
-  /// The entries of C K_patch^-1 B, in extra indices, by row; each is the sum over the ranks.
+  /// C K_patch^-1 B: this rank's shares of its entries, and a layout in which it sees their rows
+  /// and columns.
+  struct Product
+  {
+    std::vector<SystemOperator::Entry> entries; ///< by row; each is the sum over the ranks
+    ExtraLayout layout;
+  };
+
   /// Collective.
-  std::vector<SystemOperator::Entry> product(const SystemOperator &op, const Epetra_CrsMatrix &K);
+  Product product(const SystemOperator &op, const Epetra_CrsMatrix &K);
 
   /// Patches of this rank.
   std::size_t size() const
@@ -41,7 +48,7 @@ private:
   struct Group
   {
     std::vector<int> rows;
-    std::vector<unsigned int> columns; ///< extra indices
+    std::vector<unsigned int> columns; ///< numbers of extra unknowns
     std::vector<double> values;        ///< by column
     std::uint64_t key;                 ///< of rows and values
   };

@@ -1,6 +1,5 @@
 #include "solvers/system_operator.h"
 
-#include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
 
 #include <Epetra_CrsMatrix.h>
@@ -111,7 +110,8 @@ private:
 
 SystemOperator::SystemOperator(const LinearSystem &system,
                                const MPI_Comm communicator,
-                               const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
+                               const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling,
+                               const Extra extra)
   : linear_system(&system)
   , communicator(communicator)
 {
@@ -120,9 +120,16 @@ SystemOperator::SystemOperator(const LinearSystem &system,
     offsets.push_back(offsets.back() + system.residual_bulk.block(b).size());
 
   scale.bulk.reinit(system.residual_bulk);
-  scale.extra.resize(system.residual_extra.size());
-  if (n_extra() > 0)
-    extend(own_border, n_extra(), system.bulk_extra, system.extra_bulk, system.extra_extra);
+  if (const unsigned int n = system.residual_extra.size(); n > 0)
+  {
+    if (extra == Extra::shared_out)
+      share_out_border();
+    else
+    {
+      layout = ExtraLayout::everywhere(n, communicator);
+      extend(own_border, n, system.bulk_extra, system.extra_bulk, system.extra_extra);
+    }
+  }
   if (bulk_scaling != nullptr)
     scale.bulk = *bulk_scaling;
   else
@@ -152,6 +159,46 @@ void SystemOperator::extend(Border &border,
   add(border.extra_extra, send_to_all(extra_extra, communicator), false);
 }
 
+void SystemOperator::share_out_border()
+{
+  const unsigned int n = linear_system->residual_extra.size();
+  const Owners owner(linear_system->residual_bulk, offsets, communicator);
+  own_border.n = n;
+  Entries &B = own_border.bulk_extra, &C = own_border.extra_bulk, &D = own_border.extra_extra;
+  B = send_to_owners(linear_system->bulk_extra, communicator,
+                     [&](const Entry &e) { return owner(e.row); });
+  C = send_to_owners(linear_system->extra_bulk, communicator,
+                     [&](const Entry &e) { return owner(e.column); });
+  // Who owns a row of D does not depend on what is wanted.
+  const ExtraLayout rows = ExtraLayout::shared_out(n, dealii::IndexSet(n), communicator);
+  D = send_to_owners(linear_system->extra_extra, communicator,
+                     [&](const Entry &e) { return rows.owner(e.row); });
+  sort_and_sum(B, true);
+  sort_and_sum(C, false);
+  sort_and_sum(D, false);
+
+  std::vector<global_dof_index> touched;
+  for (const Entry &e : B)
+    touched.push_back(e.column);
+  for (const Entry &e : C)
+    touched.push_back(e.row);
+  for (const Entry &e : D)
+    touched.push_back(e.column);
+  std::sort(touched.begin(), touched.end());
+  dealii::IndexSet wanted(n);
+  wanted.add_indices(touched.begin(), std::unique(touched.begin(), touched.end()));
+  layout = ExtraLayout::shared_out(n, wanted, communicator);
+  for (Entry &e : B)
+    e.column = layout.place(e.column);
+  for (Entry &e : C)
+    e.row = layout.place(e.row);
+  for (Entry &e : D)
+  {
+    e.row = layout.place(e.row);
+    e.column = layout.place(e.column);
+  }
+}
+
 Entries SystemOperator::to_owners_of_rows(const Triplets &triplets) const
 {
   const Owners owner(linear_system->residual_bulk, offsets, communicator);
@@ -159,9 +206,11 @@ Entries SystemOperator::to_owners_of_rows(const Triplets &triplets) const
 }
 
 Entries SystemOperator::to_hosts_of_columns(const Triplets &triplets,
-                                            const std::vector<unsigned int> &hosts) const
+                                            const std::vector<double> &hosts) const
 {
-  return send_to_owners(triplets, communicator, [&](const Entry &e) { return hosts[e.column]; });
+  return send_to_owners(triplets, communicator,
+                        [&](const Entry &e)
+                        { return static_cast<unsigned int>(hosts[layout.place(e.column)]); });
 }
 
 double &SystemOperator::entry(dealii::TrilinosWrappers::MPI::BlockVector &vector,
@@ -233,18 +282,24 @@ void SystemOperator::scale_bulk()
 
 void SystemOperator::scale_extra()
 {
-  std::vector<double> size(n_extra(), 0.);
+  const auto update_from_rows = [this](std::vector<double> &values)
+  {
+    if (!layout.are_seen_everywhere()) // else all rows are everywhere, too
+      layout.update(values);
+  };
+  std::vector<double> size(layout.n_seen(), 0.);
   for (const Entry &e : own_border.extra_bulk)
   {
     const auto [block, local] = locate(e.column);
     size[e.row] = std::max(size[e.row], std::abs(e.value) * entry(scale.bulk, block, local));
   }
-  dealii::Utilities::MPI::max(dealii::make_array_view(std::as_const(size)), communicator,
-                              dealii::make_array_view(size));
+  layout.combine(size, dealii::VectorOperation::max);
   for (const Entry &e : own_border.extra_extra)
     if (e.row == e.column)
       size[e.row] = std::max(size[e.row], std::sqrt(std::abs(e.value)));
-  for (unsigned int i = 0; i < n_extra(); ++i)
+  update_from_rows(size);
+  scale.extra.resize(size.size());
+  for (std::size_t i = 0; i < size.size(); ++i)
     scale.extra[i] = size[i] > 0. ? 1. / size[i] : 0.;
   // What is coupled to other extra unknowns only, and has no diagonal.
   for (const Entry &e : own_border.extra_extra)
@@ -256,6 +311,15 @@ void SystemOperator::scale_extra()
   for (double &s : scale.extra)
     if (!(s > 0.) || !std::isfinite(s))
       s = 1.;
+  update_from_rows(scale.extra);
+}
+
+std::vector<double> SystemOperator::scaling_in(const ExtraLayout &other) const
+{
+  std::vector<double> result(other.n_seen());
+  std::copy_n(scale.extra.begin(), other.n_owned(), result.begin());
+  other.update(result);
+  return result;
 }
 
 void SystemOperator::vmult(SystemVector &dst, const SystemVector &src) const
@@ -277,17 +341,18 @@ void SystemOperator::vmult(SystemVector &dst, const SystemVector &src) const
     const auto [block, local] = locate(e.column);
     dst.extra[e.row] += e.value * entry(src.bulk, block, local);
   }
-  dealii::Utilities::MPI::sum(dst.extra, communicator, dst.extra);
   for (const Entry &e : own_border.extra_extra)
-    dst.extra[e.row] += e.value * src.extra[e.column];
+    if (e.row < layout.n_owned())
+      dst.extra[e.row] += e.value * src.extra[e.column];
+  layout.combine(dst.extra);
 }
 
 void SystemOperator::residual(SystemVector &r, const SystemVector &dx) const
 {
   vmult(r, dx);
   r.bulk += linear_system->residual_bulk;
-  for (unsigned int i = 0; i < n_extra(); ++i)
-    r.extra[i] += linear_system->residual_extra[i];
+  for (std::size_t i = 0; i < r.extra.size(); ++i)
+    r.extra[i] += linear_system->residual_extra[layout.number(i)];
 }
 
 double SystemOperator::scaled_norm(const SystemVector &r) const
@@ -300,17 +365,25 @@ double SystemOperator::scaled_norm(const SystemVector &r) const
     for (int i = 0; i < v.MyLength(); ++i)
       sum += (x[i] * d[i]) * (x[i] * d[i]);
   }
-  sum = dealii::Utilities::MPI::sum(sum, communicator);
-  for (unsigned int i = 0; i < n_extra(); ++i)
+  for (unsigned int i = 0; i < layout.n_owned(); ++i)
     sum += (r.extra[i] * scale.extra[i]) * (r.extra[i] * scale.extra[i]);
-  return std::sqrt(sum);
+  return std::sqrt(dealii::Utilities::MPI::sum(sum, communicator));
 }
 
 SystemVector SystemOperator::make_vector() const
 {
   SystemVector v;
   v.bulk.reinit(scale.bulk);
-  v.extra.assign(n_extra(), 0.);
+  v.extra.assign(layout.n_seen(), 0.);
+  return v;
+}
+
+SystemVector SystemOperator::load() const
+{
+  SystemVector v = make_vector();
+  v.bulk = linear_system->residual_bulk;
+  for (std::size_t i = 0; i < v.extra.size(); ++i)
+    v.extra[i] = linear_system->residual_extra[layout.number(i)];
   return v;
 }
 } // namespace stockwork

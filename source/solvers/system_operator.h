@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solvers/extra_layout.h"
 #include "solvers/linear_system.h"
 
 #include <utility>
@@ -9,7 +10,8 @@ class Epetra_CrsMatrix;
 
 namespace stockwork
 {
-/// Increment, residual or scaling: values of all unknowns. `extra` is the same on every rank.
+/// Increment, residual or scaling: values of all unknowns. `extra` has those that this rank sees,
+/// see ExtraLayout.
 struct SystemVector
 {
   dealii::TrilinosWrappers::MPI::BlockVector bulk;
@@ -42,19 +44,28 @@ public:
     double value;
   };
 
-  /// What couples extra unknowns to the bulk and to one another.
+  /// What couples extra unknowns to the bulk and to one another. Indices of extra unknowns are
+  /// places in the operator's ExtraLayout.
   struct Border
   {
     unsigned int n = 0;             ///< extra unknowns
     std::vector<Entry> bulk_extra;  ///< in rows of this rank, by column, then row
     std::vector<Entry> extra_bulk;  ///< in columns of this rank, by row, then column
-    std::vector<Entry> extra_extra; ///< all, on every rank
+    std::vector<Entry> extra_extra; ///< in rows of this rank; all, if all are seen everywhere
+  };
+
+  /// Whether every rank has all extra unknowns, and their block of the matrix, or its share.
+  enum class Extra
+  {
+    everywhere,
+    shared_out
   };
 
   /// `bulk_scaling`: of an earlier system with the same bulk, or null.
   SystemOperator(const LinearSystem &,
                  MPI_Comm,
-                 const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling = nullptr);
+                 const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling = nullptr,
+                 Extra extra = Extra::everywhere);
 
   /// dst = J src. The vectors must not be the same.
   void vmult(SystemVector &dst, const SystemVector &src) const;
@@ -68,17 +79,24 @@ public:
   /// A zero vector of the right layout.
   SystemVector make_vector() const;
 
+  /// The system's residual R.
+  SystemVector load() const;
+
   const SystemVector &scaling() const
   {
     return scale;
   }
+
+  /// Of the extra unknowns that this rank sees in another layout with the same owners. Collective.
+  std::vector<double> scaling_in(const ExtraLayout &) const;
 
   const Border &border() const
   {
     return own_border;
   }
 
-  /// Add entries that may be anybody's to a border of @p n unknowns. Collective.
+  /// Add entries that may be anybody's to a border of @p n unknowns that every rank sees.
+  /// Collective.
   void extend(Border &border,
               unsigned int n,
               const Triplets &bulk_extra,
@@ -89,9 +107,9 @@ public:
   /// Collective.
   std::vector<Entry> to_owners_of_rows(const Triplets &) const;
 
-  /// The same, with the rank that `hosts` names for their column.
-  std::vector<Entry> to_hosts_of_columns(const Triplets &,
-                                         const std::vector<unsigned int> &hosts) const;
+  /// The same, with the rank that `hosts` names for their column, an extra unknown by its number
+  /// that this rank sees.
+  std::vector<Entry> to_hosts_of_columns(const Triplets &, const std::vector<double> &hosts) const;
 
   /// Entries in rows of this rank, by column, then row.
   const std::vector<Entry> &bulk_extra() const
@@ -105,15 +123,21 @@ public:
     return own_border.extra_bulk;
   }
 
-  /// All entries, on every rank.
+  /// Entries in rows of this rank, by row, then column; all, if all are seen everywhere.
   const std::vector<Entry> &extra_extra() const
   {
     return own_border.extra_extra;
   }
 
+  const ExtraLayout &extra_layout() const
+  {
+    return layout;
+  }
+
+  /// Of all ranks.
   unsigned int n_extra() const
   {
-    return scale.extra.size();
+    return layout.size();
   }
 
   dealii::types::global_dof_index n_bulk() const
@@ -145,6 +169,9 @@ public:
   }
 
 private:
+  /// Send the entries of the system's border to their ranks, each of which sees what it needs.
+  void share_out_border();
+
   void scale_bulk();
 
   void scale_extra();
@@ -152,6 +179,7 @@ private:
   const LinearSystem *linear_system;
   MPI_Comm communicator;
   std::vector<dealii::types::global_dof_index> offsets; ///< of the blocks, and the end
+  ExtraLayout layout;
   Border own_border;
   SystemVector scale;
 };

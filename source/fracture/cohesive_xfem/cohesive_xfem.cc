@@ -211,12 +211,19 @@ template <int dim>
 void CohesiveXFEM<dim>::refresh_segments()
 {
   all_segments = discontinuity.segments(scene.in_situ_pore_pressure);
+  std::unordered_set<std::uint64_t> cohesive;
+  for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+    for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
+      if (const PointDamage d = damage(discontinuity.paths()[c].pieces[i]);
+          std::any_of(d.begin(), d.end(), [](const double at_point) { return at_point < 1.; }))
+        cohesive.insert(discontinuity.segment_key(c, i));
   for (Segment<dim> &segment : all_segments)
   {
     segment.at_tip = segment.at_tip && bare_tips.count(segment.key) != 0;
-    // Half of the leak-off in the middle of the cohesive zone, where the tip of an elastic fracture
-    // with the same toughness would be.
-    segment.bare_aperture = 0.7 * law.critical_opening();
+    // Half of Carter's leak-off in the middle of the cohesive zone, where the tip of an elastic
+    // fracture with the same toughness would be. What is broken, such as a notch of the deck, has
+    // bare faces however narrow it is.
+    segment.bare_aperture = cohesive.count(segment.key) != 0 ? 0.7 * law.critical_opening() : 0.;
   }
   add_proppant(scene.cracks, discontinuity, all_segments);
 }
