@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace stockwork::peridynamics
@@ -60,13 +60,14 @@ void UnevenBonds<dim>::set(const std::size_t site,
 template <int dim>
 void UnevenBonds<dim>::share_equal()
 {
-  std::unordered_map<std::string, unsigned int> known;
+  std::unordered_map<std::string_view, unsigned int> known; // by their bytes
   std::vector<Values> shared;
   n_rows.clear();
   for (Row &row : rows)
   {
     const Values *const begin = values_of(row);
-    const std::string bytes(reinterpret_cast<const char *>(begin), bonds.size() * sizeof(Values));
+    const std::string_view bytes(reinterpret_cast<const char *>(begin),
+                                 bonds.size() * sizeof(Values));
     const auto [set, is_new] = known.emplace(bytes, n_rows.size());
     if (is_new)
     {
