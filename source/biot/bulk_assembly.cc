@@ -333,23 +333,26 @@ void BulkAssembly<dim>::add_inertia(const StepContext &context,
 template <int dim>
 void BulkAssembly<dim>::residual(const StepContext &context,
                                  const State &state,
-                                 const TrilinosWrappers::BlockSparseMatrix &matrix,
+                                 const TrilinosWrappers::BlockSparseMatrix *const matrix,
                                  BlockVector &residual) const
 {
   const auto &layout = matrices.layout();
 
   // What the free dofs do to one another. The matrix knows neither rows nor columns of constrained
   // ones, apart from their diagonal.
+  if (matrix == nullptr)
+    residual = 0.;
+  else
   {
     BlockVector x = owned_part(state.current.bulk, owned);
-    matrix.block(0, 0).vmult(residual.block(0), x.block(0));
+    matrix->block(0, 0).vmult(residual.block(0), x.block(0));
     if (layout.n_p > 0)
     {
       const BlockVector reference = owned_part(state.rate_reference.bulk, owned);
-      matrix.block(0, 1).vmult_add(residual.block(0), x.block(1));
+      matrix->block(0, 1).vmult_add(residual.block(0), x.block(1));
       x.block(0) -= reference.block(0);
-      matrix.block(1, 0).vmult(residual.block(1), x.block(0));
-      matrix.block(1, 1).vmult_add(residual.block(1), x.block(1));
+      matrix->block(1, 0).vmult(residual.block(1), x.block(0));
+      matrix->block(1, 1).vmult_add(residual.block(1), x.block(1));
       storage.vmult(x.block(1), reference.block(1));
       residual.block(1).add(context.pressure_rate / context.rate, x.block(1));
     }

@@ -64,10 +64,11 @@ public:
   /// matrix of the displacement block.
   void undrained_term(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
-  /// The residual of the bulk; `matrix` is the one of this step.
+  /// The residual of the bulk.
+  /// @param matrix of this step; null: in a state in which no free unknown has moved
   void residual(const StepContext &context,
                 const State &state,
-                const dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
+                const dealii::TrilinosWrappers::BlockSparseMatrix *matrix,
                 dealii::TrilinosWrappers::MPI::BlockVector &residual) const;
 
   /// Add what cut cells have beyond an ordinary cell: matrix and residual of the extra columns.

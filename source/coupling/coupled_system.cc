@@ -151,9 +151,8 @@ TrilinosWrappers::MPI::BlockVector CoupledSystem<dim>::residual_at_rest(const do
   context.dt = context.rate = context.pressure_rate = 1.;
   begin_step(context);
   const Unknowns at_rest = start();
-  assembly.assemble_linear(context, state(at_rest, at_rest, at_rest, at_rest));
   auto result = unknowns.owned_vector();
-  copy_owned(result, assembly.linear_system().residual_bulk);
+  copy_owned(result, assembly.residual_at_rest(context, state(at_rest, at_rest, at_rest, at_rest)));
   return result;
 }
 

@@ -111,6 +111,13 @@ public:
     return unknowns.owned_vector();
   }
 
+  /// Ghosted = owned, of vectors of the bulk. Collective.
+  void update_ghosted(dealii::TrilinosWrappers::MPI::BlockVector &ghosted,
+                      const dealii::TrilinosWrappers::MPI::BlockVector &owned) const
+  {
+    unknowns.update_ghosted(ghosted, owned);
+  }
+
   /// Let a transferred vector satisfy the hanging-node constraints (and essential conditions).
   void make_conforming(dealii::TrilinosWrappers::MPI::BlockVector &vector) const
   {

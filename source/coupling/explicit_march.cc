@@ -61,7 +61,7 @@ void ExplicitMarch<dim>::give_back(const Vector &from, BlockVector &to) const
   BlockVector owned = system.owned_vector();
   std::copy(from.begin(), from.begin() + from.locally_owned_size(),
             owned.block(0).trilinos_vector()[0]);
-  to = owned;
+  system.update_ghosted(to, owned);
 }
 
 
@@ -339,32 +339,40 @@ unsigned int ExplicitMarch<dim>::advance(const double time,
   const double jump = knows_energy ? energy_of_motion(h) - kinetic : 0.;
   knows_energy = true;
   double done = 0.;
-  std::vector<double> held_force(held.size());
+  std::vector<double> held_force;
+  for (const unsigned int i : held)
+    held_force.push_back(force.local_element(i));
+  std::vector<unsigned int> loaded; // few, in most cases
+  for (unsigned int i = 0; i < n; ++i)
+    if (loads_before[i] != 0. || loads[i] != 0.)
+      loaded.push_back(i);
+  const auto change_in_part = [&](const unsigned int i)
+  { return h * (v.local_element(i) + 0.5 * h * a.local_element(i)); };
   for (unsigned int part = 0; part < n_parts; ++part)
   {
     const double s = static_cast<double>(part) / n_parts,
                  t = static_cast<double>(part + 1) / n_parts;
     u.zero_out_ghost_values();
     for (unsigned int i = 0; i < n; ++i)
-    {
-      const double du = h * (v.local_element(i) + 0.5 * h * a.local_element(i));
-      u.local_element(i) += du;
-      done += 0.5 * du * ((2. - s - t) * loads_before[i] + (s + t) * loads[i]);
-    }
+      u.local_element(i) += change_in_part(i);
+    for (const unsigned int i : loaded)
+      done += 0.5 * change_in_part(i) * ((2. - s - t) * loads_before[i] + (s + t) * loads[i]);
     for (unsigned int k = 0; k < held.size(); ++k)
-    {
-      held_force[k] = force.local_element(held[k]);
       u.local_element(held[k]) = (1. - t) * prescribed_before[k] + t * prescribed[k];
-    }
     u.update_ghost_values();
     rock->forces(u, true, force);
     for (unsigned int k = 0; k < held.size(); ++k)
-      done -= 0.5 * (held_force[k] + force.local_element(held[k])) *
-              (prescribed[k] - prescribed_before[k]) / n_parts;
+    {
+      const double force_before = held_force[k];
+      held_force[k] = force.local_element(held[k]);
+      done -=
+        0.5 * (force_before + held_force[k]) * (prescribed[k] - prescribed_before[k]) / n_parts;
+    }
+    for (const unsigned int i : loaded)
+      force.local_element(i) += (1. - t) * loads_before[i] + t * loads[i];
     for (unsigned int i = 0; i < n; ++i)
     {
-      const double now = (force.local_element(i) + (1. - t) * loads_before[i] + t * loads[i]) /
-                         mass.local_element(i);
+      const double now = force.local_element(i) / mass.local_element(i);
       v.local_element(i) += h * ((1. - gamma) * a.local_element(i) + gamma * now);
       a.local_element(i) = now;
     }

@@ -48,14 +48,8 @@ template <int dim>
 void SystemAssembly<dim>::mesh_changed()
 {
   const auto &owned = unknowns.owned();
-  {
-    BlockDynamicSparsityPattern pattern(unknowns.relevant());
-    unknowns.couple(pattern);
-    system.bulk.clear();
-    system.bulk.reinit(owned, pattern, run.communicator);
-    if (has_pores())
-      system.fixed_stress_mass.reinit(system.bulk.block(1, 1));
-  }
+  system.bulk.clear();
+  has_bulk_matrix = false;
   system.residual_bulk.reinit(owned, unknowns.relevant(), run.communicator, true);
   linear_residual_bulk.reinit(owned, run.communicator);
   ++changes.mesh;
@@ -113,9 +107,23 @@ std::optional<IndexSet> SystemAssembly<dim>::changed_rows(const StepContext &con
 
 
 template <int dim>
+void SystemAssembly<dim>::make_bulk_matrix()
+{
+  BlockDynamicSparsityPattern pattern(unknowns.relevant());
+  unknowns.couple(pattern);
+  system.bulk.reinit(unknowns.owned(), pattern, run.communicator);
+  if (has_pores())
+    system.fixed_stress_mass.reinit(system.bulk.block(1, 1));
+  has_bulk_matrix = true;
+}
+
+
+template <int dim>
 void SystemAssembly<dim>::assemble_bulk_matrix(const StepContext &context)
 {
   const auto scope = run.timers.scope("assembly");
+  if (!has_bulk_matrix)
+    make_bulk_matrix();
   std::optional<IndexSet> rows = changed_rows(context);
   if (rows && !bulk->rows(context, *rows, system.bulk))
     rows.reset();
@@ -157,7 +165,7 @@ void SystemAssembly<dim>::assemble_linear(const StepContext &context, const Stat
     assemble_bulk_matrix(context);
 
   const auto scope = run.timers.scope("assembly");
-  bulk->residual(context, state, system.bulk, system.residual_bulk);
+  bulk->residual(context, state, &system.bulk, system.residual_bulk);
 
   system.bulk_extra.clear();
   system.extra_bulk.clear();
@@ -180,6 +188,16 @@ void SystemAssembly<dim>::assemble_linear(const StepContext &context, const Stat
   system.extra_bulk.shrink_to_fit();
   n_linear_bulk_extra = system.bulk_extra.values.size();
   n_linear_extra_bulk = system.extra_bulk.values.size();
+}
+
+
+template <int dim>
+const typename SystemAssembly<dim>::BlockVector &
+SystemAssembly<dim>::residual_at_rest(const StepContext &context, const State &state)
+{
+  const auto scope = run.timers.scope("assembly");
+  bulk->residual(context, state, nullptr, system.residual_bulk);
+  return system.residual_bulk;
 }
 
 

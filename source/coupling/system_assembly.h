@@ -58,6 +58,10 @@ public:
   /// The rest, and the sum of both.
   void assemble_nonlinear(const StepContext &context, const State &state);
 
+  /// The residual of the bulk in a state in which no unknown but the prescribed ones has moved: it
+  /// takes no matrix, and none is formed.
+  const BlockVector &residual_at_rest(const StepContext &context, const State &state);
+
   /// The linear part of the residual, where the unknowns have moved by a step times an increment.
   void update_linear(double step, const BlockVector &dx_bulk, const std::vector<double> &dx_extra);
 
@@ -150,6 +154,8 @@ public:
   }
 
 private:
+  /// Room for the matrix of the bulk on this mesh. Collective.
+  void make_bulk_matrix();
   void assemble_bulk_matrix(const StepContext &context);
 
   /// The rows of the bulk where the model's kept terms are not those in the matrix; nothing: any
@@ -194,6 +200,8 @@ private:
   Triplets linear_extra_extra;                    ///< this rank's
   std::optional<Triplets> all_linear_extra_extra; ///< all ranks', once they have been asked for
   std::size_t n_linear_bulk_extra = 0, n_linear_extra_bulk = 0;
+
+  bool has_bulk_matrix = false; ///< on this mesh; explicit steps need none
 
   // What of the kept matrix is not what it should be.
   bool matrix_is_current = false; ///< on this mesh

@@ -1,38 +1,17 @@
 #include "fracture/peridynamics/bond_forces.h"
 
+#include "fracture/peridynamics/lanes.h"
+
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 
 namespace stockwork::peridynamics
 {
 namespace
 {
-/// Neighbouring sites of a row in one register. (deal.II's VectorizedArray has the width that the
-/// library was built for: of a distribution's, one.)
-#ifdef __AVX__
-using Lanes = double __attribute__((vector_size(32)));
-#else
-using Lanes = double __attribute__((vector_size(16)));
-#endif
-constexpr int n_lanes = sizeof(Lanes) / sizeof(double);
-
 /// Registers swept at once.
 constexpr int n_registers = 2;
 constexpr int sweep_width = n_registers * n_lanes;
-
-/// A value from and to an address that need not be aligned.
-template <typename Value>
-inline void load(Value &value, const double *const from)
-{
-  std::memcpy(&value, from, sizeof(Value));
-}
-
-template <typename Value>
-inline void store(const Value &value, double *const to)
-{
-  std::memcpy(to, &value, sizeof(Value));
-}
 
 /// n registers of sites that follow one another, and what their displacement is.
 template <int dim, typename Value, int n>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stockwork::peridynamics
 {
@@ -10,6 +11,10 @@ namespace
 /// In place of a number among the listed sites.
 constexpr unsigned int unlisted = dealii::numbers::invalid_unsigned_int,
                        never_listed = unlisted - 1;
+
+/// Sweeps look at a bond a little before it is stretched so far that it breaks: both of its ends
+/// are then told by the same arithmetic.
+constexpr double nearly = 1. - 1e-12;
 } // namespace
 
 
@@ -32,7 +37,7 @@ ExplicitBonds<dim>::ExplicitBonds(
   find_box();
   find_sources();
   kernel = std::make_unique<BondForces<dim>>(box, stencil, law, zone.spacing());
-  find_spans();
+  uneven = std::make_unique<UnevenBonds<dim>>(coefficients, box, strides);
   for (unsigned int k = 0; k < own_sites.size(); ++k)
   {
     std::vector<Bond> bonds;
@@ -49,9 +54,12 @@ ExplicitBonds<dim>::ExplicitBonds(
       list_of[k] = never_listed;
     if (is_whole || stays_whole)
       continue;
-    list(k);
-    listed.back().bonds = bonds;
+    list(k, bonds);
   }
+  uneven->share_equal();
+  find_spans();
+  for (const BondCoefficients<dim> &bond : coefficients)
+    bonds_of_lattice.push_back({bond.stiffness, 1., 0., by_fluid});
   is_wet.assign(box.n_sites(), false);
   work_of_fluid = stored_by_fluid();
 }
@@ -83,8 +91,9 @@ void ExplicitBonds<dim>::find_box()
       own_sites.push_back(i);
       for (unsigned int d = 0; d < dim; ++d)
       {
-        corner[d] = std::min(corner[d], zone.sites()[i].place[d] - reach);
-        upper[d] = std::max(upper[d], zone.sites()[i].place[d] + reach);
+        const int around = d == 0 ? reach + UnevenBonds<dim>::overhang : reach;
+        corner[d] = std::min(corner[d], zone.sites()[i].place[d] - around);
+        upper[d] = std::max(upper[d], zone.sites()[i].place[d] + around);
       }
     }
   for (unsigned int d = 0; d < dim; ++d)
@@ -97,6 +106,9 @@ void ExplicitBonds<dim>::find_box()
   for (unsigned int k = 0; k < own_sites.size(); ++k)
   {
     own_places.push_back(place_of(own_sites[k]));
+    own_shares.push_back(zone.sites()[own_sites[k]].share);
+    if (own_shares[k] != 1.)
+      on_planes.push_back(k);
     number[own_places.back()] = k;
   }
   list_of.assign(own_sites.size(), unlisted);
@@ -120,26 +132,30 @@ void ExplicitBonds<dim>::find_sources()
     is_known[place] = true;
     sources.push_back({place, from.site, from.mirrored, {}});
   };
+  for (const unsigned int place : own_places)
+    is_known[place] = true;
   for (unsigned int k = 0; k < own_sites.size(); ++k)
-  {
-    add(own_places[k], {own_sites[k]});
     for (unsigned int b = 0; b < stencil.size(); ++b)
       if (const FarEnd end = zone.far_end(own_sites[k], b); !end.absent)
         add(own_places[k] + strides[b], end);
-  }
 }
 
 
-/// Own sites that follow one another in the direction of x.
+/// Own sites that follow one another in the direction of x, but for those listed at the start.
 template <int dim>
 void ExplicitBonds<dim>::find_spans()
 {
   std::vector<typename BondForces<dim>::Span> spans;
-  for (const std::size_t place : own_places)
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+  {
+    if (list_of[k] < never_listed)
+      continue;
+    const std::size_t place = own_places[k];
     if (!spans.empty() && spans.back().first + spans.back().length == place)
       ++spans.back().length;
     else
       spans.push_back({place, 1});
+  }
   kernel->sweep_only(spans);
 }
 
@@ -200,12 +216,34 @@ void ExplicitBonds<dim>::add_row_sums(Vector &sums) const
 
 
 template <int dim>
-void ExplicitBonds<dim>::list(const unsigned int own)
+void ExplicitBonds<dim>::list(const unsigned int own, const std::vector<Bond> &bonds)
 {
   list_of[own] = listed.size();
-  listed.push_back({own, {}});
-  for (const BondCoefficients<dim> &bond : coefficients)
-    listed.back().bonds.push_back({bond.stiffness, 1., 0., by_fluid});
+  listed.push_back({own, bonds});
+  Listed &site = listed.back();
+  uneven->add(own_places[own]);
+  for (unsigned int b = 0; b < stencil.size(); ++b)
+  {
+    site.is_damaged = site.is_damaged || damage(bonds[b]) > 0.;
+    tell_sweep(site, b);
+  }
+  site.has_changed = site.is_damaged;
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::tell_sweep(const Listed &site, const unsigned int b)
+{
+  const Bond &bond = site.bonds[b];
+  const double damage = this->damage(bond);
+  double limit = std::numeric_limits<double>::infinity();
+  if (bond.by_fluid != 0. && damage > 0.)
+    limit = -limit; // it pushes, and does work
+  else if (bond.stiffness > 0. && bond.amplification > 0. && damage < 1.)
+    limit =
+      nearly * coefficients[b].length *
+      (std::max(bond.greatest, softening.first) / bond.amplification - std::max(0., bond.by_fluid));
+  uneven->set(own_places[site.own], b, (1. - damage) * bond.stiffness, limit);
 }
 
 
@@ -218,16 +256,18 @@ void ExplicitBonds<dim>::find_wet_sites()
       if (bond.stiffness > 0. && softening.damage(bond.greatest) >= 1.)
         wetness.local_element(own_unknowns[site.own][0]) = 1.;
   wetness.update_ghost_values();
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+    is_wet[own_places[k]] = wetness.local_element(own_unknowns[k][0]) > 0.;
   for (const Source &source : sources)
     is_wet[source.place] = wetness.local_element(source.local[0]) > 0.;
 }
 
 
 template <int dim>
-void ExplicitBonds<dim>::add_listed_force(Listed &site, const bool breaks)
+void ExplicitBonds<dim>::look_at(Listed &site, const bool breaks)
 {
   const std::size_t place = own_places[site.own];
-  const double share = zone.sites()[own_sites[site.own]].share;
+  const double share = own_shares[site.own];
   std::array<double, dim> sum = {};
   for (unsigned int b = 0; b < stencil.size(); ++b)
   {
@@ -245,9 +285,10 @@ void ExplicitBonds<dim>::add_listed_force(Listed &site, const bool breaks)
     double damage = damage_before;
     if (breaks && damage < 1. && stretch > softening.first && stretch > bond.greatest)
     {
-      site.has_changed = true;
+      site.has_changed = site.is_damaged = true;
       bond.greatest = stretch;
       damage = softening.damage(stretch);
+      tell_sweep(site, b);
     }
     if (breaks && damage > 0. && (damage != damage_before || of_fluid != 0.))
     {
@@ -275,25 +316,37 @@ void ExplicitBonds<dim>::forces(const Vector &displacement, const bool breaks, V
 {
   if (breaks)
     std::swap(u, u_before);
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+    for (unsigned int d = 0; d < dim; ++d)
+      u[d][own_places[k]] = displacement.local_element(own_unknowns[k][d]);
   for (const Source &source : sources)
     for (unsigned int d = 0; d < dim; ++d)
     {
       const double value = displacement.local_element(source.local[d]);
       u[d][source.place] = source.mirrored >> d & 1 ? -value : value;
     }
-  kernel->evaluate(u, f, softening.first - std::max(0., by_fluid), breaks ? &stretched : nullptr);
+  kernel->evaluate(u, f, nearly * (softening.first - std::max(0., by_fluid)),
+                   breaks ? &stretched : nullptr);
+  const bool looks = breaks || by_fluid != 0.;
+  uneven->evaluate(u, f, looks ? &beyond : nullptr);
+  if (looks)
+    for (const std::size_t place : beyond)
+      look_at(listed[list_of[number[place]]], breaks);
   if (breaks)
     for (const std::size_t place : stretched)
-      if (list_of[number[place]] == unlisted)
-        list(number[place]);
-  for (Listed &site : listed)
-    add_listed_force(site, breaks);
+      if (const unsigned int own = number[place]; list_of[own] == unlisted)
+      {
+        list(own, bonds_of_lattice);
+        look_at(listed.back(), breaks);
+      }
   if (breaks && by_fluid != 0.)
     find_wet_sites();
   for (unsigned int k = 0; k < own_sites.size(); ++k)
     for (unsigned int d = 0; d < dim; ++d)
-      force.local_element(own_unknowns[k][d]) =
-        zone.sites()[own_sites[k]].share * f[d][own_places[k]];
+      force.local_element(own_unknowns[k][d]) = f[d][own_places[k]];
+  for (const unsigned int k : on_planes)
+    for (unsigned int d = 0; d < dim; ++d)
+      force.local_element(own_unknowns[k][d]) *= own_shares[k];
 }
 
 
@@ -304,6 +357,8 @@ std::vector<unsigned int> ExplicitBonds<dim>::detached() const
   std::vector<unsigned int> result;
   for (const Listed &site : listed)
   {
+    if (!site.is_damaged)
+      continue;
     // A row that comes off keeps the bonds along it.
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -328,11 +383,12 @@ template <int dim>
 double ExplicitBonds<dim>::stored_by_fluid() const
 {
   double stored = 0.;
+  if (by_fluid == 0.)
+    return stored;
   for (const Listed &site : listed)
     for (unsigned int b = 0; b < stencil.size(); ++b)
       if (const Bond &bond = site.bonds[b]; bond.greatest > 0.)
-        stored += 0.25 * zone.sites()[own_sites[site.own]].share * bond.stiffness *
-                  softening.damage(bond.greatest) *
+        stored += 0.25 * own_shares[site.own] * bond.stiffness * softening.damage(bond.greatest) *
                   std::pow(bond.by_fluid * coefficients[b].length, 2);
   return stored;
 }
@@ -343,16 +399,10 @@ double ExplicitBonds<dim>::stored() const
 {
   std::vector<double> of_site(box.n_sites());
   kernel->energies(u, of_site);
+  uneven->energies(u, of_site); // of the listed ones, in place of what they had if all were whole
   double stored = 0.;
   for (unsigned int k = 0; k < own_sites.size(); ++k)
-    if (list_of[k] >= never_listed)
-      stored += zone.sites()[own_sites[k]].share * of_site[own_places[k]];
-  // Half of a bond belongs to each end.
-  for (const Listed &site : listed)
-    for (unsigned int b = 0; b < stencil.size(); ++b)
-      if (const Bond &bond = site.bonds[b]; bond.stiffness > 0.)
-        stored += 0.25 * zone.sites()[own_sites[site.own]].share * (1. - damage(bond)) *
-                  bond.stiffness * std::pow(elongation_at(own_places[site.own], b), 2);
+    stored += own_shares[k] * of_site[own_places[k]];
   return stored;
 }
 

@@ -2,6 +2,7 @@
 
 #include "fracture/peridynamics/bond_forces.h"
 #include "fracture/peridynamics/softening.h"
+#include "fracture/peridynamics/uneven_bonds.h"
 #include "fracture/peridynamics/zone.h"
 #include "stockwork/fracture/explicit_rock.h"
 
@@ -10,7 +11,9 @@
 namespace stockwork::peridynamics
 {
 /// The bonds of all rock, moved by explicit steps. Sites whose bonds are all whole are swept by the
-/// stencil (BondForces); the others, beside cracks and free boundaries, have a list of their bonds.
+/// stencil (BondForces); the others, beside cracks and free boundaries, have a list of their bonds,
+/// and are swept with the stiffness that these have left (UnevenBonds). Bond by bond one looks at
+/// sites only where one is about to soften or break, or where fluid pushes.
 /// A bond has its history at both ends, and both see the same elongation, so no rank tells another
 /// what has broken.
 ///
@@ -100,7 +103,8 @@ private:
   {
     unsigned int own; ///< number among the own sites
     std::vector<Bond> bonds;
-    bool has_changed = true; ///< since changes were asked for
+    bool is_damaged = false;  ///< one of them has softened, or is broken
+    bool has_changed = false; ///< since changes were asked for
   };
 
   /// In the box.
@@ -123,8 +127,13 @@ private:
   void find_box();
   void find_sources();
   void find_spans();
-  void list(unsigned int own);
-  void add_listed_force(Listed &site, bool breaks);
+  void list(unsigned int own, const std::vector<Bond> &bonds);
+
+  /// What the sweep is to know of a bond.
+  void tell_sweep(const Listed &site, unsigned int bond);
+
+  /// The force on a site, bond by bond.
+  void look_at(Listed &site, bool breaks);
 
   /// Let each rank know which of the sites that it sees are wet.
   void find_wet_sites();
@@ -144,13 +153,16 @@ private:
   const unsigned int rank;
 
   LatticeBox<dim> box;
-  Place<dim> corner;                   ///< of the box
-  std::vector<unsigned int> own_sites; ///< in the order of the box
-  std::vector<std::size_t> own_places; ///< in the box
-  std::vector<std::ptrdiff_t> strides; ///< of the bonds
-  std::vector<unsigned int> number;    ///< of own sites by place in the box; invalid: not own
+  Place<dim> corner;                    ///< of the box
+  std::vector<unsigned int> own_sites;  ///< in the order of the box
+  std::vector<unsigned int> own_places; ///< in the box
+  std::vector<double> own_shares;       ///< of their cells that lie in the domain
+  std::vector<unsigned int> on_planes;  ///< numbers of own sites of which this is less than one
+  std::vector<std::ptrdiff_t> strides;  ///< of the bonds
+  std::vector<unsigned int> number;     ///< of own sites by place in the box; invalid: not own
 
-  /// Where the displacement at a place of the box is from: a site, or its image.
+  /// Where the displacement at a place of the box is from that is no own site: a site of another
+  /// rank, or an image.
   struct Source
   {
     std::size_t place;
@@ -162,10 +174,12 @@ private:
   std::vector<std::array<unsigned int, dim>> own_unknowns; ///< local numbers
 
   std::unique_ptr<BondForces<dim>> kernel;
+  std::unique_ptr<UnevenBonds<dim>> uneven; ///< those of the listed sites
   LatticeField<dim> u, u_before, f;
+  std::vector<Bond> bonds_of_lattice; ///< whole, of a site
   std::vector<Listed> listed;
   std::vector<unsigned int> list_of; ///< of own sites; or why it is not among them
-  std::vector<std::size_t> stretched;
+  std::vector<std::size_t> stretched, beyond;
   std::vector<bool> is_wet; ///< of the places of the box, before what the last displacement broke
   Vector wetness;           ///< of the sites, at the unknowns of their first component
   double energy = 0., work_of_fluid = 0.;

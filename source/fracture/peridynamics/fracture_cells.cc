@@ -4,11 +4,8 @@
 
 #include "stockwork/mesh/key.h"
 
-#include <boost/functional/hash.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace stockwork::peridynamics
 {
@@ -105,25 +102,57 @@ Tensor<1, dim> offset_between(const FractureCell<dim> &from, const FractureCell<
   return offset;
 }
 
-/// Of each cell, by index, those that have a corner in common with it, itself included.
+/// Number of the cell at a place, of cells in the order of places; none: there is no such cell.
 template <int dim>
-std::vector<std::vector<unsigned int>> neighbours_of(const std::vector<FractureCell<dim>> &cells)
+unsigned int number_of(const std::vector<FractureCell<dim>> &cells, const Place<dim> &place)
 {
-  std::unordered_map<Place<dim>, unsigned int, boost::hash<Place<dim>>> index;
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    index[cells[i].place] = i;
-  std::vector<std::vector<unsigned int>> neighbours(cells.size());
+  const auto found = std::lower_bound(cells.begin(), cells.end(), place,
+                                      [](const FractureCell<dim> &cell, const Place<dim> &p)
+                                      { return cell.place < p; });
+  return found != cells.end() && found->place == place ? found - cells.begin() : none;
+}
+
+/// The cells that have a corner in common with one, itself included.
+template <int dim>
+std::vector<unsigned int> neighbours_of(const std::vector<FractureCell<dim>> &cells,
+                                        const FractureCell<dim> &cell)
+{
+  std::vector<unsigned int> neighbours;
   constexpr int n_beside = dim == 2 ? 9 : 27;
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    for (int n = 0; n < n_beside; ++n)
-    {
-      Place<dim> place = cells[i].place;
-      for (int d = 0, rest = n; d < dim; ++d, rest /= 3)
-        place[d] += rest % 3 - 1;
-      if (const auto found = index.find(place); found != index.end())
-        neighbours[i].push_back(found->second);
-    }
+  for (int n = 0; n < n_beside; ++n)
+  {
+    Place<dim> place = cell.place;
+    for (int d = 0, rest = n; d < dim; ++d, rest /= 3)
+      place[d] += rest % 3 - 1;
+    if (const unsigned int i = number_of<dim>(cells, place); i != none)
+      neighbours.push_back(i);
+  }
   return neighbours;
+}
+
+/// A bond between two corners of a cell.
+template <int dim>
+struct OwnBond
+{
+  unsigned int corner, bond; ///< as that corner sees it
+  Tensor<1, dim> direction;
+};
+
+/// Those that the stencil has, each from one of its ends.
+template <int dim>
+std::vector<OwnBond<dim>> own_bonds(const BondSet<dim> &bonds)
+{
+  std::vector<OwnBond<dim>> result;
+  for (unsigned int v = 0; v < 1u << dim; ++v)
+    for (unsigned int w = v + 1; w < 1u << dim; ++w)
+    {
+      Place<dim> offset;
+      for (unsigned int d = 0; d < dim; ++d)
+        offset[d] = static_cast<int>(w >> d & 1) - static_cast<int>(v >> d & 1);
+      if (const unsigned int b = bonds.bond(offset); b != none)
+        result.push_back({v, b, bonds.bonds()[b].direction()});
+    }
+  return result;
 }
 } // namespace
 
@@ -136,10 +165,16 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
   // So many are broken where a plane has passed the cell's centre, or cuts off one of its corners:
   // of the 4 (16) bonds that cross a plane along the lattice, 2 (7).
   constexpr unsigned int enough = dim == 2 ? 2 : 7;
+  const std::vector<OwnBond<dim>> own = own_bonds(bonds);
+  std::vector<SymmetricTensor<2, dim>> moment_of;
+  for (const StencilBond<dim> &bond : bonds.bonds())
+    moment_of.push_back(symmetrize(outer_product(bond.direction(), bond.direction())));
   std::vector<FractureCell<dim>> cells;
   std::array<unsigned int, n_corners> site;
   for (const Place<dim> &place : cells_at(zone, bonds.damaged_sites()))
   {
+    if (zone.is_divided() && !zone.owns(place))
+      continue;
     bool is_inside = true;
     for (unsigned int v = 0; v < n_corners; ++v)
     {
@@ -148,34 +183,22 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone, const 
     }
     if (!is_inside)
       continue;
-    const auto for_each_own = [&](const auto &use)
+    const auto n_broken_where = [&](const auto &counts)
     {
-      for (unsigned int v = 0; v < n_corners; ++v)
-        for (unsigned int w = v + 1; w < n_corners; ++w)
-        {
-          Place<dim> offset;
-          for (unsigned int d = 0; d < dim; ++d)
-            offset[d] = static_cast<int>(w >> d & 1) - static_cast<int>(v >> d & 1);
-          if (const unsigned int b = bonds.bond(offset); b != none)
-            use(bonds.bonds()[b].direction(), bonds.is_broken(site[v], b));
-        }
+      unsigned int n = 0;
+      for (const OwnBond<dim> &bond : own)
+        n += bonds.is_broken(site[bond.corner], bond.bond) && counts(bond.direction);
+      return n;
     };
-    unsigned int n_broken = 0;
-    for_each_own([&](const Tensor<1, dim> &, const bool broken) { n_broken += broken; });
-    if (n_broken < enough)
+    if (n_broken_where([](const Tensor<1, dim> &) { return true; }) < enough)
       continue;
 
     SymmetricTensor<2, dim> moment;
     for (const unsigned int i : site)
-      for (unsigned int b = 0; b < bonds.n_bonds(); ++b)
-        if (bonds.is_broken(i, b))
-          moment +=
-            symmetrize(outer_product(bonds.bonds()[b].direction(), bonds.bonds()[b].direction()));
-    FractureCell<dim> cell{place, axis(moment, true)};
-    n_broken = 0;
-    for_each_own([&](const Tensor<1, dim> &e, const bool broken)
-                 { n_broken += broken && std::abs(e * cell.normal) > crossing; });
-    if (n_broken >= enough)
+      bonds.for_each_broken(i, [&](const unsigned int b) { moment += moment_of[b]; });
+    const FractureCell<dim> cell{place, axis(moment, true)};
+    if (n_broken_where([&](const Tensor<1, dim> &e)
+                       { return std::abs(e * cell.normal) > crossing; }) >= enough)
       cells.push_back(cell);
   }
   return cells;
@@ -188,7 +211,7 @@ void align_normals(std::vector<FractureCell<dim>> &cells,
                    const std::function<bool(const Place<dim> &)> &is_settled)
 {
   constexpr double thin = 0.3; // of what is a band: its width over its length, squared
-  const std::vector<std::vector<unsigned int>> beside = neighbours_of(cells);
+  std::vector<std::vector<unsigned int>> beside(cells.size()); // of those looked at
   // The cells around that are joined to this one: another crack nearby does not count.
   std::vector<unsigned int> joined, joined_to(cells.size(), none);
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -204,6 +227,8 @@ void align_normals(std::vector<FractureCell<dim>> &cells,
     {
       around.push_back(offset_between(cell, cells[joined[k]]));
       mean += around.back();
+      if (beside[joined[k]].empty())
+        beside[joined[k]] = neighbours_of(cells, cells[joined[k]]);
       for (const unsigned int j : beside[joined[k]])
         if (joined_to[j] != i && offset_between(cell, cells[j]).norm() < radius + 0.5)
         {
@@ -312,10 +337,6 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
                                         const std::vector<FractureCell<dim>> &cells)
 {
   const double h = zone.spacing();
-  std::map<Place<dim>, unsigned int> index;
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    index[cells[i].place] = i;
-
   std::vector<Segment<dim>> segments(cells.size());
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
@@ -324,17 +345,13 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
     segment.key = Key().add(segment.centre, 1e-4 * h);
     segment.normal = cells[i].normal;
     segment.area = fracture_area(cells[i].normal, h);
+    if (zone.is_divided() && !zone.owns(cells[i].place))
+      continue; // the rest is its owner's affair
     for (const Tensor<1, dim> &jump : jumps(zone, cells[i]))
       segment.opening.bulk_coefficients.push_back(jump * segment.normal);
     for (unsigned int v = 0; v < 1u << dim; ++v)
     {
-      const unsigned int number = zone.find(corner<dim>(cells[i].place, v));
-      if (number == none) // of another rank, far away
-      {
-        segment.opening = LinearFunctional();
-        break;
-      }
-      const Site<dim> &site = zone.sites()[number];
+      const Site<dim> &site = zone.sites()[zone.find(corner<dim>(cells[i].place, v))];
       segment.opening.bulk.insert(segment.opening.bulk.end(), site.dofs.begin(), site.dofs.end());
       if (site.pressure_dof == dealii::numbers::invalid_dof_index)
         continue;
@@ -357,10 +374,10 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
     };
     const auto connect = [&](const Place<dim> &place)
     {
-      const auto found = index.find(place);
-      if (found == index.end())
+      const unsigned int found = number_of<dim>(cells, place);
+      if (found == none)
         return;
-      const Segment<dim> &other = segments[found->second];
+      const Segment<dim> &other = segments[found];
       if (dim == 2)
       {
         segments[i].neighbours.push_back({other.key, 0.5 * segments[i].area, 1.});
@@ -382,7 +399,7 @@ std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
           for (const int dy : {-1, 1})
           {
             const Place<dim> first = moved(here, d, dx), second = moved(here, e, dy);
-            if (index.count(first) == 0 && index.count(second) == 0)
+            if (number_of<dim>(cells, first) == none && number_of<dim>(cells, second) == none)
               connect(moved(first, e, dy));
           }
     segments[i].at_tip =

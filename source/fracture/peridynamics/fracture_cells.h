@@ -23,8 +23,7 @@ struct FractureCell
 
 /// The cells with enough of their own bonds (between two of their corners) broken that cross the
 /// fracture: two of them, seven in space. Its normal is the direction of most of the broken bonds
-/// of the cell's corners. In the order of the places. Of all the cells of a rank all are found; of
-/// others, if the zone is divided, some.
+/// of the cell's corners. In the order of the places. If the zone is divided, those of this rank.
 template <int dim>
 std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone,
                                                    const BondSet<dim> &bonds);
@@ -32,6 +31,7 @@ std::vector<FractureCell<dim>> find_fracture_cells(const Zone<dim> &zone,
 /// Where the fracture cells within @p radius cells lie along a line (plane), normals are those of
 /// that line: what is broken around a tip alone is too few bonds to tell, and a normal that is
 /// wrong there loads the faces unevenly and turns the fracture.
+/// @param cells in the order of the places
 /// @param is_settled of the place of a cell whose normal is to stay as it is
 template <int dim>
 void align_normals(std::vector<FractureCell<dim>> &cells,
@@ -69,9 +69,10 @@ double fracture_area(const dealii::Tensor<1, dim> &normal, const double spacing)
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> jumps(const Zone<dim> &zone, const FractureCell<dim> &cell);
 
-/// Segments of all fracture cells, with opening and pore pressure where the cell's corners are
-/// known; pressures are left to the model.
+/// Segments of all fracture cells, with opening and pore pressure, if the zone is divided of this
+/// rank's; pressures are left to the model.
 /// In space, of a fracture oblique to the mesh, conductances between neighbours are approximate.
+/// @param cells in the order of the places
 template <int dim>
 std::vector<Segment<dim>> make_segments(const Zone<dim> &zone,
                                         const std::vector<FractureCell<dim>> &cells);

@@ -243,11 +243,7 @@ std::vector<FractureCell<dim>> Peridynamics<dim>::fracture_cells() const
   std::vector<FractureCell<dim>> found = find_fracture_cells(zone, cracked);
   if (!zone.is_divided())
     return found;
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [this](const FractureCell<dim> &cell)
-                             { return !zone.owns(cell.place); }),
-              found.end());
-  found = ranks->gather(found);
+  found = ranks->gather(found); // each knows its own
   std::sort(found.begin(), found.end(),
             [](const auto &a, const auto &b) { return a.place < b.place; });
   return found;

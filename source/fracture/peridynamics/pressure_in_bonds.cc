@@ -386,9 +386,11 @@ void Peridynamics<dim>::commit_contact(const State &state)
 template <int dim>
 void Peridynamics<dim>::keep_committed_cells()
 {
+  std::vector<Place<dim>> found;
+  for (const FractureCell<dim> &cell : cells)
+    found.push_back(cell.place);
   for (const auto &[place, normal] : committed_cells)
-    if (std::none_of(cells.begin(), cells.end(),
-                     [&place = place](const auto &cell) { return cell.place == place; }))
+    if (!std::binary_search(found.begin(), found.end(), place))
     {
       FractureCell<dim> kept{place, {}};
       for (unsigned int d = 0; d < dim; ++d)
