@@ -79,6 +79,10 @@ stockwork_same_test(NAME convergence/natural_crack/crossing/ranks DECK tests/dat
   IGNORE "balance_error|volume_defect|minimum_aperture")
 stockwork_restart_test(NAME convergence/natural_crack/crossing/restart DECK tests/data/crossing.prm RANKS 1,2 AFTER 44 TOLERANCE 1e-6
   IGNORE "balance_error|volume_defect|minimum_aperture")
+# Where little holds the natural crack closed, it opens before the rock beyond parts: a bond that is stretched too far lets no
+# fluid in.
+stockwork_case_test(NAME convergence/natural_crack/turning DECK tests/data/crossing.prm SET "In situ/Stress=-2 MPa, -1 MPa"
+  EXPECT "final/extent_x < 1.6" "final/inlet_pressure > 2.1e6" "fluid_balance/relative_error < 1e-8")
 # At a small angle the tip gets to the natural crack, and opens it: 1.75 MPa at the inlet. Short of it the pressure was 2.56.
 stockwork_case_test(NAME convergence/natural_crack/30 DECK prm/natural_crack/30/peridynamics.prm LABELS nightly
   SET "Output/Fields=false" EXPECT "final/inlet_pressure < 2e6" "fluid_balance/relative_error < 1e-8")

@@ -225,6 +225,16 @@ TEST_CASE("beyond a path that has been met another one begins, which fluid reach
   CHECK(paths.shares(*crossing, 3.).empty());
 
   paths.extend(beyond, along);
+  // A bond that has begun to soften lets no fluid in; a tenth of the first piece's energy does.
+  for (const double advance : {0.01, 0.11})
+  {
+    paths.set_advances([advance](const TrackedPaths::End &e)
+                       { return e.path == 0   ? 1.7
+                                : e.path == 2 ? advance
+                                              : 0.; });
+    CHECK(paths.advance(beyond) == advance);
+    CHECK(paths.is_wet(2) == (advance > 0.1));
+  }
   paths.set_advances([](const TrackedPaths::End &e)
                      { return e.path == 0   ? 1.7
                               : e.path == 2 ? 1.2

@@ -1,5 +1,7 @@
 #include "fracture/peridynamics/tracked_paths.h"
 
+#include "fracture/peridynamics/softening.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -522,10 +524,15 @@ void TrackedPaths::find_wet_pieces()
       double inner = 0.;
       for (unsigned int k = growth.n_points; k > 0; --k)
       {
-        if (growth.wet <= inner + same_spot * h)
+        const double length = path.length(side == 0 ? k - 1 : path.n_pieces() - k);
+        // Elsewhere fluid is behind the tip. Beyond another path it comes through a face of whole
+        // rock, and not by the first bond that is stretched too far: its pressure on all of the
+        // first horizon would part the rest.
+        const bool is_first = began_beyond(p) && k == growth.n_points;
+        if (growth.wet <= inner + (is_first ? SofteningLaw::wet_damage * length : same_spot * h))
           break;
         ++reached[side];
-        inner += path.length(side == 0 ? k - 1 : path.n_pieces() - k);
+        inner += length;
       }
     }
     const unsigned int first = path.ends[0].n_points - reached[0],

@@ -17,7 +17,8 @@ namespace stockwork::peridynamics
 /// crack, and ahead of each of its ends that is in rock the way that it will take. Bonds soften
 /// only where they cross one. How far a tip has come on its way is known from the energy that has
 /// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
-/// paths.
+/// paths: those that a tip has come to, and of a path that begins beyond another one the first when
+/// it has taken a tenth of its energy.
 class TrackedPaths
 {
 public:
