@@ -5,8 +5,6 @@
 #include "solvers/stopwatch.h"
 #include "solvers/system_operator.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
