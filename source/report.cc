@@ -439,7 +439,7 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     // volumes as they are, nor has left; where what leaks off stays in the model. The compression
     // of the fluid in fractures is in it.
     const FluidBalance &balance = stepper.fluid_balance();
-    if (network.needs_pore_pressure() || balance.total.leaked == 0.)
+    if (network.leaks_into_pores() || balance.total.leaked == 0.)
       observed["fluid_volume_defect"] = balance.total.injected - summary.fluid_balance.outflow -
                                         balance.fracture_volume - balance.total.in_boreholes -
                                         pores.volume;

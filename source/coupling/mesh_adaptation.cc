@@ -18,6 +18,7 @@ using namespace dealii;
 template <int dim>
 MeshAdaptation<dim>::MeshAdaptation(RunContext &run,
                                     const Geometry<dim> &geometry,
+                                    const Rock &rock,
                                     parallel::distributed::Triangulation<dim> &triangulation,
                                     const FractureModel<dim> &model)
   : run(run)
@@ -25,6 +26,7 @@ MeshAdaptation<dim>::MeshAdaptation(RunContext &run,
   , triangulation(triangulation)
   , model(model)
   , max_cells(geometry.maximum_number_of_cells())
+  , pores(rock)
 {
 }
 
@@ -41,6 +43,37 @@ bool MeshAdaptation<dim>::flag()
   if (!changes)
     settled = std::move(wanted);
   return changes;
+}
+
+
+template <int dim>
+bool MeshAdaptation<dim>::may_merge(const CoupledSystem<dim> &system, Stepper<dim> &stepper) const
+{
+  const MeshView<dim> mesh_view = system.mesh_view();
+  return model.requirements().lets_cells_merge && system.nonlinear_rock() == nullptr &&
+         system.nodal_fields() == nullptr && stepper.bulk_vectors().size() == 1 &&
+         (!mesh_view.has_pore_pressure || pores.can_take_up(mesh_view));
+}
+
+
+template <int dim>
+bool MeshAdaptation<dim>::flag_idle_cells(const CoupledSystem<dim> &system,
+                                          const Stepper<dim> &stepper)
+{
+  std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
+  model.wanted_cell_size(triangulation, wanted);
+  flag_cells(triangulation, geometry, wanted, {}, true);
+  if (system.mesh_view().has_pore_pressure)
+    pores.keep_uneven(triangulation, system.mesh_view(), stepper.committed.bulk);
+  unsigned int n_idle = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->coarsen_flag_set())
+      ++n_idle;
+  n_idle = Utilities::MPI::sum(n_idle, run.communicator);
+  if (n_idle > 0)
+    run.out << "  " << n_idle << " small cells away from the front and the cracks are merged"
+            << std::endl;
+  return n_idle > 0;
 }
 
 
@@ -94,8 +127,10 @@ void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
 template <int dim>
 void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
                                  Stepper<dim> &stepper,
+                                 const bool merges,
                                  const std::function<void()> &change_mesh)
 {
+  const bool merges_pores = merges && system.mesh_view().has_pore_pressure;
   const auto vectors = stepper.bulk_vectors();
   const ExtraNumbering numbering = system.extra_numbering();
 
@@ -116,6 +151,8 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
     rock->history().prepare_for_refinement(triangulation);
   if (NodalFields<dim> *const fields = system.nodal_fields())
     fields->prepare_for_refinement();
+  if (merges_pores)
+    pores.prepare(triangulation, system.mesh_view(), *vectors[0]);
   change_mesh();
   if (rock != nullptr)
     rock->history().finish_refinement(triangulation);
@@ -131,9 +168,18 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
   transfer.interpolate(targets);
   for (unsigned int i = 0; i < vectors.size(); ++i)
   {
+    auto carried_over = system.ghosted_vector();
+    if (merges_pores)
+      carried_over = after[i];
     system.make_conforming(after[i]);
     *vectors[i] = system.ghosted_vector();
     *vectors[i] = after[i];
+    if (merges_pores)
+    {
+      pores.finish(system.mesh_view(), carried_over, *vectors[i], after[i]);
+      system.make_conforming(after[i]);
+      *vectors[i] = after[i];
+    }
   }
   system.adopt_extra(numbering, stepper.extra_vectors());
 }
@@ -145,10 +191,13 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
   bool changed = false, wanted = stepper.wants_setup();
   while (flag() || wanted)
   {
+    // In every pass, cells on the rim of what is wanted could be split and merged by turns.
+    const bool merges = !changed && may_merge(system, stepper) && flag_idle_cells(system, stepper);
     changed = true;
     wanted = false;
     triangulation.prepare_coarsening_and_refinement();
-    change(system, stepper, [this]() { triangulation.execute_coarsening_and_refinement(); });
+    change(system, stepper, merges,
+           [this]() { triangulation.execute_coarsening_and_refinement(); });
   }
   if (changed)
     balance(system, stepper);
@@ -174,7 +223,7 @@ void MeshAdaptation<dim>::balance(CoupledSystem<dim> &system, Stepper<dim> &step
   const double before = greatest_share(triangulation, work());
   if (before * run.n_ranks < tolerated)
     return;
-  change(system, stepper, [&]() { share_out(triangulation, work()); });
+  change(system, stepper, false, [&]() { share_out(triangulation, work()); });
   settled.clear(); // cells may be others' now
   run.out << "  cells shared out anew: the rank with most had " << 100. * before
           << " % of the work, now it has " << 100. * greatest_share(triangulation, work()) << " %"

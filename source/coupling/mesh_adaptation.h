@@ -4,19 +4,21 @@
 
 #include <functional>
 
+#include "biot/merged_pores.h"
 #include "coupling/stepper.h"
 #include "mesh/geometry.h"
 
 namespace stockwork
 {
-/// Makes cells as small as the fracture model wants them, where and when it does, and moves all
-/// unknowns along. The mesh never changes inside a step.
+/// Makes cells as small as the fracture model wants them, where and when it does, merges them again
+/// where it does no more, and moves all unknowns along. The mesh never changes inside a step.
 template <int dim>
 class MeshAdaptation
 {
 public:
   MeshAdaptation(RunContext &run,
                  const Geometry<dim> &geometry,
+                 const Rock &rock,
                  dealii::parallel::distributed::Triangulation<dim> &triangulation,
                  const FractureModel<dim> &model);
 
@@ -27,17 +29,27 @@ public:
   /// The same, and make the system ready.
   void prepare(CoupledSystem<dim> &system, double time);
 
-  /// Between steps. Returns whether the mesh has changed. Where ranks are then out of balance, it
-  /// shares the cells out anew and prints the share of the fullest before and after.
+  /// Between steps. Returns whether the mesh has changed. Cells are merged only when others are
+  /// split: another mesh costs more than a few cells too many. Where ranks are then out of balance,
+  /// it shares the cells out anew and prints the share of the fullest before and after.
   bool adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper);
 
 private:
-  /// Set flags; is there anything to do?
+  /// Set flags of cells to be split; is there anything to do?
   bool flag();
 
+  /// Whether cells may be merged: the model lets them, and nothing but values of the unknowns is
+  /// kept in them. Of plastic rock and of waves more is.
+  bool may_merge(const CoupledSystem<dim> &system, Stepper<dim> &stepper) const;
+
+  /// Flag, besides what is flagged, cells to be merged; says how many, and returns whether any.
+  bool flag_idle_cells(const CoupledSystem<dim> &system, const Stepper<dim> &stepper);
+
   /// Change the mesh, and carry all unknowns over.
+  /// @param merges cells, which may have pores
   void change(CoupledSystem<dim> &system,
               Stepper<dim> &stepper,
+              bool merges,
               const std::function<void()> &change_mesh);
 
   void balance(CoupledSystem<dim> &system, Stepper<dim> &stepper);
@@ -50,6 +62,7 @@ private:
   dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const FractureModel<dim> &model;
   unsigned int max_cells;
+  MergedPores<dim> pores;
   std::vector<float> settled; ///< wanted sizes that the mesh as it is fulfils; empty: not known
 };
 } // namespace stockwork

@@ -14,6 +14,13 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
   AssertDimension(wanted_size.size(), triangulation.n_active_cells());
   const auto held = [&holds_fracture](const auto &cell)
   { return !holds_fracture.empty() && holds_fracture[cell->active_cell_index()]; };
+  const auto in_one_region = [](const auto &parent)
+  {
+    for (unsigned int c = 1; c < parent->n_children(); ++c)
+      if (parent->child(c)->material_id() != parent->child(0)->material_id())
+        return false;
+    return true;
+  };
 
   for (const auto &cell : triangulation.active_cell_iterators())
   {
@@ -28,7 +35,7 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
     // A factor of two beyond what the merged cell needs, so that a wish that moves does not
     // split and merge by turns.
     else if (coarsen && 4. * size <= wanted * (1. + 1e-5) && cell->level() > 0 &&
-             !geometry.splits(cell->parent()))
+             !geometry.splits(cell->parent()) && in_one_region(cell->parent()))
       cell->set_coarsen_flag();
   }
   triangulation.prepare_coarsening_and_refinement();

@@ -10,9 +10,10 @@
 namespace stockwork
 {
 /// Set the flags of a mesh so that no owned cell is larger than wanted, and, if asked to, that
-/// cells much smaller than wanted are merged again where the initial mesh allows it. Neighbours
-/// differ by one level at most. Call Triangulation::execute_coarsening_and_refinement()
-/// afterwards, with the transfer of unknowns around it. Collective.
+/// cells much smaller than wanted are merged again where the initial mesh allows it and no border
+/// of a region passes between them. Neighbours differ by one level at most. Call
+/// Triangulation::execute_coarsening_and_refinement() afterwards, with the transfer of unknowns
+/// around it. Collective.
 ///
 /// One call asks for one level: repeat until it returns false, and coarsen in the first call only,
 /// since cells on the rim of what is wanted could be split and merged by turns forever.

@@ -60,6 +60,9 @@ struct Requirements
   /// is linear wherever no jump exceeds those that it has committed.
   bool breaks_between_steps = false;
 
+  /// wanted_cell_size() speaks for every cell that is to stay small: others may be merged.
+  bool lets_cells_merge = false;
+
   /// For the estimate before a run: the time of a step in dry rock in that of cut cells with as
   /// many unknowns, and what the model itself keeps [bytes per unknown].
   double time_of_step = 1.;

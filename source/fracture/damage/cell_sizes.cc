@@ -11,7 +11,8 @@ using dealii::Point;
 
 /// A crack passes cells of one level only: those along it, and ahead of its front more of them than
 /// it needs, in blocks, so that they are not asked for anew whenever it has grown by a cell; a
-/// change of the mesh costs all that has been computed with the old one.
+/// change of the mesh costs all that has been computed with the old one. Cells whose parent would
+/// be split again stay as they are.
 template <int dim>
 void Damage<dim>::wanted_cell_size(
   const dealii::parallel::distributed::Triangulation<dim> &triangulation,
@@ -47,17 +48,21 @@ void Damage<dim>::wanted_cell_size(
              0.5 * parameters.rings_ahead * h + 0.5 * std::sqrt(double(dim)) * block);
   // It is the level that is asked for: on a mesh whose cells grow, the size would differ from cell
   // to cell and leave hanging nodes on the way.
+  const auto is_near = [&](const auto &cell)
+  {
+    const Point<dim> centre = cell->center();
+    const double radius = 0.5 * cell->diameter();
+    return of_cells.include(centre, radius) || of_front.include(centre, radius);
+  };
   for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->level() < static_cast<int>(level))
+    if (cell->is_locally_owned() && cell->level() <= static_cast<int>(level))
     {
-      const Point<dim> centre = cell->center();
-      const double radius = 0.5 * cell->diameter();
-      if (of_cells.include(centre, radius) || of_front.include(centre, radius))
-      {
-        float &size = sizes[cell->active_cell_index()];
-        size = std::min(size, static_cast<float>(std::ldexp(
-                                cell_size(cell), cell->level() - static_cast<int>(level))));
-      }
+      const int missing = static_cast<int>(level) - cell->level();
+      float &size = sizes[cell->active_cell_index()];
+      if (missing > 0 && is_near(cell))
+        size = std::min(size, static_cast<float>(std::ldexp(cell_size(cell), -missing)));
+      else if (cell->level() > 0 && is_near(cell->parent()))
+        size = std::min(size, static_cast<float>(cell_size(cell)));
     }
 }
 

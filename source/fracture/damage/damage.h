@@ -31,7 +31,7 @@ public:
     needs.pore_pressure = needs.fluid_in_pores = parameters.tensor_fluid;
     needs.symmetric = !parameters.tensor_fluid && !(parameters.friction > 0.);
     needs.breaks_between_steps = true;
-    needs.may_grow = parameters.growth;
+    needs.may_grow = needs.lets_cells_merge = parameters.growth;
     return needs;
   }
 
