@@ -79,6 +79,11 @@ stockwork_same_test(NAME convergence/natural_crack/crossing/ranks DECK tests/dat
   IGNORE "balance_error|volume_defect|minimum_aperture")
 stockwork_restart_test(NAME convergence/natural_crack/crossing/restart DECK tests/data/crossing.prm RANKS 1,2 AFTER 44 TOLERANCE 1e-6
   IGNORE "balance_error|volume_defect|minimum_aperture")
+# Where the pores' pressure carries in full (Biot coefficient 1), as much more of it and of compression changes nothing: the dry
+# path beyond parts by the effective stress.
+stockwork_same_test(NAME convergence/natural_crack/crossing/pores DECK tests/data/crossing.prm
+  SET "Rock/Biot coefficient=1" "Time/Maximum step=0.3 s" "Time/End time=3.9 s" SECOND_SET "In situ/Stress=-7 MPa, -3 MPa" "In situ/Pore pressure=2 MPa"
+  TOLERANCE 1e-9 IGNORE "pressure|balance_error|volume_defect|minimum_aperture")
 # Where little holds the natural crack closed, it opens before the rock beyond parts: a bond that is stretched too far lets no
 # fluid in.
 stockwork_case_test(NAME convergence/natural_crack/turning DECK tests/data/crossing.prm SET "In situ/Stress=-2 MPa, -1 MPa"

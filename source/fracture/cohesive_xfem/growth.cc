@@ -462,8 +462,9 @@ bool CohesiveXFEM<dim>::cross(const State &state, const Collectives &collectives
         : 0.;
     const double added = parameters.as_published ? tip.near.pore_pressure : pressure;
     const double drive = added + tension_across(tip);
-    // No crack is there whose tip would make more of the stress: the mean itself has to part the
-    // rock.
+    // With the fluid's pressure, as ahead of a tip: the fluid fills cracks to their tips, so what
+    // is ahead never bears more than the strength less the pressure. No crack is there whose tip
+    // would make more of the stress: the mean itself has to part the rock.
     if (drive < strength_ahead(c, end) * (1. - 1e-6))
       continue;
     const Tensor<1, dim> direction = direction_of_growth(tip);

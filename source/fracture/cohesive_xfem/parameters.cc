@@ -14,9 +14,11 @@ void Parameters::declare(dealii::ParameterHandler &prm)
          "Shear strength over the rock's tensile strength.");
   number("Mixed-mode exponent", "2", Range::positive(),
          "Exponent of the fracture energy between opening and shear (Benzeggagh and Kenane).");
-  number("Elastic share", "0.01", Range::open(0., 1.),
+  // From 1e-6 on Newton's method steps over the part of the law that is as steep as that, and steps
+  // are rejected.
+  number("Elastic share", "0.01", Range{1e-6, 1., false, true},
          "Opening at which the strength is reached, as a share of the opening at which no traction "
-         "is left. Results change by less than 1 % below 0.01.");
+         "is left. Results change by less than 1 % below 0.01, and are dearer the smaller it is.");
   number(
     "Growth threshold", "0.7", Range{0., 1., true, false},
     "A cell ahead of a tip is cut when the averaged stress reaches this share of the strength. "

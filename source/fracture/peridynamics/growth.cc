@@ -40,6 +40,20 @@ double Peridynamics<dim>::elongation(const unsigned int site,
 
 
 template <int dim>
+SymmetricTensor<2, dim> Peridynamics<dim>::effective_in_situ_stress(const unsigned int site,
+                                                                    const unsigned int bond,
+                                                                    const Point<dim> &place) const
+{
+  SymmetricTensor<2, dim> effective = scene.in_situ_stress(place);
+  if (scene.has_pore_pressure)
+    effective += (rock_of_bonds.is_uniform() ? scene.rock.main().biot_coefficient
+                                             : rock_of_bonds.biot_coefficient(site, bond)) *
+                 scene.in_situ_pore_pressure(place) * dealii::unit_symmetric_tensor<dim>();
+  return effective;
+}
+
+
+template <int dim>
 double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigned int bond) const
 {
   if (in_situ_is_zero)
@@ -48,11 +62,7 @@ double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigne
                             0.5 * coefficients[bond].length * coefficients[bond].direction;
   const RockProperties &rock = scene.rock.main();
   const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
-  SymmetricTensor<2, dim> effective = scene.in_situ_stress(middle);
-  if (scene.has_pore_pressure)
-    effective += (rock_of_bonds.is_uniform() ? rock.biot_coefficient
-                                             : rock_of_bonds.biot_coefficient(site, bond)) *
-                 scene.in_situ_pore_pressure(middle) * dealii::unit_symmetric_tensor<dim>();
+  const SymmetricTensor<2, dim> effective = effective_in_situ_stress(site, bond, middle);
   const SymmetricTensor<2, dim> strain =
     (effective -
      lambda / (dim * lambda + 2. * mu) * trace(effective) * dealii::unit_symmetric_tensor<dim>()) /

@@ -172,8 +172,11 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     foresee(zone.spacing());
   in_situ_is_zero = true;
   for (const unsigned int i : zone.peridynamic_sites())
-    in_situ_is_zero =
-      in_situ_is_zero && scene.in_situ_stress(zone.position(zone.sites()[i].place)).norm() == 0.;
+  {
+    const Point<dim> place = zone.position(zone.sites()[i].place);
+    in_situ_is_zero = in_situ_is_zero && scene.in_situ_stress(place).norm() == 0. &&
+                      (!scene.has_pore_pressure || scene.in_situ_pore_pressure(place) == 0.);
+  }
   in_situ_is_zero = collectives.max(in_situ_is_zero ? 0. : 1.) == 0.;
 
   if (started)

@@ -170,6 +170,11 @@ private:
   /// In the cell of a segment that this rank owns.
   double biot_coefficient(unsigned int cell) const;
 
+  /// At a place on a bond, with its Biot coefficient [Pa].
+  dealii::SymmetricTensor<2, dim> effective_in_situ_stress(unsigned int site,
+                                                           unsigned int bond,
+                                                           const dealii::Point<dim> &place) const;
+
   /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
   double in_situ_stretch(unsigned int site, unsigned int bond) const;
 
@@ -358,8 +363,8 @@ private:
   /// Where a bond, or its image in the domain, crosses a path.
   std::optional<TrackedPaths::Crossing> crossing_of(unsigned int site, unsigned int bond) const;
 
-  /// Of a bond across a path that fluid has not reached: by the in-situ traction there, which the
-  /// fracture would release.
+  /// Of a bond across a path that fluid has not reached: by the effective in-situ traction there,
+  /// which the fracture would release.
   double dry_stretch(unsigned int site, unsigned int bond) const;
 
   /// A place itself, if it is that of a cell, or the nearest cell of the zone.

@@ -154,7 +154,7 @@ double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned in
       {
         const Tensor<1, dim> n = paths.left(*crossing), &e = coefficients[bond].direction;
         const SymmetricTensor<2, dim> strain =
-          strain_of_traction(n, scene.in_situ_stress(paths.point(*crossing)) * n);
+          strain_of_traction(n, effective_in_situ_stress(site, bond, paths.point(*crossing)) * n);
         return e * (strain * e) * coefficients[bond].stiffness / stiffness(site, bond);
       }
   return 0.;
