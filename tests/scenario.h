@@ -40,7 +40,7 @@ public:
              the_case->network,
              the_case->elements,
              prm)
-    , adaptation(run, the_case->geometry, triangulation, *the_case->model)
+    , adaptation(run, the_case->geometry, the_case->rock, triangulation, *the_case->model)
     , stepper(run, system, *the_case->model, the_case->network, the_case->scheme, the_case->control)
   {
     the_case->geometry.create(triangulation);
