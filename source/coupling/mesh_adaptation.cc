@@ -47,11 +47,12 @@ bool MeshAdaptation<dim>::flag()
 
 
 template <int dim>
-bool MeshAdaptation<dim>::may_merge(const CoupledSystem<dim> &system, Stepper<dim> &stepper) const
+bool MeshAdaptation<dim>::may_merge(const CoupledSystem<dim> &system,
+                                    const Stepper<dim> &stepper) const
 {
   const MeshView<dim> mesh_view = system.mesh_view();
   return model.requirements().lets_cells_merge && system.nonlinear_rock() == nullptr &&
-         system.nodal_fields() == nullptr && stepper.bulk_vectors().size() == 1 &&
+         system.nodal_fields() == nullptr && stepper.starts_from_last_state() &&
          (!mesh_view.has_pore_pressure || pores.can_take_up(mesh_view));
 }
 
@@ -65,15 +66,10 @@ bool MeshAdaptation<dim>::flag_idle_cells(const CoupledSystem<dim> &system,
   flag_cells(triangulation, geometry, wanted, {}, true);
   if (system.mesh_view().has_pore_pressure)
     pores.keep_uneven(triangulation, system.mesh_view(), stepper.committed.bulk);
-  unsigned int n_idle = 0;
+  bool any = false;
   for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->coarsen_flag_set())
-      ++n_idle;
-  n_idle = Utilities::MPI::sum(n_idle, run.communicator);
-  if (n_idle > 0)
-    run.out << "  " << n_idle << " small cells away from the front and the cracks are merged"
-            << std::endl;
-  return n_idle > 0;
+    any = any || (cell->is_locally_owned() && cell->coarsen_flag_set());
+  return Utilities::MPI::max(any ? 1 : 0, run.communicator) == 1;
 }
 
 
@@ -168,13 +164,15 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
   transfer.interpolate(targets);
   for (unsigned int i = 0; i < vectors.size(); ++i)
   {
+    // The first is the last state, from which the next step's content is counted.
+    const bool gives_back = merges_pores && i == 0;
     auto carried_over = system.ghosted_vector();
-    if (merges_pores)
+    if (gives_back)
       carried_over = after[i];
     system.make_conforming(after[i]);
     *vectors[i] = system.ghosted_vector();
     *vectors[i] = after[i];
-    if (merges_pores)
+    if (gives_back)
     {
       pores.finish(system.mesh_view(), carried_over, *vectors[i], after[i]);
       system.make_conforming(after[i]);
@@ -182,6 +180,17 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
     }
   }
   system.adopt_extra(numbering, stepper.extra_vectors());
+}
+
+
+template <int dim>
+double MeshAdaptation<dim>::number_of_cells_to_be_split() const
+{
+  unsigned int n = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->refine_flag_set())
+      ++n;
+  return Utilities::MPI::sum(n, run.communicator);
 }
 
 
@@ -196,8 +205,17 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
     changed = true;
     wanted = false;
     triangulation.prepare_coarsening_and_refinement();
+    const double n_split = merges ? number_of_cells_to_be_split() : 0.,
+                 n_before = triangulation.n_global_active_cells();
     change(system, stepper, merges,
            [this]() { triangulation.execute_coarsening_and_refinement(); });
+    // Flagged cells stay where neighbours would be two levels smaller.
+    const double n_children = GeometryInfo<dim>::max_children_per_cell,
+                 n_merged =
+                   n_split - (triangulation.n_global_active_cells() - n_before) / (n_children - 1.);
+    if (merges && n_merged > 0.)
+      run.out << "  " << n_children * n_merged
+              << " small cells away from the front and the cracks are merged" << std::endl;
   }
   if (changed)
     balance(system, stepper);

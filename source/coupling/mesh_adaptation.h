@@ -40,10 +40,13 @@ private:
 
   /// Whether cells may be merged: the model lets them, and nothing but values of the unknowns is
   /// kept in them. Of plastic rock and of waves more is.
-  bool may_merge(const CoupledSystem<dim> &system, Stepper<dim> &stepper) const;
+  bool may_merge(const CoupledSystem<dim> &system, const Stepper<dim> &stepper) const;
 
-  /// Flag, besides what is flagged, cells to be merged; says how many, and returns whether any.
+  /// Flag, besides what is flagged, cells to be merged. Returns whether there are any.
   bool flag_idle_cells(const CoupledSystem<dim> &system, const Stepper<dim> &stepper);
+
+  /// Of all ranks.
+  double number_of_cells_to_be_split() const;
 
   /// Change the mesh, and carry all unknowns over.
   /// @param merges cells, which may have pores

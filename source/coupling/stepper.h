@@ -96,6 +96,12 @@ public:
     return model_wants_setup;
   }
 
+  /// Whether a step's rates are taken from the last state alone.
+  bool starts_from_last_state() const
+  {
+    return scheme.kind() == TimeScheme::Kind::backward_euler;
+  }
+
   /// All bulk vectors that must move with the mesh, and all lists of extra unknowns.
   std::vector<dealii::TrilinosWrappers::MPI::BlockVector *> bulk_vectors();
   std::vector<std::vector<double> *> extra_vectors();
