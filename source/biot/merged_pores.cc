@@ -1,8 +1,9 @@
 #include "biot/merged_pores.h"
 
-#include <deal.II/base/quadrature_lib.h>
+#include "biot/cell_integrals.h"
+#include "exchange/bulk_layout.h"
+
 #include <deal.II/distributed/cell_data_transfer.templates.h>
-#include <deal.II/fe/fe_values.h>
 
 #include <cmath>
 #include <limits>
@@ -11,19 +12,6 @@
 namespace stockwork
 {
 using namespace dealii;
-
-namespace
-{
-/// Evaluates what the content of a cell takes.
-template <int dim>
-FEValues<dim> content_evaluator(const MeshView<dim> &mesh_view)
-{
-  const auto &fe = mesh_view.dof_handler.get_fe();
-  return FEValues<dim>(mesh_view.mapping, fe, QGauss<dim>(fe.base_element(0).degree + 1),
-                       update_values | update_gradients | update_JxW_values);
-}
-} // namespace
-
 
 template <int dim>
 bool MergedPores<dim>::can_take_up(const MeshView<dim> &mesh_view) const
@@ -42,31 +30,28 @@ void MergedPores<dim>::keep_uneven(Mesh &mesh,
                                    const BlockVector &values) const
 {
   const auto &fe = mesh_view.dof_handler.get_fe();
-  const FEValuesExtractors::Scalar pressure(dim);
-  const QTrapezoid<dim> vertices;
-  FEValues<dim> at_vertices(mesh_view.mapping, fe, vertices, update_values);
-  std::vector<double> p(vertices.size());
+  const BulkLayout<dim> layout(fe);
+  constexpr unsigned int n_vertices = GeometryInfo<dim>::vertices_per_cell;
+  Vector<double> dofs(fe.n_dofs_per_cell());
+  const auto pressure = [&](const unsigned int vertex) { return dofs(layout.p[vertex]); };
   double greatest = 0.;
-  // The mean of the parent's corners, and what its middle has: a corner of every child.
   std::vector<std::pair<typename DoFHandler<dim>::cell_iterator, double>> uneven;
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
   {
     if (!cell->is_locally_owned())
       continue;
-    at_vertices.reinit(cell);
-    at_vertices[pressure].get_function_values(values, p);
-    for (const double value : p)
-      greatest = std::max(greatest, std::abs(value));
+    cell->get_dof_values(values, dofs);
+    for (unsigned int v = 0; v < n_vertices; ++v)
+      greatest = std::max(greatest, std::abs(pressure(v)));
     if (!cell->coarsen_flag_set() || cell->parent()->child(0) != cell)
       continue;
-    double mean = 0., middle = 0.;
-    const unsigned int n = cell->parent()->n_children();
-    for (unsigned int c = 0; c < n; ++c)
+    // The middle of the parent is the first child's last vertex; each child has one of its corners.
+    const double middle = pressure(n_vertices - 1);
+    double mean = 0.;
+    for (unsigned int c = 0; c < n_vertices; ++c)
     {
-      at_vertices.reinit(cell->parent()->child(c));
-      at_vertices[pressure].get_function_values(values, p);
-      mean += p[c] / n;
-      middle = p[n - 1 - c];
+      cell->parent()->child(c)->get_dof_values(values, dofs);
+      mean += pressure(c) / n_vertices;
     }
     uneven.emplace_back(cell->parent(), std::abs(mean - middle));
   }
@@ -79,27 +64,24 @@ void MergedPores<dim>::keep_uneven(Mesh &mesh,
 
 
 template <int dim>
-std::vector<double> MergedPores<dim>::contents(const MeshView<dim> &mesh_view,
-                                               const BlockVector &values) const
+double MergedPores<dim>::content(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                 const CellIntegrals<dim> &integrals,
+                                 const BlockVector &values) const
 {
-  std::vector<double> result(mesh_view.triangulation.n_active_cells());
-  FEValues<dim> evaluator = content_evaluator(mesh_view);
-  const FEValuesExtractors::Vector displacement(0);
-  const FEValuesExtractors::Scalar pressure(dim);
-  std::vector<double> p(evaluator.n_quadrature_points), div_u(p.size());
-  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      evaluator.reinit(cell);
-      evaluator[displacement].get_function_divergences(values, div_u);
-      evaluator[pressure].get_function_values(values, p);
-      const RockProperties here = rock.at(cell->material_id(), cell->center());
-      double &content = result[cell->active_cell_index()];
-      for (unsigned int q = 0; q < p.size(); ++q)
-        content +=
-          (here.biot_coefficient * div_u[q] + here.inverse_biot_modulus * p[q]) * evaluator.JxW(q);
-    }
-  return result;
+  const BulkLayout<dim> &layout = integrals.layout;
+  Vector<double> dofs(cell->get_fe().n_dofs_per_cell());
+  cell->get_dof_values(values, dofs);
+  double opening = 0., pressed_in = 0.;
+  for (unsigned int a = 0; a < layout.n_p; ++a)
+  {
+    pressed_in += integrals.pressure_means[a] * dofs(layout.p[a]);
+    for (unsigned int b = 0; b < layout.n_u; ++b)
+      for (unsigned int i = 0; i < dim; ++i)
+        opening += integrals.divergences[(i * layout.n_p + a) * layout.n_u + b] *
+                   dofs(layout.u[b * dim + i]);
+  }
+  const RockProperties here = rock.at(cell->material_id(), cell->center());
+  return here.biot_coefficient * opening + here.inverse_biot_modulus * pressed_in;
 }
 
 
@@ -109,7 +91,14 @@ void MergedPores<dim>::prepare(const Mesh &mesh,
                                const BlockVector &values)
 {
   using Parent = typename Triangulation<dim>::cell_iterator;
-  before = contents(mesh_view, values);
+  CellIntegrals<dim> integrals(mesh_view.mapping, mesh_view.dof_handler.get_fe());
+  before.assign(mesh.n_active_cells(), 0.);
+  for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      integrals.reinit(cell);
+      before[cell->active_cell_index()] = content(cell, integrals, values);
+    }
   transfer =
     std::make_unique<parallel::distributed::CellDataTransfer<dim, dim, std::vector<double>>>(
       mesh, false,
@@ -129,38 +118,31 @@ void MergedPores<dim>::finish(const MeshView<dim> &mesh_view,
                               const BlockVector &conforming,
                               BlockVector &values)
 {
-  const std::vector<double> of_fields = contents(mesh_view, carried_over),
-                            now = contents(mesh_view, conforming);
-  before.assign(now.size(), 0.);
+  before.assign(mesh_view.triangulation.n_active_cells(), 0.);
   transfer->unpack(before);
   transfer.reset();
 
-  FEValues<dim> evaluator = content_evaluator(mesh_view);
-  const FEValuesExtractors::Scalar pressure(dim);
-  const unsigned int n_dofs = evaluator.dofs_per_cell;
-  std::vector<types::global_dof_index> dofs(n_dofs);
-  Vector<double> storage_of_cell(n_dofs), missing_of_cell(n_dofs);
+  const auto &fe = mesh_view.dof_handler.get_fe();
+  CellIntegrals<dim> integrals(mesh_view.mapping, fe);
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  Vector<double> storage_of_cell(dofs.size()), missing_of_cell(dofs.size());
   BlockVector storage = values, missing = values;
   storage = 0.;
   missing = 0.;
   for (const auto &cell : mesh_view.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const unsigned int c = cell->active_cell_index();
-      evaluator.reinit(cell);
+      integrals.reinit(cell);
+      double was = before[cell->active_cell_index()];
+      if (std::isnan(was)) // of a cell that has been split
+        was = content(cell, integrals, carried_over);
       const double inverse_biot_modulus =
         rock.at(cell->material_id(), cell->center()).inverse_biot_modulus;
-      double all = 0.;
-      for (unsigned int i = 0; i < n_dofs; ++i)
-      {
-        storage_of_cell(i) = 0.;
-        for (unsigned int q = 0; q < evaluator.n_quadrature_points; ++q)
-          storage_of_cell(i) +=
-            inverse_biot_modulus * evaluator[pressure].value(i, q) * evaluator.JxW(q);
-        all += storage_of_cell(i);
-      }
-      missing_of_cell = storage_of_cell;
-      missing_of_cell *= ((std::isnan(before[c]) ? of_fields[c] : before[c]) - now[c]) / all;
+      for (unsigned int a = 0; a < integrals.layout.n_p; ++a)
+        storage_of_cell(integrals.layout.p[a]) = inverse_biot_modulus * integrals.pressure_means[a];
+      missing_of_cell.equ((was - content(cell, integrals, conforming)) /
+                            (inverse_biot_modulus * integrals.volume),
+                          storage_of_cell);
       cell->get_dof_indices(dofs);
       mesh_view.constraints.distribute_local_to_global(storage_of_cell, dofs, storage);
       mesh_view.constraints.distribute_local_to_global(missing_of_cell, dofs, missing);

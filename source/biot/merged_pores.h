@@ -7,6 +7,8 @@
 #include "stockwork/mesh/mesh_view.h"
 #include "stockwork/rock/rock.h"
 
+#include "biot/cell_integrals.h"
+
 #include <memory>
 #include <vector>
 
@@ -54,11 +56,13 @@ public:
               BlockVector &values);
 
 private:
-  /// Fluid in the pores of the owned cells, by active cell index [m^3 (/m)].
-  std::vector<double> contents(const MeshView<dim> &mesh_view, const BlockVector &values) const;
+  /// Fluid in the pores of a cell, over in situ [m^3 (/m)].
+  double content(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+                 const CellIntegrals<dim> &integrals,
+                 const BlockVector &values) const;
 
   const Rock &rock;
-  std::vector<double> before; ///< contents() of the old mesh
+  std::vector<double> before; ///< content() of the old mesh's cells
   std::unique_ptr<dealii::parallel::distributed::CellDataTransfer<dim, dim, std::vector<double>>>
     transfer;
 };

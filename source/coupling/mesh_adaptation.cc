@@ -32,16 +32,26 @@ MeshAdaptation<dim>::MeshAdaptation(RunContext &run,
 
 
 template <int dim>
-bool MeshAdaptation<dim>::flag()
+std::vector<float> MeshAdaptation<dim>::wanted_sizes() const
 {
   std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
   model.wanted_cell_size(triangulation, wanted);
+  return wanted;
+}
+
+
+template <int dim>
+bool MeshAdaptation<dim>::flag(const bool merge)
+{
+  std::vector<float> wanted = wanted_sizes();
   if (Utilities::MPI::min(wanted == settled ? 1 : 0, triangulation.get_communicator()) == 1)
     return false;
   settled.clear();
   const bool changes = flag_cells(triangulation, geometry, wanted);
   if (!changes)
     settled = std::move(wanted);
+  else if (merge)
+    flag_cells(triangulation, geometry, wanted, {}, true);
   return changes;
 }
 
@@ -58,26 +68,10 @@ bool MeshAdaptation<dim>::may_merge(const CoupledSystem<dim> &system,
 
 
 template <int dim>
-bool MeshAdaptation<dim>::flag_idle_cells(const CoupledSystem<dim> &system,
-                                          const Stepper<dim> &stepper)
-{
-  std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
-  model.wanted_cell_size(triangulation, wanted);
-  flag_cells(triangulation, geometry, wanted, {}, true);
-  if (system.mesh_view().has_pore_pressure)
-    pores.keep_uneven(triangulation, system.mesh_view(), stepper.committed.bulk);
-  bool any = false;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    any = any || (cell->is_locally_owned() && cell->coarsen_flag_set());
-  return Utilities::MPI::max(any ? 1 : 0, run.communicator) == 1;
-}
-
-
-template <int dim>
 void MeshAdaptation<dim>::refine_initial_mesh()
 {
   refuse_tiny_cells();
-  while (flag())
+  while (flag(false))
   {
     refuse_too_many_cells(triangulation, max_cells,
                           "unless the fracture model's wanted cell size is a mistake");
@@ -91,8 +85,7 @@ void MeshAdaptation<dim>::refine_initial_mesh()
 template <int dim>
 void MeshAdaptation<dim>::refuse_tiny_cells() const
 {
-  std::vector<float> wanted(triangulation.n_active_cells(), std::numeric_limits<float>::infinity());
-  model.wanted_cell_size(triangulation, wanted);
+  const std::vector<float> wanted = wanted_sizes();
   // At least a row of small cells crosses each large one that is to be split; one in four of them
   // may be touched at a corner only.
   double n_cells = 0.;
@@ -166,9 +159,12 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
   {
     // The first is the last state, from which the next step's content is counted.
     const bool gives_back = merges_pores && i == 0;
-    auto carried_over = system.ghosted_vector();
+    TrilinosWrappers::MPI::BlockVector carried_over;
     if (gives_back)
+    {
+      carried_over = system.ghosted_vector();
       carried_over = after[i];
+    }
     system.make_conforming(after[i]);
     *vectors[i] = system.ghosted_vector();
     *vectors[i] = after[i];
@@ -184,38 +180,42 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
 
 
 template <int dim>
-double MeshAdaptation<dim>::number_of_cells_to_be_split() const
+std::pair<unsigned int, unsigned int> MeshAdaptation<dim>::flagged() const
 {
-  unsigned int n = 0;
+  unsigned int n_split = 0, n_merged = 0;
   for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->refine_flag_set())
-      ++n;
-  return Utilities::MPI::sum(n, run.communicator);
+    if (cell->is_locally_owned())
+    {
+      n_split += cell->refine_flag_set();
+      n_merged += cell->coarsen_flag_set();
+    }
+  return {Utilities::MPI::sum(n_split, run.communicator),
+          Utilities::MPI::sum(n_merged, run.communicator)};
 }
 
 
 template <int dim>
 bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper)
 {
-  bool changed = false, wanted = stepper.wants_setup();
-  while (flag() || wanted)
+  bool changed = false, wanted = stepper.wants_setup(), merge = may_merge(system, stepper);
+  while (flag(merge) || wanted)
   {
-    // In every pass, cells on the rim of what is wanted could be split and merged by turns.
-    const bool merges = !changed && may_merge(system, stepper) && flag_idle_cells(system, stepper);
-    changed = true;
-    wanted = false;
+    if (merge && system.mesh_view().has_pore_pressure)
+      pores.keep_uneven(triangulation, system.mesh_view(), stepper.committed.bulk);
     triangulation.prepare_coarsening_and_refinement();
-    const double n_split = merges ? number_of_cells_to_be_split() : 0.,
-                 n_before = triangulation.n_global_active_cells();
-    change(system, stepper, merges,
+    const auto [n_to_split, n_to_merge] = flagged();
+    const double n_before = triangulation.n_global_active_cells();
+    change(system, stepper, n_to_merge > 0,
            [this]() { triangulation.execute_coarsening_and_refinement(); });
     // Flagged cells stay where neighbours would be two levels smaller.
     const double n_children = GeometryInfo<dim>::max_children_per_cell,
-                 n_merged =
-                   n_split - (triangulation.n_global_active_cells() - n_before) / (n_children - 1.);
-    if (merges && n_merged > 0.)
+                 n_merged = n_to_split -
+                            (triangulation.n_global_active_cells() - n_before) / (n_children - 1.);
+    if (n_to_merge > 0 && n_merged > 0.)
       run.out << "  " << n_children * n_merged
               << " small cells away from the front and the cracks are merged" << std::endl;
+    changed = true;
+    wanted = merge = false; // in every pass, cells could be split and merged by turns
   }
   if (changed)
     balance(system, stepper);

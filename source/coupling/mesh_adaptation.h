@@ -3,6 +3,8 @@
 #include <deal.II/distributed/tria.h>
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "biot/merged_pores.h"
 #include "coupling/stepper.h"
@@ -35,18 +37,19 @@ public:
   bool adapt(CoupledSystem<dim> &system, Stepper<dim> &stepper);
 
 private:
-  /// Set flags of cells to be split; is there anything to do?
-  bool flag();
+  /// What the model wants, by active cell index [m].
+  std::vector<float> wanted_sizes() const;
+
+  /// Set flags of cells to be split; is there anything to do? If so and asked to, flag cells that
+  /// nothing wants small to be merged.
+  bool flag(bool merge);
 
   /// Whether cells may be merged: the model lets them, and nothing but values of the unknowns is
   /// kept in them. Of plastic rock and of waves more is.
   bool may_merge(const CoupledSystem<dim> &system, const Stepper<dim> &stepper) const;
 
-  /// Flag, besides what is flagged, cells to be merged. Returns whether there are any.
-  bool flag_idle_cells(const CoupledSystem<dim> &system, const Stepper<dim> &stepper);
-
-  /// Of all ranks.
-  double number_of_cells_to_be_split() const;
+  /// Cells that are flagged to be split and to be merged, of all ranks.
+  std::pair<unsigned int, unsigned int> flagged() const;
 
   /// Change the mesh, and carry all unknowns over.
   /// @param merges cells, which may have pores

@@ -188,12 +188,12 @@ set(merged SET "Resolution=coarse" "Time/End time=6 s" "Output/Fields=false" "Ve
   "Rock/Bulk model=poroelastic" "Rock/Biot coefficient=0.8" "Rock/Biot modulus=20 GPa" "Rock/Permeability=1e-20 m^2"
   "Fracture flow/Leak-off=resolved" "Discretisation/Elements=Q1-Q1 stabilised")
 stockwork_case_test(NAME convergence/damage/merged DECK prm/kgd/toughness/damage.prm ${merged}
-  EXPECT "cells < 1527" "final/fracture_length = 4.25 within 1e-6" "final/inlet_aperture = 1.14383e-4 within 0.002"
-         "final/inlet_pressure = 346834 within 0.002"
+  EXPECT "cells < 1527" "final/fracture_length = 4.25 within 1e-6" "final/inlet_aperture = 1.14383e-4 within 0.001" # 0.0007
+         "final/inlet_pressure = 346834 within 0.0005" # 0.0002
          "final/fluid_volume_defect < 1e-16" "final/fluid_volume_defect > -1e-16") # 7e-19, of 3e-4 injected
-stockwork_same_test(NAME parallel/damage/merged DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-7 ${merged}
+stockwork_same_test(NAME parallel/damage/merged DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8 ${merged}
   IGNORE "balance_error")
-stockwork_restart_test(NAME restart/damage/merged DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-7 AFTER 20 ${merged}
+stockwork_restart_test(NAME restart/damage/merged DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 20 ${merged}
   IGNORE "balance_error")
 # The same in three dimensions, where cells are refined ahead of the front and shared out anew.
 foreach(ranks 2 4)

@@ -166,15 +166,18 @@ TEST_CASE_TEMPLATE("cells that are merged keep the fluid in their pores",
   const auto n_before = kept.triangulation.n_global_active_cells();
   lost.merge(false);
   kept.merge(true);
-  CHECK(kept.triangulation.n_global_active_cells() != n_before);
+  // Half of them are an eighth (a quarter in the plane) of their number, a quarter eight times
+  // (four).
+  CHECK(kept.triangulation.n_global_active_cells() ==
+        n_before / 2 / (1 << dim) + n_before / 4 * (1 << dim) + n_before / 4);
   // Without, some of it is lost; and the pressures are shifted by little.
-  CHECK(std::abs(lost.content() - before) > 1e-6 * before);
-  CHECK(kept.content() == doctest::Approx(before).epsilon(1e-13));
+  CHECK(std::abs(lost.content() - before) > 1e-3 * before); // 1.6e-3
+  CHECK(kept.content() == doctest::Approx(before).epsilon(5e-13));
   auto shift = kept.owned;
   shift -= lost.owned;
   CHECK(shift.block(0).linfty_norm() == 0.);
   CHECK(shift.block(1).linfty_norm() > 0.);
-  CHECK(shift.block(1).linfty_norm() < 0.03 * greatest);
+  CHECK(shift.block(1).linfty_norm() < 0.003 * greatest); // 0.0016
 }
 
 TEST_CASE("families stay apart where the pore pressure is far from linear")
