@@ -344,9 +344,11 @@ def _interrupt(runner, options):
     """The first part of the run; true if it stopped before the end of the straight one."""
     command = runner.command("restarted", options.deck, [*options.set, *options.interrupt_set],
                              options.ranks_pair[0])
+    # The table of an attempt before would be taken for that of this one.
+    shutil.rmtree(runner.output("restarted"), ignore_errors=True)
     process = runner.start("restarted", command)
     if options.interrupt_after:
-        _terminate_after(runner, process, "restarted", options.interrupt_after)
+        _terminate_after(runner, process, "restarted", options.interrupt_after, options.ranks_pair[0])
     status = runner.wait(process, command)
     steps = _steps_of(runner, "restarted")
     print(f"  interrupted: exit status {status}, {steps} steps")
@@ -377,14 +379,26 @@ def _processes_of(program, launcher):
     return [int(pid) for pid, _, command in rows if command == name and descends(int(pid))]
 
 
-def _terminate_after(runner, process, name, steps):
+def _terminate_after(runner, process, name, steps, ranks):
     """SIGTERM once the statistics hold `steps` rows."""
+    rank = process.pid if ranks == 1 else None
     while process.poll() is None:
-        if _steps_of(runner, name) >= steps:
-            # To one rank, not to mpirun, which would end all of them at once.
-            ranks = _processes_of(runner.program, process.pid)
-            os.kill(ranks[0] if ranks else process.pid, signal.SIGTERM)
-            return
+        if rank is None and _steps_of(runner, name) > 0:
+            # To one rank, not to mpirun, which would end all of them at once. Found early, for that takes as long as
+            # some steps of a short run.
+            rank = next(iter(_processes_of(runner.program, process.pid)), None)
+        if rank is not None:
+            try:
+                # The run waits while its table is read.
+                os.kill(rank, signal.SIGSTOP)
+                done = _steps_of(runner, name) >= steps
+                if done:
+                    os.kill(rank, signal.SIGTERM)
+                os.kill(rank, signal.SIGCONT)
+            except ProcessLookupError:  # it has ended
+                return
+            if done:
+                return
         time.sleep(0.01)
 
 
@@ -427,7 +441,7 @@ def run_steps(runner, options):
     process = runner.start("run", command)
     deadline = threading.Timer(runner.timeout, process.kill)
     deadline.start()
-    _terminate_after(runner, process, "run", options.steps)
+    _terminate_after(runner, process, "run", options.steps, options.ranks)
     status = runner.wait(process, command)
     deadline.cancel()
     print(f"  run: {time.time() - started:.1f} s, exit status {status}")
