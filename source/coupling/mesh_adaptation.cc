@@ -71,12 +71,16 @@ template <int dim>
 void MeshAdaptation<dim>::refine_initial_mesh()
 {
   refuse_tiny_cells();
+  bool changed = false;
   while (flag(false))
   {
+    changed = true;
     refuse_too_many_cells(triangulation, max_cells,
                           "unless the fracture model's wanted cell size is a mistake");
     triangulation.execute_coarsening_and_refinement();
   }
+  if (!changed)
+    return; // as Geometry::create() has shared the cells out
   share_out(triangulation);
   settled.clear(); // cells may be others' now
 }

@@ -120,14 +120,28 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
 {
   owned.assign(segments.begin(), segments.end());
 
-  std::vector<NetworkSegment<dim>> mine;
+  std::vector<SegmentNumbers<dim>> numbers;
+  std::vector<typename Segment<dim>::Neighbour> neighbours; // one array is sent faster than many
   for (const Segment<dim> &segment : owned)
-    mine.push_back({segment.key, segment.centre, segment.normal, segment.area,
-                    segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
-                    segment.region, segment.pore_distance, segment.has_pressure_of_pores,
-                    segment.share_of_pores, segment.bare_aperture, segment.propped_conductivity,
-                    collectives.rank(), segment.at_tip, segment.neighbours});
-  network = collectives.gather(mine);
+  {
+    numbers.push_back({segment.key, segment.centre, segment.normal, segment.area,
+                       segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
+                       segment.region, segment.pore_distance, segment.has_pressure_of_pores,
+                       segment.share_of_pores, segment.bare_aperture, segment.propped_conductivity,
+                       collectives.rank(), segment.at_tip,
+                       static_cast<unsigned int>(segment.neighbours.size())});
+    neighbours.insert(neighbours.end(), segment.neighbours.begin(), segment.neighbours.end());
+  }
+  numbers = collectives.gather(numbers);
+  neighbours = collectives.gather(neighbours);
+  network.clear();
+  auto begin = neighbours.cbegin();
+  for (const SegmentNumbers<dim> &segment : numbers)
+  {
+    const auto end = begin + segment.n_neighbours;
+    network.push_back({segment, {begin, end}, 0.});
+    begin = end;
+  }
   std::stable_sort(network.begin(), network.end(),
                    [](const auto &a, const auto &b) { return a.key < b.key; });
   // Of a segment that several ranks have parts of, the first is the owner.

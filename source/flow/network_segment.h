@@ -10,7 +10,7 @@ namespace stockwork
 {
 /// What every rank knows of a segment: all but the functionals, which stay with the owner.
 template <int dim>
-struct NetworkSegment
+struct SegmentNumbers
 {
   std::uint64_t key = 0;
   dealii::Point<dim> centre;
@@ -26,21 +26,20 @@ struct NetworkSegment
   double propped_conductivity = 0.;   ///< see Segment [m^3]
   unsigned int owner = 0;             ///< rank
   bool at_tip = false;
+  unsigned int n_neighbours = 0;
+};
+
+/// The same, with its neighbours.
+template <int dim>
+struct NetworkSegment : SegmentNumbers<dim>
+{
   std::vector<typename Segment<dim>::Neighbour> neighbours;
   double initial_pressure = 0.; ///< from which an unknown pressure starts [Pa]; not gathered
 
   /// Length of the segment; in 3-D the side of the square of its area [m].
   double size() const
   {
-    return dim == 2 ? area : std::sqrt(area);
-  }
-
-  template <class Archive>
-  void serialize(Archive &ar, const unsigned int)
-  {
-    ar &key &centre &normal &area &in_situ_pore_pressure &rock_has_pore_pressure &region
-      &pore_distance &has_pressure_of_pores &share_of_pores &bare_aperture &propped_conductivity
-        &owner &at_tip &neighbours;
+    return dim == 2 ? this->area : std::sqrt(this->area);
   }
 };
 

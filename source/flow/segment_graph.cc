@@ -3,9 +3,9 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
-#include <map>
 #include <queue>
 #include <set>
+#include <unordered_map>
 
 namespace stockwork
 {
@@ -23,13 +23,16 @@ using Adjacency = std::vector<std::vector<unsigned int>>;
 
 Adjacency adjacency_of(const std::vector<NetworkSegment<2>> &network)
 {
-  std::map<std::uint64_t, unsigned int> index;
+  std::unordered_map<std::uint64_t, unsigned int> index;
   for (unsigned int i = 0; i < network.size(); ++i)
     index[network[i].key] = i;
   Adjacency adjacency(network.size());
   for (unsigned int i = 0; i < network.size(); ++i)
+  {
+    adjacency[i].reserve(network[i].neighbours.size());
     for (const auto &neighbour : network[i].neighbours)
       adjacency[i].push_back(index.at(neighbour.key));
+  }
   return adjacency;
 }
 
@@ -74,29 +77,34 @@ Pieces pieces_of(const std::vector<double> &distance,
                  const Adjacency &adjacency,
                  std::vector<bool> &visited)
 {
+  constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
   const auto level = [&](const unsigned int i) { return static_cast<int>(distance[i] / length); };
   Pieces pieces;
-  std::map<unsigned int, unsigned int> piece_of;
+  std::vector<unsigned int> piece_of(distance.size(), none);
   for (unsigned int start = 0; start < distance.size(); ++start)
   {
-    if (!std::isfinite(distance[start]) || piece_of.count(start) != 0)
+    if (!std::isfinite(distance[start]) || piece_of[start] != none)
       continue;
     std::vector<unsigned int> members{start};
     piece_of[start] = pieces.segments.size();
     for (unsigned int k = 0; k < members.size(); ++k)
       for (const unsigned int j : adjacency[members[k]])
-        if (level(j) == level(start) && piece_of.emplace(j, pieces.segments.size()).second)
+        if (piece_of[j] == none && level(j) == level(start))
+        {
+          piece_of[j] = pieces.segments.size();
           members.push_back(j);
+        }
     pieces.segments.push_back(members);
   }
   pieces.neighbours.resize(pieces.segments.size());
-  for (const auto &[i, piece] : piece_of)
-  {
-    visited[i] = true;
-    for (const unsigned int j : adjacency[i])
-      if (piece_of.at(j) != piece)
-        pieces.neighbours[piece].insert(piece_of.at(j));
-  }
+  for (unsigned int piece = 0; piece < pieces.segments.size(); ++piece)
+    for (const unsigned int i : pieces.segments[piece])
+    {
+      visited[i] = true;
+      for (const unsigned int j : adjacency[i])
+        if (piece_of[j] != piece)
+          pieces.neighbours[piece].insert(piece_of[j]);
+    }
   return pieces;
 }
 

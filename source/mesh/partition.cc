@@ -10,11 +10,33 @@ namespace stockwork
 {
 using namespace dealii;
 
+namespace
+{
+/// Whether these are coarse cells and each rank has its even part of them, as when they are made.
+/// (Of refined ones, p4est keeps those of a parent together.) Collective.
+template <int dim>
+bool is_even(const parallel::distributed::Triangulation<dim> &triangulation)
+{
+  const MPI_Comm communicator = triangulation.get_communicator();
+  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator),
+                     rank = Utilities::MPI::this_mpi_process(communicator);
+  const auto first = [&](const unsigned int of_rank)
+  { return triangulation.n_global_active_cells() * of_rank / n_ranks; };
+  const bool mine = triangulation.n_locally_owned_active_cells() == first(rank + 1) - first(rank);
+  return triangulation.n_global_levels() == 1 &&
+         Utilities::MPI::min(mine ? 1 : 0, communicator) == 1;
+}
+} // namespace
+
+
 template <int dim>
 void share_out(parallel::distributed::Triangulation<dim> &triangulation)
 {
-  triangulation.repartition();
-  if (dim < 3 || Utilities::MPI::n_mpi_processes(triangulation.get_communicator()) == 1)
+  if (Utilities::MPI::n_mpi_processes(triangulation.get_communicator()) == 1)
+    return;
+  if (!is_even(triangulation)) // to make the mesh anew takes long
+    triangulation.repartition();
+  if (dim < 3)
     return;
 
   // A cell weighs what cells of its rank own on average, of the nodes of quadratic elements.

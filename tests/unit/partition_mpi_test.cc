@@ -10,6 +10,32 @@ namespace stockwork::partition_test
 {
 using namespace dealii;
 
+TEST_CASE("Coarse cells stay where they were made, refined ones are shared out anew")
+{
+  parallel::distributed::Triangulation<2> triangulation(
+    MPI_COMM_WORLD, Triangulation<2>::limit_level_difference_at_vertices,
+    parallel::distributed::Triangulation<2>::no_automatic_repartitioning);
+  GridGenerator::subdivided_hyper_rectangle(triangulation, {7, 9}, {0., 0.}, {7., 9.});
+  unsigned int n_times = 0;
+  triangulation.signals.post_distributed_repartition.connect([&n_times]() { ++n_times; });
+  const auto distance_from_even = [&]()
+  {
+    const double even = static_cast<double>(triangulation.n_global_active_cells()) /
+                        Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    return Utilities::MPI::max(std::abs(triangulation.n_locally_owned_active_cells() - even),
+                               MPI_COMM_WORLD);
+  };
+  share_out(triangulation);
+  CHECK(n_times == 0);
+  CHECK(distance_from_even() < 1.);
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->center()[1] < 3.)
+      cell->set_refine_flag();
+  triangulation.execute_coarsening_and_refinement();
+  share_out(triangulation);
+  CHECK(distance_from_even() <= 4.); // children of a parent stay together
+}
+
 TEST_CASE("ranks have as much work as one another where some cells are more of it")
 {
   parallel::distributed::Triangulation<3> triangulation(

@@ -20,13 +20,13 @@ namespace
 template <int dim>
 struct Lattice
 {
-  Lattice()
+  explicit Lattice(const unsigned int row = 23)
     : stencil(horizon_stencil<dim>(2, VolumeRule::exact))
     , law(bond_based_law<dim>(lattice_rock(0.25), stencil, spacing))
     , bonds(bond_coefficients(stencil, law, spacing))
   {
     box.size.fill(11);
-    box.size[0] = 23;
+    box.size[0] = row;
     for (const StencilBond<dim> &bond : stencil)
       strides.push_back(box.stride(bond.offset));
     for (unsigned int d = 0; d < dim; ++d)
@@ -65,6 +65,56 @@ struct Lattice
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 } // namespace
+
+TEST_CASE_TEMPLATE("Rows of any length are swept as their sites are one by one",
+                   Dim,
+                   std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+  constexpr int dim = Dim::value;
+  Lattice<dim> lattice(48);
+  BondForces<dim> kernel(lattice.box, lattice.stencil, lattice.law, lattice.spacing);
+  std::array<int, dim> corner;
+  corner.fill(2);
+  const std::size_t first = lattice.box.stride(corner);
+  constexpr double limit = 3.5; // some are beyond
+  struct Result
+  {
+    LatticeField<dim> force;
+    std::vector<double> energy;
+    std::vector<std::size_t> stretched;
+  };
+  const auto sweep = [&](const std::vector<typename BondForces<dim>::Span> &spans)
+  {
+    Result result{lattice.force, std::vector<double>(lattice.box.n_sites()), {}};
+    kernel.sweep_only(spans);
+    kernel.evaluate(lattice.u, result.force, limit, &result.stretched);
+    kernel.energies(lattice.u, result.energy);
+    auto &sites = result.stretched;
+    std::sort(sites.begin(), sites.end());
+    sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+    return result;
+  };
+  std::vector<typename BondForces<dim>::Span> alone;
+  for (unsigned int length = 1; length <= 44; ++length)
+  {
+    CAPTURE(length);
+    alone.push_back({first + length - 1, 1});
+    const Result expected = sweep(alone), in_a_row = sweep({{first, length}});
+    CHECK(in_a_row.stretched == expected.stretched);
+    double off = 0., of_energy = 0.; // beside the row, too
+    for (std::size_t i = 0; i < lattice.box.n_sites(); ++i)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        off = std::max(off, std::abs(in_a_row.force[d][i] - expected.force[d][i]));
+      of_energy = std::max(of_energy, std::abs(in_a_row.energy[i] - expected.energy[i]));
+    }
+    CHECK(off < 1e-13 * lattice.bonds.front().stiffness);
+    CHECK(of_energy < 1e-13 * lattice.bonds.front().stiffness);
+    if (length == 44)
+      CHECK(!expected.stretched.empty());
+  }
+}
 
 TEST_CASE_TEMPLATE("Where all bonds are those of the lattice, forces and energies are the kernel's",
                    Dim,

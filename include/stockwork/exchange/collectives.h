@@ -43,25 +43,31 @@ public:
     return dealii::Utilities::MPI::this_mpi_process(communicator);
   }
 
-  /// Everyone's objects, in the order of the ranks. T needs boost serialization.
+  /// Everyone's objects, in the order of the ranks. T needs boost serialization, unless its bytes
+  /// are all that it is.
   template <class T>
   std::vector<T> gather(const std::vector<T> &mine) const
   {
     if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
       return mine;
-    std::vector<std::size_t> ends;
-    const std::vector<char> bytes =
-      all_gather(communicator, dealii::Utilities::pack(mine, false), &ends);
-    std::vector<T> all;
-    auto begin = bytes.begin();
-    for (const std::size_t end : ends)
+    if constexpr (std::is_trivially_copyable<T>::value)
+      return all_gather(communicator, mine);
+    else
     {
-      const auto part =
-        dealii::Utilities::unpack<std::vector<T>>(begin, bytes.begin() + end, false);
-      all.insert(all.end(), part.begin(), part.end());
-      begin = bytes.begin() + end;
+      std::vector<std::size_t> ends;
+      const std::vector<char> bytes =
+        all_gather(communicator, dealii::Utilities::pack(mine, false), &ends);
+      std::vector<T> all;
+      auto begin = bytes.begin();
+      for (const std::size_t end : ends)
+      {
+        const auto part =
+          dealii::Utilities::unpack<std::vector<T>>(begin, bytes.begin() + end, false);
+        all.insert(all.end(), part.begin(), part.end());
+        begin = bytes.begin() + end;
+      }
+      return all;
     }
-    return all;
   }
 
 private:

@@ -158,8 +158,12 @@ void BondForces<dim>::for_each_block_of(const Span &row,
   unsigned int x = 0;
   for (; x + sweep_width <= row.length; x += sweep_width)
     wide(row.first + x);
-  for (; x < row.length; ++x)
-    narrow(row.first + x);
+  // A block that sees some sites twice takes less time than sites one by one.
+  if (x > 0 && x < row.length)
+    wide(row.first + row.length - sweep_width);
+  else
+    for (; x < row.length; ++x)
+      narrow(row.first + x);
 }
 
 // Opposite bonds have opposite directions: what is even in the direction (force of the bond's own

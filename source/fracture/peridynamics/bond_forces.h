@@ -65,7 +65,8 @@ public:
   }
 
   /// The force on each site, all bonds whole; bond-based.
-  /// @param stretched becomes the sites that have a bond stretched beyond @p limit; may be null
+  /// @param stretched becomes the sites that have a bond stretched beyond @p limit, some of them
+  /// twice; may be null
   void evaluate(const LatticeField<dim> &u,
                 LatticeField<dim> &force,
                 double limit,
@@ -120,7 +121,8 @@ private:
                     const std::size_t first,
                     std::vector<double> &energy) const;
 
-  /// Call @p wide(site) for blocks of sites and @p narrow(site) for what is left of a row.
+  /// Call @p wide(site) for blocks of sites and @p narrow(site) for those of a row shorter than a
+  /// block. Some sites are in two blocks.
   template <typename Wide, typename Narrow>
   void for_each_block(const unsigned int margin, const Wide &wide, const Narrow &narrow) const;
 
