@@ -9,13 +9,16 @@
 from its checkpoint. `plot` prints the zone's direction and shape, the stages, and draws the counterparts of
 the paper's Figures 6 to 11 and 13 to 15 into DIR. `seeds` runs as many rocks to the end of the second stage,
 that in which the pressure falls after breakdown, and prints mean and scatter of the breakdown pressure and of the
-half-length. Results are in DIR/<resolution>/<angle> and DIR/<resolution>/seeds/<angle>/<seed>.
+half-length; a rock counts in what it has come to by --end. Results are in DIR/<resolution>/<angle> and
+DIR/<resolution>/seeds/<angle>/<seed>.
 """
 import argparse
 import math
 import os
 import statistics
 import sys
+
+import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..")
@@ -53,7 +56,9 @@ def plot(options):
         height, length = (high - low)[there].max(), edges[-1] - edges[0]
         print(f"theta {one.angle:g}: to {time:.4g} s; zone at {found.direction():.1f} degrees, {length:.4g} m long, "
               f"{height:.4g} m high, its section {area / (math.pi / 4. * height * length):.2f} of an ellipse's")
-        print(f"  stages II, III, IV begin at {', '.join(f'{t:.3g}' for t in one.stages())} s; "
+        begin = "; ".join(f"stage {name} begins at {t:.3g} s" if t == t else f"stage {name} has not begun"
+                          for name, t in zip(figures.STAGES[1:], one.stages()))
+        print(f"  {begin}; "
               f"breakdown {1e-6 * one.pressure[one.breakdown()]:.3f} MPa, at the end {1e-6 * one.pressure[-1]:.3f} MPa, "
               f"{1e3 * one.width[-1]:.3g} mm, half-length {one.half_length[-1]:.4g} m")
     folder = os.path.join(options.output, options.resolution)
@@ -66,7 +71,7 @@ def plot(options):
 
 
 def seeds(options):
-    values, failed = [], 0
+    breakdown, ends, failed = [], [], 0
     for seed in range(1, options.n + 1):
         directory = os.path.join(options.output, options.resolution, "seeds", str(options.angle), str(seed))
         settings = [f"Rock/Random field/Seed={seed}", f"Time/End time={options.end} s", "Output/Fields=false"]
@@ -75,16 +80,28 @@ def seeds(options):
             continue
         one = figures.Run(directory, options.angle)
         peak, fallen, _ = one.stages()
-        values.append((1e-6 * one.pressure[one.breakdown()], 1e-6 * float(one.pressure[one.time == fallen][0]),
-                       float(one.half_length[one.time == fallen][0]), fallen))
-        print(f"  seed {seed}: breakdown {values[-1][0]:.4f} MPa at {peak:.3g} s, fallen to {values[-1][1]:.4f} MPa at "
-              f"{fallen:.3g} s, half-length then {values[-1][2]:.4g} m", flush=True)
-    for name, unit, column in zip(("breakdown pressure", "pressure it falls to", "half-length at the end of stage II",
-                                   "end of stage II"), ("MPa", "MPa", "m", "s"), zip(*values)):
-        scatter = statistics.stdev(column) if len(column) > 1 else math.nan
-        print(f"{name}: mean {statistics.mean(column):.4g} {unit}, standard deviation {scatter:.2g} {unit}, "
-              f"{len(column)} rocks")
-    return 1 if failed else 0
+        if math.isnan(peak):
+            print(f"  seed {seed}: no breakdown by {one.time[-1]:.3g} s ('--end')", flush=True)
+            continue
+        breakdown.append(1e-6 * one.pressure[one.breakdown()])
+        print(f"  seed {seed}: breakdown {breakdown[-1]:.4f} MPa at {peak:.3g} s, ", end="")
+        if math.isnan(fallen):
+            print(f"and no end of the fall by {one.time[-1]:.3g} s ('--end')", flush=True)
+            continue
+        end = int(np.flatnonzero(one.time == fallen)[0])
+        ends.append((1e-6 * one.pressure[end], one.half_length[end], fallen))
+        print(f"fallen to {ends[-1][0]:.4f} MPa at {fallen:.3g} s, half-length then {ends[-1][1]:.4g} m", flush=True)
+    fall = list(zip(*ends)) or [(), (), ()]
+    for name, unit, column in (("breakdown pressure", "MPa", breakdown), ("pressure it falls to", "MPa", fall[0]),
+                               ("half-length at the end of stage II", "m", fall[1]),
+                               ("end of stage II", "s", fall[2])):
+        if column:
+            scatter = f"standard deviation {statistics.stdev(column):.2g} {unit}, " if len(column) > 1 else ""
+            print(f"{name}: mean {statistics.mean(column):.4g} {unit}, {scatter}"
+                  f"{len(column)} of {options.n} rocks")
+        else:
+            print(f"{name}: in none of {options.n} rocks")
+    return 0 if ends and not failed else 1
 
 
 def main():

@@ -84,21 +84,32 @@ class Zone(unittest.TestCase):
 
 
 class Stages(unittest.TestCase):
-    def test_pressure_of_four_stages(self):
-        """Up to 1 s, down to 3 s, then slowly up; the fracture stays from 60 s on."""
-        time = np.concatenate([np.linspace(0.1, 10., 100), np.linspace(11., 100., 90)])
-        pressure = np.interp(time, [0., 1., 3., 60., 100.], [7e6, 9e6, 8e6, 8.5e6, 8.4e6])
+    @staticmethod
+    def stages(time, pressure, half_length):
         with tempfile.TemporaryDirectory() as directory:
             with open(os.path.join(directory, "statistics.csv"), "w", encoding="utf-8", newline="") as file:
                 rows = csv.writer(file)
                 rows.writerow(["time", "inlet_pressure", "inlet_aperture", "extent_x", "extent_y"])
-                for t, p in zip(time, pressure):
-                    rows.writerow([t, p, 1e-3, 2. * min(t, 60.), 0.])
-            run = figures.Run(directory, 0)
-        peak, end, stays = run.stages()
+                for t, p, length in zip(time, pressure, half_length):
+                    rows.writerow([t, p, 1e-3, 2. * length, 0.])
+            return figures.Run(directory, 0).stages()
+
+    def test_pressure_of_four_stages(self):
+        """Up to 1 s, down to 3 s, then slowly up; the fracture stays from 60 s on."""
+        time = np.concatenate([np.linspace(0.1, 10., 100), np.linspace(11., 100., 90)])
+        pressure = np.interp(time, [0., 1., 3., 60., 100.], [7e6, 9e6, 8e6, 8.5e6, 8.4e6])
+        peak, end, stays = self.stages(time, pressure, np.minimum(time, 60.))
         self.assertAlmostEqual(peak, 1., delta=0.11)
         self.assertAlmostEqual(end, 3., delta=0.11)
         self.assertAlmostEqual(stays, 60., delta=1.1)
+
+    def test_what_has_not_come_is_not_a_number(self):
+        """Cut short while the pressure rises, before anything has grown, and while it falls."""
+        rising = self.stages([0.1, 0.2], [7e6, 8e6], [5., 5.])
+        self.assertTrue(all(math.isnan(t) for t in rising), rising)
+        falling = self.stages([0.5, 1., 2., 2.5], [8e6, 9e6, 8.4e6, 8.2e6], [5., 5., 6., 7.])
+        self.assertEqual(falling[0], 1.)
+        self.assertTrue(math.isnan(falling[1]), falling)
 
 
 if __name__ == "__main__":
