@@ -207,6 +207,7 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
     if (merge && system.mesh_view().has_pore_pressure)
       pores.keep_uneven(triangulation, system.mesh_view(), stepper.committed.bulk);
     triangulation.prepare_coarsening_and_refinement();
+    warn_of_moving_borders();
     const auto [n_to_split, n_to_merge] = flagged();
     const double n_before = triangulation.n_global_active_cells();
     change(system, stepper, n_to_merge > 0,
@@ -224,6 +225,31 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
   if (changed)
     balance(system, stepper);
   return changed;
+}
+
+
+template <int dim>
+void MeshAdaptation<dim>::warn_of_moving_borders() const
+{
+  for (const std::string &name : geometry.region_names())
+  {
+    const types::material_id region = geometry.region(name);
+    bool moves = false;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->refine_flag_set())
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          const Point<dim> centre_of_child =
+            cell->center() + 0.5 * (cell->vertex(v) - cell->center());
+          moves |= (geometry.region_at(cell, centre_of_child) == region) !=
+                   (cell->material_id() == region);
+        }
+    if (Utilities::MPI::max(moves ? 1 : 0, run.communicator) == 1)
+      run.warn("The border of region '" + name +
+               "' ('Mesh/Region boxes') passes through cells that are split, and moves: the rock "
+               "there, and the fluid in its pores, becomes another. A border on lines of the given "
+               "mesh stays.");
+  }
 }
 
 

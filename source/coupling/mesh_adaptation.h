@@ -60,6 +60,11 @@ private:
 
   void balance(CoupledSystem<dim> &system, Stepper<dim> &stepper);
 
+  /// Say of regions whose border passes through cells that are flagged to be split that it moves:
+  /// the rock there becomes another, whose pores hold something else at the same pressure and
+  /// strain. Collective.
+  void warn_of_moving_borders() const;
+
   /// Before any cell is made: a size that is a slip of the pen.
   void refuse_tiny_cells() const;
 

@@ -47,6 +47,11 @@ public:
   /// not bring it back.
   bool splits(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
 
+  /// Region of a cell with this centre that descends from the same coarse one as @p cell.
+  dealii::types::material_id
+  region_at(const typename dealii::Triangulation<dim>::cell_iterator &cell,
+            const dealii::Point<dim> &centre) const;
+
   /// The map from the unit cell that fits the shape: Cartesian for boxes, quadratic where the
   /// boundary is curved.
   std::unique_ptr<dealii::Mapping<dim>> mapping() const;

@@ -195,6 +195,15 @@ stockwork_same_test(NAME parallel/damage/merged DECK prm/kgd/toughness/damage.pr
   IGNORE "balance_error")
 stockwork_restart_test(NAME restart/damage/merged DECK prm/kgd/toughness/damage.prm RANKS 1,2 TOLERANCE 1e-8 AFTER 20 ${merged}
   IGNORE "balance_error")
+# A border of a region moves with the cells that it passes through when they are split; it does not on lines of the mesh.
+set(seam DECK prm/kgd/toughness/damage.prm LABELS quick)
+set(of_seam "Resolution=coarse" "Time/End time=2 s" "Output/Fields=false" "Verification/Reference=none"
+  "Rock/Region 1/Young modulus=20 GPa")
+stockwork_case_test(NAME convergence/damage/moving_border ${seam}
+  SET ${of_seam} "Mesh/Region boxes=seam: (2.6 m, -800 m) to (800 m, 800 m)"
+  WARNS "The border of region 'seam' ('Mesh/Region boxes') passes through cells that are split, and moves")
+stockwork_case_test(NAME convergence/damage/resting_border ${seam}
+  SET ${of_seam} "Mesh/Region boxes=seam: (16 m, -800 m) to (800 m, 800 m)" EXPECT "warnings == 2") # of the strength, and of a short fracture
 # The same in three dimensions, where cells are refined ahead of the front and shared out anew.
 foreach(ranks 2 4)
   stockwork_same_test(NAME parallel/damage_3d_${ranks} DECK tests/data/adaptive_disc.prm RANKS 1,${ranks} TOLERANCE 1e-8
