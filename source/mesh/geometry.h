@@ -65,6 +65,16 @@ public:
   /// A region by its name. @throws InputError naming the known regions
   dealii::types::material_id region(const std::string &name) const;
 
+  /// The region of a cell of a mesh that create() has made, active or not.
+  dealii::types::material_id
+  region(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
+
+  /// Whether cells have other regions than their parents: boxes, whose edges lie anywhere.
+  bool has_region_boxes() const
+  {
+    return !region_boxes.empty();
+  }
+
   /// All regions but the unnamed one, 0, that everything else belongs to.
   std::vector<std::string> region_names() const;
 
