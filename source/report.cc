@@ -353,7 +353,7 @@ void Report<dim>::watch(const WellReport &well, const double net_pressure)
     warned_of_volume = true;
     run.warn("The fracture holds less than nothing: its faces overlap by " +
              to_string(-volume / shown.length, dimension::length) +
-             " on the average, and the wells produce fluid that was not injected" + now);
+             " on the average, and more fluid has left it than came" + now);
   }
   const RockProperties &main = rock.main();
   const double wing = shown.length / std::max(shown.n_tips, 1u);

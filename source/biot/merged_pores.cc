@@ -65,6 +65,7 @@ void MergedPores<dim>::keep_uneven(Mesh &mesh,
 
 template <int dim>
 double MergedPores<dim>::content(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                 const types::material_id region,
                                  const CellIntegrals<dim> &integrals,
                                  const BlockVector &values) const
 {
@@ -80,7 +81,7 @@ double MergedPores<dim>::content(const typename DoFHandler<dim>::active_cell_ite
         opening += integrals.divergences[(i * layout.n_p + a) * layout.n_u + b] *
                    dofs(layout.u[b * dim + i]);
   }
-  const RockProperties here = rock.at(cell->material_id(), cell->center());
+  const RockProperties here = rock.at(region, cell->center());
   return here.biot_coefficient * opening + here.inverse_biot_modulus * pressed_in;
 }
 
@@ -97,7 +98,7 @@ void MergedPores<dim>::prepare(const Mesh &mesh,
     if (cell->is_locally_owned())
     {
       integrals.reinit(cell);
-      before[cell->active_cell_index()] = content(cell, integrals, values);
+      before[cell->active_cell_index()] = content(cell, cell->material_id(), integrals, values);
     }
   transfer =
     std::make_unique<parallel::distributed::CellDataTransfer<dim, dim, std::vector<double>>>(
@@ -116,7 +117,8 @@ template <int dim>
 void MergedPores<dim>::finish(const MeshView<dim> &mesh_view,
                               const BlockVector &carried_over,
                               const BlockVector &conforming,
-                              BlockVector &values)
+                              BlockVector &values,
+                              const RegionOf &region_of_parent)
 {
   before.assign(mesh_view.triangulation.n_active_cells(), 0.);
   transfer->unpack(before);
@@ -135,12 +137,12 @@ void MergedPores<dim>::finish(const MeshView<dim> &mesh_view,
       integrals.reinit(cell);
       double was = before[cell->active_cell_index()];
       if (std::isnan(was)) // of a cell that has been split
-        was = content(cell, integrals, carried_over);
+        was = content(cell, region_of_parent(cell->parent()), integrals, carried_over);
       const double inverse_biot_modulus =
         rock.at(cell->material_id(), cell->center()).inverse_biot_modulus;
       for (unsigned int a = 0; a < integrals.layout.n_p; ++a)
         storage_of_cell(integrals.layout.p[a]) = inverse_biot_modulus * integrals.pressure_means[a];
-      missing_of_cell.equ((was - content(cell, integrals, conforming)) /
+      missing_of_cell.equ((was - content(cell, cell->material_id(), integrals, conforming)) /
                             (inverse_biot_modulus * integrals.volume),
                           storage_of_cell);
       cell->get_dof_indices(dofs);

@@ -9,6 +9,7 @@
 
 #include "biot/cell_integrals.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,8 @@ class MergedPores
 public:
   using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
   using Mesh = dealii::parallel::distributed::Triangulation<dim>;
+  using RegionOf = std::function<dealii::types::material_id(
+    const typename dealii::Triangulation<dim>::cell_iterator &)>;
 
   explicit MergedPores(const Rock &rock)
     : rock(rock)
@@ -47,17 +50,20 @@ public:
   void prepare(const Mesh &mesh, const MeshView<dim> &mesh_view, const BlockVector &values);
 
   /// On the new mesh: shift the pressures. Hanging nodes are the caller's to follow up.
+  /// @param region_of_parent of a cell that has been split, where its rock may be another
   /// @param carried_over with ghosts: in cells that were not merged, what they had
   /// @param conforming the same with ghosts, where hanging nodes have followed
   /// @param values the owned ones of these, to be shifted
   void finish(const MeshView<dim> &mesh_view,
               const BlockVector &carried_over,
               const BlockVector &conforming,
-              BlockVector &values);
+              BlockVector &values,
+              const RegionOf &region_of_parent);
 
 private:
-  /// Fluid in the pores of a cell, over in situ [m^3 (/m)].
+  /// Fluid in the pores of a cell in rock of this region, over in situ [m^3 (/m)].
   double content(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+                 dealii::types::material_id region,
                  const CellIntegrals<dim> &integrals,
                  const BlockVector &values) const;
 

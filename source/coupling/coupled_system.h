@@ -134,6 +134,12 @@ public:
     return prescribed_loads;
   }
 
+  /// Whether fluid of a well in the rock enters a piece of this size about a place.
+  bool wells_reach(const dealii::Point<dim> &place, const double size) const
+  {
+    return network.sources_reach(place, size);
+  }
+
   /// Whether what the deck says of the boundary is the same at all times.
   bool boundary_is_constant() const
   {

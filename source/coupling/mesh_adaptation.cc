@@ -60,10 +60,19 @@ template <int dim>
 bool MeshAdaptation<dim>::may_merge(const CoupledSystem<dim> &system,
                                     const Stepper<dim> &stepper) const
 {
-  const MeshView<dim> mesh_view = system.mesh_view();
   return model.requirements().lets_cells_merge && system.nonlinear_rock() == nullptr &&
          system.nodal_fields() == nullptr && stepper.starts_from_last_state() &&
-         (!mesh_view.has_pore_pressure || pores.can_take_up(mesh_view));
+         (!system.mesh_view().has_pore_pressure || pores_can_take_up(system, stepper));
+}
+
+
+template <int dim>
+bool MeshAdaptation<dim>::pores_can_take_up(const CoupledSystem<dim> &system,
+                                            const Stepper<dim> &stepper) const
+{
+  const MeshView<dim> mesh_view = system.mesh_view();
+  return mesh_view.has_pore_pressure && stepper.starts_from_last_state() &&
+         pores.can_take_up(mesh_view);
 }
 
 
@@ -123,7 +132,8 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
                                  const bool merges,
                                  const std::function<void()> &change_mesh)
 {
-  const bool merges_pores = merges && system.mesh_view().has_pore_pressure;
+  const bool changes_pores =
+    (merges || geometry.has_region_boxes()) && pores_can_take_up(system, stepper);
   const auto vectors = stepper.bulk_vectors();
   const ExtraNumbering numbering = system.extra_numbering();
 
@@ -144,7 +154,7 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
     rock->history().prepare_for_refinement(triangulation);
   if (NodalFields<dim> *const fields = system.nodal_fields())
     fields->prepare_for_refinement();
-  if (merges_pores)
+  if (changes_pores)
     pores.prepare(triangulation, system.mesh_view(), *vectors[0]);
   change_mesh();
   if (rock != nullptr)
@@ -162,7 +172,7 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
   for (unsigned int i = 0; i < vectors.size(); ++i)
   {
     // The first is the last state, from which the next step's content is counted.
-    const bool gives_back = merges_pores && i == 0;
+    const bool gives_back = changes_pores && i == 0;
     TrilinosWrappers::MPI::BlockVector carried_over;
     if (gives_back)
     {
@@ -174,12 +184,51 @@ void MeshAdaptation<dim>::change(CoupledSystem<dim> &system,
     *vectors[i] = after[i];
     if (gives_back)
     {
-      pores.finish(system.mesh_view(), carried_over, *vectors[i], after[i]);
+      pores.finish(system.mesh_view(), carried_over, *vectors[i], after[i],
+                   [this](const auto &parent) { return geometry.region(parent); });
       system.make_conforming(after[i]);
       *vectors[i] = after[i];
     }
   }
   system.adopt_extra(numbering, stepper.extra_vectors());
+}
+
+
+template <int dim>
+std::vector<double> MeshAdaptation<dim>::region_volumes() const
+{
+  std::vector<double> volumes(Rock::max_regions + 1);
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      volumes[cell->material_id()] += cell->measure();
+  Utilities::MPI::sum(volumes, triangulation.get_communicator(), volumes);
+  return volumes;
+}
+
+
+template <int dim>
+void MeshAdaptation<dim>::warn_of_regions(const std::vector<double> &before,
+                                          const double time,
+                                          const bool pores_keep)
+{
+  const std::vector<double> now = region_volumes();
+  double differing = 0., all = 0.;
+  for (unsigned int region = 0; region < now.size(); ++region)
+  {
+    differing += 0.5 * std::abs(now[region] - before[region]);
+    all += now[region];
+  }
+  if (differing <= 1e-9 * all)
+    return;
+  warned_of_regions = true;
+  std::ostringstream text;
+  text << "Cells across the edge of a region were split or merged at t = " << time << " s, and "
+       << differing << (dim == 2 ? " m^2" : " m^3")
+       << " of rock are in another region than before: a cell belongs to the box of 'Mesh/Region "
+          "boxes' that holds its centre. "
+       << (pores_keep ? "" : "What its pores hold has changed with it. ")
+       << "Put the edges of boxes on lines of the mesh.";
+  run.warn(text.str());
 }
 
 
@@ -205,13 +254,20 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
   while (flag(merge) || wanted)
   {
     if (merge && system.mesh_view().has_pore_pressure)
+    {
+      keep_at_wells(system);
       pores.keep_uneven(triangulation, system.mesh_view(), stepper.committed.bulk);
+    }
     triangulation.prepare_coarsening_and_refinement();
-    warn_of_moving_borders();
     const auto [n_to_split, n_to_merge] = flagged();
     const double n_before = triangulation.n_global_active_cells();
+    const bool looks_at_regions = geometry.has_region_boxes() && !warned_of_regions;
+    const std::vector<double> volumes = looks_at_regions ? region_volumes() : std::vector<double>();
     change(system, stepper, n_to_merge > 0,
            [this]() { triangulation.execute_coarsening_and_refinement(); });
+    if (looks_at_regions)
+      warn_of_regions(volumes, stepper.last_context().time,
+                      !system.mesh_view().has_pore_pressure || pores_can_take_up(system, stepper));
     // Flagged cells stay where neighbours would be two levels smaller.
     const double n_children = GeometryInfo<dim>::max_children_per_cell,
                  n_merged = n_to_split -
@@ -229,27 +285,25 @@ bool MeshAdaptation<dim>::adapt(CoupledSystem<dim> &system, Stepper<dim> &steppe
 
 
 template <int dim>
-void MeshAdaptation<dim>::warn_of_moving_borders() const
+void MeshAdaptation<dim>::keep_at_wells(const CoupledSystem<dim> &system)
 {
-  for (const std::string &name : geometry.region_names())
-  {
-    const types::material_id region = geometry.region(name);
-    bool moves = false;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->refine_flag_set())
-        for (const unsigned int v : cell->vertex_indices())
-        {
-          const Point<dim> centre_of_child =
-            cell->center() + 0.5 * (cell->vertex(v) - cell->center());
-          moves |= (geometry.region_at(cell, centre_of_child) == region) !=
-                   (cell->material_id() == region);
-        }
-    if (Utilities::MPI::max(moves ? 1 : 0, run.communicator) == 1)
-      run.warn("The border of region '" + name +
-               "' ('Mesh/Region boxes') passes through cells that are split, and moves: the rock "
-               "there, and the fluid in its pores, becomes another. A border on lines of the given "
-               "mesh stays.");
-  }
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->coarsen_flag_set() &&
+        system.wells_reach(cell->parent()->center(), cell->parent()->diameter()))
+      cell->clear_coarsen_flag();
+}
+
+
+template <int dim>
+bool MeshAdaptation<dim>::divides_families() const
+{
+  bool divided = false;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->level() > 0)
+      for (unsigned int c = 0; c < cell->parent()->n_children() && !divided; ++c)
+        if (const auto sibling = cell->parent()->child(c); sibling->is_active())
+          divided = sibling->subdomain_id() != cell->subdomain_id();
+  return Utilities::MPI::max(divided ? 1 : 0, triangulation.get_communicator()) == 1;
 }
 
 
@@ -269,7 +323,7 @@ void MeshAdaptation<dim>::balance(CoupledSystem<dim> &system, Stepper<dim> &step
   // Below, a new mesh on all ranks costs more than is gained.
   constexpr double tolerated = 1.1;
   const double before = greatest_share(triangulation, work());
-  if (before * run.n_ranks < tolerated)
+  if (before * run.n_ranks < tolerated && !divides_families())
     return;
   change(system, stepper, false, [&]() { share_out(triangulation, work()); });
   settled.clear(); // cells may be others' now

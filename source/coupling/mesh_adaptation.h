@@ -48,6 +48,21 @@ private:
   /// kept in them. Of plastic rock and of waves more is.
   bool may_merge(const CoupledSystem<dim> &system, const Stepper<dim> &stepper) const;
 
+  /// Take back the flags of families that a well in the rock gives fluid to: its source is no
+  /// larger than their cells need, and it may rest, so that their pore pressure does not show it.
+  void keep_at_wells(const CoupledSystem<dim> &system);
+
+  /// Whether the pores' content can be given back to them when cells change.
+  bool pores_can_take_up(const CoupledSystem<dim> &system, const Stepper<dim> &stepper) const;
+
+  /// Of all ranks' rock, by region [m^3 (/m)].
+  std::vector<double> region_volumes() const;
+
+  /// A cell's region is that of its centre, so that rock changes where the edge of a region passes
+  /// through cells.
+  /// @param pores_keep their content, or have none
+  void warn_of_regions(const std::vector<double> &before, double time, bool pores_keep);
+
   /// Cells that are flagged to be split and to be merged, of all ranks.
   std::pair<unsigned int, unsigned int> flagged() const;
 
@@ -58,12 +73,11 @@ private:
               bool merges,
               const std::function<void()> &change_mesh);
 
-  void balance(CoupledSystem<dim> &system, Stepper<dim> &stepper);
+  /// Whether children of one cell are several ranks', which could not merge them: answers would
+  /// hang on the number of ranks. So it may be when those of a brother have been merged.
+  bool divides_families() const;
 
-  /// Say of regions whose border passes through cells that are flagged to be split that it moves:
-  /// the rock there becomes another, whose pores hold something else at the same pressure and
-  /// strain. Collective.
-  void warn_of_moving_borders() const;
+  void balance(CoupledSystem<dim> &system, Stepper<dim> &stepper);
 
   /// Before any cell is made: a size that is a slip of the pen.
   void refuse_tiny_cells() const;
@@ -74,6 +88,7 @@ private:
   const FractureModel<dim> &model;
   unsigned int max_cells;
   MergedPores<dim> pores;
+  bool warned_of_regions = false;
   std::vector<float> settled; ///< wanted sizes that the mesh as it is fulfils; empty: not known
 };
 } // namespace stockwork

@@ -193,6 +193,12 @@ public:
     return all_wells.any_in_rock();
   }
 
+  /// Whether the source of such a well reaches a piece of this size about a place.
+  bool sources_reach(const dealii::Point<dim> &place, const double size) const
+  {
+    return all_wells.sources_reach(place, size);
+  }
+
   /// Whether an extra unknown belongs to such a well.
   bool is_of_rock(const unsigned int index) const
   {

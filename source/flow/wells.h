@@ -136,6 +136,9 @@ public:
     return std::any_of(wells.begin(), wells.end(), [](const Well &well) { return well.in_rock; });
   }
 
+  /// Whether the source of a well in the rock reaches a piece of this size about a place.
+  bool sources_reach(const dealii::Point<dim> &place, double size) const;
+
   std::vector<ExtraUnknown> unknowns() const;
 
   /// Index of the first of unknowns().

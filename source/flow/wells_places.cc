@@ -73,6 +73,18 @@ void Wells<dim>::check_distances() const
 
 
 template <int dim>
+bool Wells<dim>::sources_reach(const Point<dim> &place, const double size) const
+{
+  for (const Well &well : wells)
+    if (well.in_rock)
+      for (const Perforation &perforation : well.perforations)
+        if (perforation.source->reaches(place, size))
+          return true;
+  return false;
+}
+
+
+template <int dim>
 void Wells<dim>::locate_in_rock(Well &well, const std::vector<NetworkSegment<dim>> &segments) const
 {
   if (!(well.perforations[0].source->borehole_radius() > 0.))

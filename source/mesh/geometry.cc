@@ -382,26 +382,26 @@ void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
 
 
 template <int dim>
-types::material_id
-Geometry<dim>::region_at(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-                         const Point<dim> &centre) const
-{
-  // Children inherit from a parent that a box may have claimed: start from the coarse cell.
-  types::material_id region = coarse_cell(*coarse, cell)->material_id();
-  for (const RegionBox &item : region_boxes)
-    if (item.box.point_inside(centre))
-      region = item.region;
-  return region;
-}
-
-
-template <int dim>
 void Geometry<dim>::set_regions(Triangulation &triangulation) const
 {
   for (const auto &cell : triangulation.active_cell_iterators())
     if (!cell->is_artificial())
-      cell->set_material_id(region_at(cell, cell->center()));
+      cell->set_material_id(region(cell));
 }
+
+
+template <int dim>
+types::material_id
+Geometry<dim>::region(const typename dealii::Triangulation<dim>::cell_iterator &cell) const
+{
+  // Children inherit from a parent that a box may have claimed: start from the coarse cell.
+  types::material_id found = coarse_cell(*coarse, cell)->material_id();
+  for (const RegionBox &item : region_boxes)
+    if (item.box.point_inside(cell->center()))
+      found = item.region;
+  return found;
+}
+
 
 template <int dim>
 void Geometry<dim>::set_sides(Triangulation &triangulation) const

@@ -47,11 +47,6 @@ public:
   /// not bring it back.
   bool splits(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
 
-  /// Region of a cell with this centre that descends from the same coarse one as @p cell.
-  dealii::types::material_id
-  region_at(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-            const dealii::Point<dim> &centre) const;
-
   /// The map from the unit cell that fits the shape: Cartesian for boxes, quadratic where the
   /// boundary is curved.
   std::unique_ptr<dealii::Mapping<dim>> mapping() const;
@@ -69,6 +64,16 @@ public:
 
   /// A region by its name. @throws InputError naming the known regions
   dealii::types::material_id region(const std::string &name) const;
+
+  /// The region of a cell of a mesh that create() has made, active or not.
+  dealii::types::material_id
+  region(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
+
+  /// Whether cells have other regions than their parents: boxes, whose edges lie anywhere.
+  bool has_region_boxes() const
+  {
+    return !region_boxes.empty();
+  }
 
   /// All regions but the unnamed one, 0, that everything else belongs to.
   std::vector<std::string> region_names() const;

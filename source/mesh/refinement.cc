@@ -4,6 +4,27 @@
 
 namespace stockwork
 {
+namespace
+{
+/// A family beside finer cells waits until these have been merged, even if they are to be in the
+/// same change: on another rank it could not be known, and cells would hang on the ranks.
+template <int dim>
+void keep_beside_finer(dealii::parallel::distributed::Triangulation<dim> &triangulation)
+{
+  std::vector<int> levels(triangulation.n_vertices());
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (!cell->is_artificial())
+      for (const unsigned int v : cell->vertex_indices())
+        levels[cell->vertex_index(v)] = std::max(levels[cell->vertex_index(v)], cell->level());
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->coarsen_flag_set())
+      for (const unsigned int v : cell->vertex_indices())
+        if (levels[cell->vertex_index(v)] > cell->level())
+          cell->clear_coarsen_flag();
+}
+} // namespace
+
+
 template <int dim>
 bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation,
                 const Geometry<dim> &geometry,
@@ -38,6 +59,8 @@ bool flag_cells(dealii::parallel::distributed::Triangulation<dim> &triangulation
              !geometry.splits(cell->parent()) && in_one_region(cell->parent()))
       cell->set_coarsen_flag();
   }
+  if (coarsen)
+    keep_beside_finer(triangulation);
   triangulation.prepare_coarsening_and_refinement();
 
   // 0: nothing changes, 1: something does, 2: a cell with a fracture would.

@@ -134,7 +134,8 @@ struct Body
     ghosted = owned;
     if (!gives_back)
       return;
-    pores.finish(view(), carried_over, ghosted, owned);
+    pores.finish(view(), carried_over, ghosted, owned,
+                 [](const auto &parent) { return parent->material_id(); });
     constraints.distribute(owned);
     ghosted = owned;
   }
