@@ -75,6 +75,10 @@ def seeds(options):
             continue
         one = figures.Run(directory, options.angle)
         peak, fallen, _ = one.stages()
+        if fallen == one.time[-1]:
+            print(f"  seed {seed}: the pressure falls to the end: give a later --end", flush=True)
+            failed += 1
+            continue
         values.append((1e-6 * one.pressure[one.breakdown()], 1e-6 * float(one.pressure[one.time == fallen][0]),
                        float(one.half_length[one.time == fallen][0]), fallen))
         print(f"  seed {seed}: breakdown {values[-1][0]:.4f} MPa at {peak:.3g} s, fallen to {values[-1][1]:.4f} MPa at "

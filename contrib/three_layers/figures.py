@@ -51,14 +51,15 @@ class Run:
     def stages(self):
         """Times at which stage II, III and IV begin; NaN where one does not. The pressure falls in II, from
         breakdown to where it rises again by a fifth of that; in IV the fracture's length stays within a hundredth of
-        what it is at the end, if that is at least a fifth of the run."""
+        what it is at the end, if that is at least a fifth of the run and after II."""
         peak = self.breakdown()
         after = self.pressure[peak:]
         least = np.minimum.accumulate(after)
         rises = np.flatnonzero(after > least + 0.2 * (after[0] - least))
         end = peak + int(np.argmin(after[:rises[0] + 1] if len(rises) else after))
-        stays = self.time[np.flatnonzero(self.half_length < 0.99 * self.half_length[-1])[-1]]
-        ends = stays if stays < 0.8 * self.time[-1] else math.nan
+        shorter = np.flatnonzero(self.half_length < 0.99 * self.half_length[-1])
+        stays = self.time[shorter[-1]] if len(shorter) else math.nan
+        ends = stays if self.time[end] <= stays < 0.8 * self.time[-1] else math.nan
         return self.time[peak], self.time[end], ends
 
 

@@ -1,15 +1,19 @@
 """contrib/three_layers: the formulas against the equations that they solve, a zone, the stages of a made-up run."""
 import csv
+import io
 import math
 import os
 import sys
 import tempfile
 import unittest
+from contextlib import redirect_stdout
 
 import numpy as np
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "contrib"))
+from deck_runs import run_deck  # noqa: E402
+from results import ResultError  # noqa: E402
 from three_layers import figures, formulas, zone  # noqa: E402
 
 RATE, HEIGHT, CARTER, SHEAR, POISSON, VISCOSITY = 0.08, 10., 5e-4, 1.2e9, 0.3, 1e-3
@@ -84,21 +88,46 @@ class Zone(unittest.TestCase):
 
 
 class Stages(unittest.TestCase):
-    def test_pressure_of_four_stages(self):
-        """Up to 1 s, down to 3 s, then slowly up; the fracture stays from 60 s on."""
-        time = np.concatenate([np.linspace(0.1, 10., 100), np.linspace(11., 100., 90)])
-        pressure = np.interp(time, [0., 1., 3., 60., 100.], [7e6, 9e6, 8e6, 8.5e6, 8.4e6])
+    @staticmethod
+    def stages(time, pressure, length):
         with tempfile.TemporaryDirectory() as directory:
             with open(os.path.join(directory, "statistics.csv"), "w", encoding="utf-8", newline="") as file:
                 rows = csv.writer(file)
                 rows.writerow(["time", "inlet_pressure", "inlet_aperture", "extent_x", "extent_y"])
-                for t, p in zip(time, pressure):
-                    rows.writerow([t, p, 1e-3, 2. * min(t, 60.), 0.])
-            run = figures.Run(directory, 0)
-        peak, end, stays = run.stages()
+                for t, p, l in zip(time, pressure, length):
+                    rows.writerow([t, p, 1e-3, l, 0.])
+            return figures.Run(directory, 0).stages()
+
+    def test_pressure_of_four_stages(self):
+        """Up to 1 s, down to 3 s, then slowly up; the fracture stays from 60 s on."""
+        time = np.concatenate([np.linspace(0.1, 10., 100), np.linspace(11., 100., 90)])
+        pressure = np.interp(time, [0., 1., 3., 60., 100.], [7e6, 9e6, 8e6, 8.5e6, 8.4e6])
+        peak, end, stays = self.stages(time, pressure, 2. * np.minimum(time, 60.))
         self.assertAlmostEqual(peak, 1., delta=0.11)
         self.assertAlmostEqual(end, 3., delta=0.11)
         self.assertAlmostEqual(stays, 60., delta=1.1)
+
+    def test_run_that_is_cut_short(self):
+        """It has not grown at all, or last grew while the pressure still fell: there is no stage IV."""
+        time = np.linspace(0.1, 1., 10)
+        for length in (np.full(10, 3.), np.where(time < 0.35, 3., 4.)):
+            peak, end, stays = self.stages(time, np.where(time < 0.25, 9e6, 9e6 - 1e6 * time), length)
+            self.assertEqual(end, time[-1])
+            self.assertTrue(math.isnan(stays))
+
+
+class Runs(unittest.TestCase):
+    def test_finished_run_with_other_settings(self):
+        """It is neither run again nor taken for what is asked for."""
+        with tempfile.TemporaryDirectory() as directory:
+            with open(os.path.join(directory, "summary.json"), "w", encoding="utf-8") as file:
+                file.write('{"status": "finished"}')
+            with open(os.path.join(directory, "settings"), "w", encoding="utf-8") as file:
+                file.write("Time/End time=1 s")
+            with redirect_stdout(io.StringIO()):
+                self.assertTrue(run_deck("false", "a.prm", directory, ["Time/End time=1 s"]))
+            with self.assertRaisesRegex(ResultError, "not 'Time/End time=2 s'"):
+                run_deck("false", "a.prm", directory, ["Time/End time=2 s"])
 
 
 if __name__ == "__main__":
