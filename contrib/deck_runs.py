@@ -14,10 +14,19 @@ def finished(directory):
 
 def run_deck(program, deck, directory, settings):
     """Whether the run in a directory has come to its end, now or before. What the program prints is in its file `log`."""
+    settings_path = os.path.join(directory, "settings")
+    wanted = "; ".join(settings)
     if finished(directory):
+        if os.path.exists(settings_path):
+            with open(settings_path, encoding="utf-8") as file:
+                if (there := file.read()) != wanted:
+                    raise ResultError(f"'{directory}' has a finished run with the settings '{there}', not '{wanted}': "
+                                      "give another --output, or remove it")
         print(f"{directory}: finished before")
         return True
     os.makedirs(directory, exist_ok=True)
+    with open(settings_path, "w", encoding="utf-8") as file:
+        file.write(wanted)
     command = [program, deck, "--output", directory]
     for setting in settings:
         command += ["--set", setting]

@@ -1,15 +1,19 @@
 """contrib/three_layers: the formulas against the equations that they solve, a zone, the stages of a made-up run."""
 import csv
+import io
 import math
 import os
 import sys
 import tempfile
 import unittest
+from contextlib import redirect_stdout
 
 import numpy as np
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "contrib"))
+from deck_runs import run_deck  # noqa: E402
+from results import ResultError  # noqa: E402
 from three_layers import figures, formulas, zone  # noqa: E402
 
 RATE, HEIGHT, CARTER, SHEAR, POISSON, VISCOSITY = 0.08, 10., 5e-4, 1.2e9, 0.3, 1e-3
@@ -110,6 +114,20 @@ class Stages(unittest.TestCase):
         falling = self.stages([0.5, 1., 2., 2.5], [8e6, 9e6, 8.4e6, 8.2e6], [5., 5., 6., 7.])
         self.assertEqual(falling[0], 1.)
         self.assertTrue(math.isnan(falling[1]), falling)
+
+
+class Runs(unittest.TestCase):
+    def test_finished_run_with_other_settings(self):
+        """It is neither run again nor taken for what is asked for."""
+        with tempfile.TemporaryDirectory() as directory:
+            with open(os.path.join(directory, "summary.json"), "w", encoding="utf-8") as file:
+                file.write('{"status": "finished"}')
+            with open(os.path.join(directory, "settings"), "w", encoding="utf-8") as file:
+                file.write("Time/End time=1 s")
+            with redirect_stdout(io.StringIO()):
+                self.assertTrue(run_deck("false", "a.prm", directory, ["Time/End time=1 s"]))
+            with self.assertRaisesRegex(ResultError, "not 'Time/End time=2 s'"):
+                run_deck("false", "a.prm", directory, ["Time/End time=2 s"])
 
 
 if __name__ == "__main__":
