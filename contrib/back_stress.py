@@ -62,7 +62,8 @@ def mean_beside(grid, line, distances, middle):
 
 def in_situ(directory, normal):
     """Compression across a plane by the deck's constant stress [Pa]."""
-    given = [pascals(text) for text in read_deck(directory).get("In situ/Stress", "0, 0").split(",")] + [0.]
+    stress = read_deck(directory).get("In situ/Stress") or "0, 0"
+    given = [pascals(text) for text in stress.split(",")] + [0.]
     return -(normal[0] ** 2 * given[0] + normal[1] ** 2 * given[1] + 2 * normal[0] * normal[1] * given[2])
 
 
