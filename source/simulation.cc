@@ -239,6 +239,8 @@ void Simulation<dim>::start(ParameterHandler &prm)
     adaptation.refine_initial_mesh();
   }
   the_case.geometry.check_boxes(triangulation);
+  for (const std::string &text : the_case.geometry.misfits_of_regions(triangulation))
+    run.warn(text);
   refuse_too_large();
   the_case.boundary_conditions.check(triangulation,
                                      the_case.scheme.kind() == TimeScheme::Kind::newmark);

@@ -338,50 +338,6 @@ bool Geometry<dim>::splits(const typename dealii::Triangulation<dim>::cell_itera
 }
 
 template <int dim>
-void Geometry<dim>::check_boxes(const Triangulation &triangulation) const
-{
-  for (const RefinementBox &item : refinement_boxes)
-    for (unsigned int d = 0; d < dim; ++d)
-      if (item.box.upper_bound(d) <= lower()[d] || item.box.lower_bound(d) >= upper()[d])
-        throw EntryError("Mesh/Refinement boxes", to_string(item.box),
-                         "boxes that hold some of the mesh: this one lies beside it");
-  const std::size_t n_regions = region_boxes.size();
-  std::vector<unsigned int> n_held(n_regions + side_boxes.size(), 0); // cells, then faces
-  const auto count = [&](const auto &boxes, const std::size_t first, const Point<dim> &point)
-  {
-    for (std::size_t i = boxes.size(); i-- > 0;)
-      if (boxes[i].box.point_inside(point))
-      {
-        ++n_held[first + i]; // the last one, which is on top
-        return;
-      }
-  };
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      count(region_boxes, 0, cell->center());
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
-          count(side_boxes, n_regions, cell->face(f)->center());
-    }
-  Utilities::MPI::sum(n_held, triangulation.get_communicator(), n_held);
-  const auto refuse_empty =
-    [&](const auto &boxes, const std::size_t first, const std::string &name, const std::string &of)
-  {
-    for (unsigned int i = 0; i < boxes.size(); ++i)
-      if (n_held[first + i] == 0)
-        throw EntryError(
-          "Mesh/" + name, boxes[i].label + ": " + to_string(boxes[i].box),
-          "boxes that hold the centre of a " + of +
-            ": this one lies beside the mesh, is smaller than its cells, or lies beneath "
-            "later ones");
-  };
-  refuse_empty(region_boxes, 0, "Region boxes", "cell");
-  refuse_empty(side_boxes, n_regions, "Side boxes", "face of the boundary");
-}
-
-
-template <int dim>
 void Geometry<dim>::set_regions(Triangulation &triangulation) const
 {
   for (const auto &cell : triangulation.active_cell_iterators())

@@ -82,6 +82,10 @@ public:
   /// lies beside the mesh: it would do nothing
   void check_boxes(const Triangulation &triangulation) const;
 
+  /// A sentence for each extent of a box of regions that is another by a quarter or more once its
+  /// cells are those whose centre it holds. Nothing of shapes that are not boxes. Collective.
+  std::vector<std::string> misfits_of_regions(const Triangulation &triangulation) const;
+
   /// Corners of the bounding box.
   dealii::Point<dim> lower() const;
   dealii::Point<dim> upper() const;

@@ -203,6 +203,11 @@ set(edge "Mesh/Region boxes=1: (-100, 0.9) to (100, 100)" "Rock/Region 1/Biot co
 stockwork_case_test(NAME convergence/damage/edge_of_region DECK tests/data/merged_band.prm
   SET ${edge} "Time/End time=1 s" WARNS "of rock are in another region than before"
   EXPECT "final/fluid_volume_defect < 1e-16" "final/fluid_volume_defect > -1e-16")
+# A layer of 0.2 m in cells of 3.2 m.
+stockwork_case_test(NAME convergence/damage/thin_region DECK tests/data/merged_band.prm
+  SET "Mesh/Region boxes=1: (-100, 3.1) to (100, 3.3)" "Rock/Region 1/Biot coefficient=0.3" "Rock/Region 1/Biot modulus=60 GPa"
+      "Time/End time=0.05 s"
+  WARNS "Region '1' ('Mesh/Region boxes') is 0.2 m in y by the deck, and 3.2 m by its cells")
 stockwork_same_test(NAME parallel/damage/edge_of_region DECK tests/data/merged_band.prm RANKS 1,2 TOLERANCE 1e-8 LABELS nightly
   SET ${edge} "Time/End time=5 s" IGNORE "balance_error")
 # Cells at a well in the rock that rests stay small: its source is no larger than they were. Without merging 1.616 MPa, with
