@@ -3,7 +3,7 @@
 
     contrib/three_layers.py run   [--angles 0 27 45] [--resolution coarse] [--output DIR] [--set ...]
     contrib/three_layers.py plot  [--angles 0 27 45] [--resolution coarse] [--output DIR]
-    contrib/three_layers.py seeds [--n 20] [--angle 0] [--end 1.5] [--output DIR] [--set ...]
+    contrib/three_layers.py seeds [--n 20] [--angle 0] [--end 4] [--output DIR] [--set ...]
 
 `run` runs the decks prm/three_layers/<angle>/damage.prm; what is finished stays as it is, what was begun goes on
 from its checkpoint. `plot` prints the zone's direction and shape, the stages, and draws the counterparts of
@@ -111,7 +111,7 @@ def main():
     parser.add_argument("--angle", type=int, choices=ANGLES, default=0)
     parser.add_argument("--resolution", choices=("coarse", "medium", "fine"), default="coarse")
     parser.add_argument("--n", type=whole_from(1), default=20)
-    parser.add_argument("--end", type=positive, default=1.5, metavar="SECONDS")
+    parser.add_argument("--end", type=positive, default=4., metavar="SECONDS")
     parser.add_argument("--output", default="three_layers", metavar="DIR")
     parser.add_argument("--program", type=program, default=PROGRAM)
     parser.add_argument("--set", action="append", default=[], metavar="'Section/Entry=value'")
