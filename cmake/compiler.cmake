@@ -28,10 +28,10 @@ add_library(stockwork_options INTERFACE)
 target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-g0> $<$<CONFIG:Debug>:-g1>)
 if(STOCKWORK_NATIVE)
   target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-O3 -march=native>)
-  # Programs of tests spend their time in the library: -O1 compiles them in two thirds of the time.
-  target_compile_options(stockwork_options INTERFACE
-    $<$<AND:$<CONFIG:Release>,$<BOOL:$<TARGET_PROPERTY:STOCKWORK_CALLS_ONLY>>>:-O1>)
 endif()
+# Programs of tests spend their time in the library: -O1 compiles them in two thirds of the time.
+target_compile_options(stockwork_options INTERFACE
+  $<$<AND:$<CONFIG:Release>,$<BOOL:$<TARGET_PROPERTY:STOCKWORK_CALLS_ONLY>>>:-O1>)
 if(STOCKWORK_UNITY)
   # Files compiled together are included, and the compiler takes what is included for a header, in
   # which an unnamed namespace would be a mistake.

@@ -48,7 +48,7 @@ After a change of compiler or deal.II, remove $1 first."
 Otherwise the first line with 'error:' above says what is wrong."
   # Where addresses are random, the compiler moves all of a precompiled header at each use (a tenth of its time).
   local fixed=()
-  ! setarch -R true 2>/dev/null || fixed=(setarch -R)
+  if setarch -R true 2>/dev/null; then fixed=(setarch -R); fi
   "${fixed[@]}" cmake --build "$1" -j "$jobs" ${4:+--target "${@:4}"}
 }
 

@@ -5,6 +5,7 @@
 
 #include "stockwork/base/all_gather.h"
 
+#include <type_traits>
 #include <vector>
 
 namespace stockwork
