@@ -236,7 +236,7 @@ void Simulation<dim>::start(ParameterHandler &prm)
   {
     const auto scope = run.timers.scope("adaptation");
     the_case.geometry.create(triangulation);
-    adaptation.refine_initial_mesh();
+    adaptation.refine_initial_mesh(the_case.elements.displacement_degree);
   }
   the_case.geometry.check_boxes(triangulation);
   for (const std::string &text : the_case.geometry.misfits_of_regions(triangulation))

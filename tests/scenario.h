@@ -44,7 +44,8 @@ public:
     , stepper(run, system, *the_case->model, the_case->network, the_case->scheme, the_case->control)
   {
     the_case->geometry.create(triangulation);
-    adaptation.prepare(system, 0.);
+    adaptation.refine_initial_mesh(the_case->elements.displacement_degree);
+    system.setup_mesh(0.);
     stepper.committed.bulk = system.ghosted_vector();
     system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
     the_case->scheme.initialise(stepper.committed);

@@ -118,6 +118,15 @@ public:
     unknowns.update_ghosted(ghosted, owned);
   }
 
+  /// Of the bulk, of this rank, and neither hanging nor given.
+  dealii::types::global_dof_index n_free_unknowns() const
+  {
+    const dealii::IndexSet &owned = bulk_dofs().locally_owned_dofs();
+    return std::count_if(owned.begin(), owned.end(),
+                         [this](const auto i)
+                         { return !unknowns.constraints().is_constrained(i); });
+  }
+
   /// Let a transferred vector satisfy the hanging-node constraints (and essential conditions).
   void make_conforming(dealii::TrilinosWrappers::MPI::BlockVector &vector) const
   {

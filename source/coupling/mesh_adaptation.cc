@@ -7,6 +7,7 @@
 
 #include <deal.II/distributed/solution_transfer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -77,20 +78,16 @@ bool MeshAdaptation<dim>::pores_can_take_up(const CoupledSystem<dim> &system,
 
 
 template <int dim>
-void MeshAdaptation<dim>::refine_initial_mesh()
+void MeshAdaptation<dim>::refine_initial_mesh(const unsigned int degree)
 {
   refuse_tiny_cells();
-  bool changed = false;
   while (flag(false))
   {
-    changed = true;
     refuse_too_many_cells(triangulation, max_cells,
                           "unless the fracture model's wanted cell size is a mistake");
     triangulation.execute_coarsening_and_refinement();
   }
-  if (!changed)
-    return; // as Geometry::create() has shared the cells out
-  share_out(triangulation);
+  share_out(triangulation, degree);
   settled.clear(); // cells may be others' now
 }
 
@@ -115,14 +112,6 @@ void MeshAdaptation<dim>::refuse_tiny_cells() const
             "is a mistake";
     throw EntryError("Mesh/Maximum number of cells", std::to_string(max_cells), text.str());
   }
-}
-
-
-template <int dim>
-void MeshAdaptation<dim>::prepare(CoupledSystem<dim> &system, const double time)
-{
-  refine_initial_mesh();
-  system.setup_mesh(time);
 }
 
 
@@ -300,9 +289,14 @@ bool MeshAdaptation<dim>::divides_families() const
   bool divided = false;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && cell->level() > 0)
-      for (unsigned int c = 0; c < cell->parent()->n_children() && !divided; ++c)
-        if (const auto sibling = cell->parent()->child(c); sibling->is_active())
-          divided = sibling->subdomain_id() != cell->subdomain_id();
+    {
+      const auto siblings = cell->parent()->child_iterators();
+      const bool is_whole = std::all_of(siblings.begin(), siblings.end(),
+                                        [](const auto &one) { return one->is_active(); });
+      divided |= is_whole && std::any_of(siblings.begin(), siblings.end(),
+                                         [&cell](const auto &one)
+                                         { return one->subdomain_id() != cell->subdomain_id(); });
+    }
   return Utilities::MPI::max(divided ? 1 : 0, triangulation.get_communicator()) == 1;
 }
 
@@ -314,16 +308,20 @@ void MeshAdaptation<dim>::balance(CoupledSystem<dim> &system, Stepper<dim> &step
   {
     // A crack's patch of rock and its cut cell cost about what an element does in the solves
     // between two changes of the mesh.
-    std::vector<unsigned int> of_cells(triangulation.n_active_cells(), 1);
+    const auto of_one = static_cast<unsigned int>(
+      std::lround(100. * system.n_free_unknowns() /
+                  std::max(1u, triangulation.n_locally_owned_active_cells())));
+    std::vector<unsigned int> of_cells(triangulation.n_active_cells(), std::max(1u, of_one));
     for (const auto &cell : system.bulk_dofs().active_cell_iterators())
       if (cell->is_locally_owned() && model.role(cell).cut != nullptr)
-        ++of_cells[cell->active_cell_index()];
+        of_cells[cell->active_cell_index()] *= 2;
     return of_cells;
   };
   // Below, a new mesh on all ranks costs more than is gained.
   constexpr double tolerated = 1.1;
   const double before = greatest_share(triangulation, work());
-  if (before * run.n_ranks < tolerated && !divides_families())
+  if (before * run.n_ranks < tolerated &&
+      !(model.requirements().lets_cells_merge && divides_families()))
     return;
   change(system, stepper, false, [&]() { share_out(triangulation, work()); });
   settled.clear(); // cells may be others' now

@@ -25,11 +25,9 @@ public:
                  const FractureModel<dim> &model);
 
   /// Before the first step, when there are no unknowns to move yet.
+  /// @param degree of the elements, so that ranks get as many unknowns
   /// @throws EntryError if that makes too many cells
-  void refine_initial_mesh();
-
-  /// The same, and make the system ready.
-  void prepare(CoupledSystem<dim> &system, double time);
+  void refine_initial_mesh(unsigned int degree);
 
   /// Between steps. Returns whether the mesh has changed. Cells are merged only when others are
   /// split: another mesh costs more than a few cells too many. Where ranks are then out of balance,
@@ -73,8 +71,9 @@ private:
               bool merges,
               const std::function<void()> &change_mesh);
 
-  /// Whether children of one cell are several ranks', which could not merge them: answers would
-  /// hang on the number of ranks. So it may be when those of a brother have been merged.
+  /// Whether all of a cell's children are active and several ranks', which could not merge them:
+  /// answers would hang on the number of ranks. p4est keeps such families together when it shares
+  /// cells out, but one may become whole since, when a child's children are merged. Collective.
   bool divides_families() const;
 
   void balance(CoupledSystem<dim> &system, Stepper<dim> &stepper);

@@ -11,7 +11,6 @@
 
 #include "mesh/box.h"
 #include "mesh/interpret_entry.h"
-#include "mesh/partition.h"
 #include "mesh/refinement.h"
 #include "mesh/spacing.h"
 #include "stockwork/base/error.h"
@@ -311,8 +310,9 @@ void Geometry<dim>::create(Triangulation &triangulation) const
       triangulation.execute_coarsening_and_refinement();
     }
   }
-  // A triangulation that shares its cells out on request only has not done so yet.
-  share_out(triangulation);
+  // Children are still with their parents' ranks if the triangulation shares out on request only.
+  if (triangulation.n_global_levels() > 1)
+    triangulation.repartition();
 }
 
 template <int dim>

@@ -1,7 +1,9 @@
 #include "mesh/partition.h"
 
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +32,7 @@ bool is_even(const parallel::distributed::Triangulation<dim> &triangulation)
 
 
 template <int dim>
-void share_out(parallel::distributed::Triangulation<dim> &triangulation)
+void share_out(parallel::distributed::Triangulation<dim> &triangulation, const unsigned int degree)
 {
   if (Utilities::MPI::n_mpi_processes(triangulation.get_communicator()) == 1)
     return;
@@ -39,14 +41,21 @@ void share_out(parallel::distributed::Triangulation<dim> &triangulation)
   if (dim < 3)
     return;
 
-  // A cell weighs what cells of its rank own on average, of the nodes of quadratic elements.
+  // A cell weighs what cells of its rank own on average, of the nodes. Hanging ones cost nothing.
   unsigned int weight;
   {
     DoFHandler<dim> nodes(triangulation);
-    nodes.distribute_dofs(FE_Q<dim>(2));
+    nodes.distribute_dofs(FE_Q<dim>(degree));
+    IndexSet relevant;
+    DoFTools::extract_locally_relevant_dofs(nodes, relevant);
+    AffineConstraints<double> hanging(relevant);
+    DoFTools::make_hanging_node_constraints(nodes, hanging);
+    const IndexSet owned = nodes.locally_owned_dofs();
+    const auto n_owned =
+      std::count_if(owned.begin(), owned.end(),
+                    [&hanging](const auto node) { return !hanging.is_constrained(node); });
     weight = static_cast<unsigned int>(
-      std::lround(1000. * nodes.n_locally_owned_dofs() /
-                  std::max(1u, triangulation.n_locally_owned_active_cells())));
+      std::lround(1000. * n_owned / std::max(1u, triangulation.n_locally_owned_active_cells())));
   }
   const auto connection =
     triangulation.signals.weight.connect([weight](const auto &, const auto) { return weight; });
@@ -78,8 +87,8 @@ void share_out(parallel::distributed::Triangulation<dim> &triangulation,
 }
 
 
-template void share_out(parallel::distributed::Triangulation<2> &);
-template void share_out(parallel::distributed::Triangulation<3> &);
+template void share_out(parallel::distributed::Triangulation<2> &, unsigned int);
+template void share_out(parallel::distributed::Triangulation<3> &, unsigned int);
 template double greatest_share(const parallel::distributed::Triangulation<2> &,
                                const std::vector<unsigned int> &);
 template double greatest_share(const parallel::distributed::Triangulation<3> &,

@@ -8,8 +8,10 @@ namespace stockwork
 {
 /// Share the cells out among the ranks so that all have as many unknowns. Equal numbers of cells
 /// are not enough in 3-D: the unknowns between two ranks all belong to the lower one. Collective.
+/// @param degree of the elements
 template <int dim>
-void share_out(dealii::parallel::distributed::Triangulation<dim> &triangulation);
+void share_out(dealii::parallel::distributed::Triangulation<dim> &triangulation,
+               unsigned int degree);
 
 /// Share of the work that the rank with most of it has. Collective.
 /// @param work by active cell index, at least 1; those of other ranks' cells are ignored

@@ -127,7 +127,16 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
                                    std::vector<double> &dx_extra)
 {
   LinearReport report;
-  const SystemOperator op(system, communicator, nullptr, SystemOperator::Extra::shared_out);
+  const bool same_bulk = is_built && stamps.mesh == built_for.mesh &&
+                         stamps.matrix == built_for.matrix &&
+                         stamps.bulk_values == built_for.bulk_values;
+  const SystemOperator op(system, communicator, same_bulk ? &bulk_scaling : nullptr,
+                          SystemOperator::Extra::shared_out);
+  if (!same_bulk)
+  {
+    bulk_scaling.reinit(op.scaling().bulk, true);
+    bulk_scaling = op.scaling().bulk;
+  }
   const bool poroelastic = system.bulk.n_block_rows() > 1;
   Stopwatch stopwatch;
   // The displacement part is dear and tolerates a matrix that has changed a little; the pressure
@@ -136,7 +145,7 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
     !is_built || stamps.mesh != built_for.mesh || stamps.matrix != built_for.matrix;
   const bool worn_out = last_iterations > 1.5 * first_iterations;
   report.factorised = new_mesh || (worn_out && stamps.displacement_values != multigrid_values);
-  if (new_mesh || stamps.bulk_values != built_for.bulk_values)
+  if (!same_bulk)
     build(system, stamps, report.factorised);
   stiffness = &system.bulk.block(0, 0);
   update_extra(op, new_mesh || stamps.displacement_values != built_for.displacement_values);

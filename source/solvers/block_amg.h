@@ -58,6 +58,7 @@ private:
   SparseFractureSchur extra;
   const dealii::TrilinosWrappers::SparseMatrix *stiffness = nullptr; ///< during solve()
   SystemStamps built_for;
+  dealii::TrilinosWrappers::MPI::BlockVector bulk_scaling; ///< with those stamps
   unsigned int multigrid_values = 0; ///< displacement_values that the multigrid was built for
   bool is_built = false;
   double first_iterations = 0.; ///< per decade of the residual, with it newly built

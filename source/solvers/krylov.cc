@@ -1,9 +1,11 @@
 #include "solvers/krylov.h"
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 
-#include <algorithm>
+#include <memory>
 
 namespace stockwork
 {
@@ -14,56 +16,68 @@ namespace
 /// Rounding makes the residual of the recurrence drift from the true one; then start afresh.
 constexpr unsigned int max_cycles = 4;
 
-using BlockVector = TrilinosWrappers::MPI::BlockVector;
+/// All unknowns of this rank in one vector, for the library's Krylov methods: one sum over the
+/// ranks per product. Extra unknowns, each with its owner, come last.
+using Joined = LinearAlgebra::distributed::Vector<double>;
 
-/// All unknowns as one block vector, for the library's Krylov methods. The extra ones, if any, are
-/// its last block, each with its owner.
-class Joined
+/// Between the system's vectors and joined ones.
+class Joint
 {
 public:
-  Joined(const SystemOperator &op, const MPI_Comm communicator)
+  Joint(const SystemOperator &op, const MPI_Comm communicator)
     : extra(op.extra_layout())
   {
     const auto &bulk = op.scaling().bulk;
-    const unsigned int n_bulk = bulk.n_blocks();
-    zero.reinit(n_bulk + (extra.size() > 0 ? 1 : 0));
-    for (unsigned int b = 0; b < n_bulk; ++b)
-      zero.block(b).reinit(bulk.block(b).locally_owned_elements(), communicator);
-    if (extra.size() > 0)
-      zero.block(n_bulk).reinit(extra.owned(), communicator);
-    zero.collect_sizes();
+    types::global_dof_index n = extra.n_owned();
+    for (unsigned int b = 0; b < bulk.n_blocks(); ++b)
+      n += bulk.block(b).locally_owned_size();
+    const auto parts = Utilities::MPI::create_ascending_partitioning(communicator, n);
+    layout = std::make_shared<Utilities::MPI::Partitioner>(
+      parts[Utilities::MPI::this_mpi_process(communicator)], communicator);
   }
 
-  BlockVector join(const SystemVector &from) const
+  Joined join(const SystemVector &from) const
   {
-    BlockVector to(zero);
-    join(to, from);
+    Joined to(layout);
+    visit(from, [&to](const double value, const unsigned int i) { to.local_element(i) = value; });
     return to;
   }
 
-  void join(BlockVector &to, const SystemVector &from) const
+  /// to = factor * from, unknown by unknown.
+  void join(Joined &to, const SystemVector &from, const Joined &factor) const
   {
-    for (unsigned int b = 0; b < from.bulk.n_blocks(); ++b)
-      to.block(b) = from.bulk.block(b);
-    if (extra.size() > 0)
-      std::copy_n(from.extra.begin(), extra.n_owned(),
-                  to.block(to.n_blocks() - 1).trilinos_vector()[0]);
+    visit(from, [&](const double value, const unsigned int i)
+          { to.local_element(i) = factor.local_element(i) * value; });
   }
 
-  void split(SystemVector &to, const BlockVector &from) const
+  /// to = factor * from, unknown by unknown.
+  void split(SystemVector &to, const Joined &from, const Joined &factor) const
   {
-    for (unsigned int b = 0; b < to.bulk.n_blocks(); ++b)
-      to.bulk.block(b) = from.block(b);
-    if (extra.size() == 0)
-      return;
-    std::copy_n(from.block(from.n_blocks() - 1).trilinos_vector()[0], extra.n_owned(),
-                to.extra.begin());
-    extra.update(to.extra);
+    visit(to, [&](double &value, const unsigned int i)
+          { value = factor.local_element(i) * from.local_element(i); });
+    if (extra.size() > 0)
+      extra.update(to.extra);
   }
 
 private:
+  /// Call `function(value, i)` for all unknowns of this rank.
+  template <class Vector, class Function>
+  void visit(Vector &vector, const Function &function) const
+  {
+    unsigned int i = 0;
+    for (unsigned int b = 0; b < vector.bulk.n_blocks(); ++b)
+    {
+      auto *const values = vector.bulk.block(b).begin();
+      const unsigned int n = vector.bulk.block(b).locally_owned_size();
+      for (unsigned int k = 0; k < n; ++k, ++i)
+        function(values[k], i);
+    }
+    for (unsigned int k = 0; k < extra.n_owned(); ++k, ++i)
+      function(vector.extra[k], i);
+  }
+
   const ExtraLayout &extra;
-  BlockVector zero;
+  std::shared_ptr<const Utilities::MPI::Partitioner> layout;
 };
 
 /// A linear action on all unknowns between diagonal scalings, so that the Krylov method sees the
@@ -74,31 +88,26 @@ public:
   /// dst = action of src, which it may use as working space.
   using Action = std::function<void(SystemVector &dst, SystemVector &src)>;
 
-  Scaled(const SystemOperator &op, const Joined &joined, const BlockVector &scaling, Action action)
-    : joined(joined)
+  Scaled(const SystemOperator &op, const Joint &joint, const Joined &scaling, Action action)
+    : joint(joint)
     , action(std::move(action))
     , scaling(scaling)
-    , unscaled(scaling)
     , in(op.make_vector())
     , out(op.make_vector())
   {
   }
 
-  void vmult(BlockVector &dst, const BlockVector &src) const
+  void vmult(Joined &dst, const Joined &src) const
   {
-    unscaled = src;
-    unscaled.scale(scaling);
-    joined.split(in, unscaled);
+    joint.split(in, src, scaling);
     action(out, in);
-    joined.join(dst, out);
-    dst.scale(scaling);
+    joint.join(dst, out, scaling);
   }
 
 private:
-  const Joined &joined;
+  const Joint &joint;
   const Action action;
-  const BlockVector scaling;
-  mutable BlockVector unscaled;
+  const Joined &scaling;
   mutable SystemVector in, out;
 };
 } // namespace
@@ -111,21 +120,19 @@ void solve_by_krylov(const SystemOperator &op,
                      SystemVector &dx,
                      LinearReport &report)
 {
-  const Joined joined(op, communicator);
-  const BlockVector scaling = joined.join(op.scaling());
-  BlockVector inverse_scaling(scaling);
-  for (unsigned int b = 0; b < inverse_scaling.n_blocks(); ++b)
-  {
-    auto &v = inverse_scaling.block(b).trilinos_vector();
-    v.Reciprocal(v);
-  }
-  const Scaled matrix(op, joined, scaling,
+  const Joint joint(op, communicator);
+  const Joined scaling = joint.join(op.scaling());
+  Joined inverse_scaling(scaling);
+  for (double &s : inverse_scaling)
+    s = 1. / s;
+  const Scaled matrix(op, joint, scaling,
                       [&](SystemVector &dst, SystemVector &src) { op.vmult(dst, src); });
-  const Scaled scaled_preconditioner(op, joined, inverse_scaling, preconditioner);
-  BlockVector b = joined.join(op.load()), x(scaling), r(scaling);
+  const Scaled scaled_preconditioner(op, joint, inverse_scaling, preconditioner);
+  Joined b = joint.join(op.load()), x, r;
+  x.reinit(b);
+  r.reinit(b);
   b.scale(scaling);
   b *= -1.;
-  x = 0.;
   const double size = b.l2_norm();
   report.converged = size == 0.;
   unsigned int iterations = 0;
@@ -136,10 +143,9 @@ void solve_by_krylov(const SystemOperator &op,
     try
     {
       if (limits.symmetric_definite)
-        SolverCG<BlockVector>(control).solve(matrix, x, b, scaled_preconditioner);
+        SolverCG<Joined>(control).solve(matrix, x, b, scaled_preconditioner);
       else
-        SolverFGMRES<BlockVector>(control,
-                                  SolverFGMRES<BlockVector>::AdditionalData(limits.restart))
+        SolverFGMRES<Joined>(control, SolverFGMRES<Joined>::AdditionalData(limits.restart))
           .solve(matrix, x, b, scaled_preconditioner);
     }
     catch (const SolverControl::NoConvergence &)
@@ -153,7 +159,6 @@ void solve_by_krylov(const SystemOperator &op,
     report.converged = report.relative_residual <= 1.01 * limits.tolerance;
   }
   report.iterations += iterations;
-  x.scale(scaling);
-  joined.split(dx, x);
+  joint.split(dx, x, scaling);
 }
 } // namespace stockwork

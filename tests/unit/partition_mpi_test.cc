@@ -25,14 +25,14 @@ TEST_CASE("Coarse cells stay where they were made, refined ones are shared out a
     return Utilities::MPI::max(std::abs(triangulation.n_locally_owned_active_cells() - even),
                                MPI_COMM_WORLD);
   };
-  share_out(triangulation);
+  share_out(triangulation, 1);
   CHECK(n_times == 0);
   CHECK(distance_from_even() < 1.);
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && cell->center()[1] < 3.)
       cell->set_refine_flag();
   triangulation.execute_coarsening_and_refinement();
-  share_out(triangulation);
+  share_out(triangulation, 1);
   CHECK(distance_from_even() <= 4.); // children of a parent stay together
 }
 
