@@ -46,15 +46,20 @@ def step_at(times, shut):
     return before[-1]
 
 
-def check_rest(times, rates, last):
-    """That the well rests after a step. Of one that stores fluid, the rate falls bit by bit."""
+def end_of_rest(times, rates, last):
+    """Index after the last step in which the well rests since a step: the end, or where it pumps again.
+    Of one that stores fluid, the rate falls bit by bit."""
     least = 1e-6 * max(map(abs, rates))
-    for time, rate in zip(times[last + 1:], rates[last + 1:]):
-        if rate < -least:
-            raise ResultError(f"the first well flows back, at {time:g} s with {rate:g} m^2/s: that is no shut-in")
-        if rate > max(least, 0.99 * rates[last]):
-            raise ResultError(f"the first well is not shut in at {times[last]:g} s: "
-                              f"at {time:g} s its rate is {rate:g} m^2/s")
+    for i in range(last + 1, len(times)):
+        if rates[i] < -least:
+            raise ResultError(f"the first well flows back, at {times[i]:g} s with {rates[i]:g} m^2/s: "
+                              "that is no shut-in")
+        if rates[i] > max(least, 0.99 * rates[last]):
+            if i < last + 4:
+                raise ResultError(f"the first well is not shut in at {times[last]:g} s: "
+                                  f"at {times[i]:g} s its rate is {rates[i]:g} m^2/s")
+            return i
+    return len(times)
 
 
 def g_function(delta):
@@ -85,15 +90,15 @@ def end_of_line(g, rising):
 
 
 def closure(table, shut=None):
-    """{quantity: pressure [Pa] or None}, the time of shut-in [s] and by how much the pressure falls
-    within the step in which the faces meet [Pa]."""
+    """{quantity: pressure [Pa] or None}, the time of shut-in [s], by how much the pressure falls within
+    the step in which the faces meet [Pa], and the time at which the well pumps again [s] or None."""
     times, pressures = table["time"], table["inlet_pressure"]
     last = shut_in(times, table["well_1_rate"]) if shut is None else step_at(times, shut)
-    if "well_1_rate" in table:
-        check_rest(times, table["well_1_rate"], last)
+    end = end_of_rest(times, table["well_1_rate"], last) if "well_1_rate" in table else len(times)
+    again = times[end] if end < len(times) else None
     start = times[last]
-    since = [time - start for time in times[last + 1:]]
-    falloff = pressures[last + 1:]
+    since = [time - start for time in times[last + 1:end]]
+    falloff = pressures[last + 1:end]
     roots = [math.sqrt(time) for time in since]
 
     n = max(2, min(5, len(roots) // 4))
@@ -106,7 +111,7 @@ def closure(table, shut=None):
     if not aperture[last] > 0.:
         raise ResultError(f"at the shut-in, {start:g} s, the fracture is not open at the well")
     result["first_contact"], fall = crossing(
-        [pressures[last]] + falloff, aperture[last:], 0.01 * aperture[last])
+        [pressures[last]] + falloff, aperture[last:end], 0.01 * aperture[last])
 
     g = [g_function(time / start) for time in since]
     rising = [g[i] * (falloff[i + 1] - falloff[i - 1]) / (g[i - 1] - g[i + 1])
@@ -114,7 +119,7 @@ def closure(table, shut=None):
     # G dp/dG falls in open fractures, too: closed are only faces that have met.
     closed = None if result["first_contact"] is None else end_of_line(g[1:-1], rising)
     result["g_function"] = None if closed is None else falloff[closed]
-    return result, start, fall
+    return result, start, fall, again
 
 
 def main():
@@ -123,9 +128,11 @@ def main():
     parser.add_argument("directory")
     parser.add_argument("--shut-in", type=float, help="time [s], where the rate does not say it")
     options = parser.parse_args()
-    result, start, fall = closure(read_statistics(options.directory), options.shut_in)
+    result, start, fall, again = closure(read_statistics(options.directory), options.shut_in)
     taken = options.shut_in is not None and abs(options.shut_in - start) > 1e-6 * start
     print(f"shut-in taken at the step at {start:g} s" if taken else f"shut-in at {start:g} s")
+    if again is not None:
+        print(f"the well pumps again at {again:g} s; what comes then is left out")
     for name, value in result.items():
         print(f"{LABELS[name]}: " + ("not in this run" if value is None else f"{value / 1e6:.4f} MPa"))
     if fall > 0.02 * abs(result["first_contact"] or 0.):

@@ -66,10 +66,20 @@ class Closure(unittest.TestCase):
         for outside in (0.5, 500., float("nan")):
             self.refused(table, "the run is from 1 to 399 s", outside)
 
+    def test_pumps_again(self):
+        table = falloff(lambda g: 0.05e6 * g)
+        expected = closure.closure({name: column[:249] for name, column in table.items()})[0]
+        for column, value in (("well_1_rate", 1.), ("inlet_pressure", 30e6), ("inlet_aperture", 2e-3)):
+            table[column] = table[column][:249] + [value] * 150
+        result, start, _, again = closure.closure(table, 100.)
+        self.assertEqual((result, start, again), (expected, 100., 250.))
+        table["well_1_rate"] = table["well_1_rate"][:102] + [1.] * 297
+        self.refused(table, "not shut in at 100 s: at 103 s", 100.)
+
     def test_trickle_of_a_well_that_stores(self):
         table = falloff(lambda g: 0.05e6 * g)
         table["well_1_rate"] = [rate if rate > 0. else 0.5 ** (i - 99) for i, rate in enumerate(table["well_1_rate"])]
-        result, start, _ = closure.closure(table, 100.)
+        result, start = closure.closure(table, 100.)[:2]
         self.assertEqual(start, 100.)
         self.assertLess(abs(result["g_function"] - CLOSES_AT), 0.02 * 0.4e6)
 
