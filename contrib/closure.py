@@ -33,7 +33,8 @@ def shut_in(times, rates):
     """Index of the last step with a rate before it is zero to the end."""
     flowing = [i for i, rate in enumerate(rates) if rate > 0.]
     if not flowing or flowing[-1] + 3 >= len(times):
-        raise ResultError("the first well is not shut in, or the run ends with it")
+        raise ResultError("the first well is not shut in at the end, or the run ends with it; "
+                          "'--shut-in' names an earlier rest")
     return flowing[-1]
 
 
@@ -48,18 +49,26 @@ def step_at(times, shut):
 
 def end_of_rest(times, rates, last):
     """Index after the last step in which the well rests since a step: the end, or where it pumps again.
-    Of one that stores fluid, the rate falls bit by bit."""
+    Of one that stores fluid, the rate falls bit by bit, and does not rise."""
     least = 1e-6 * max(map(abs, rates))
-    for i in range(last + 1, len(times)):
-        if rates[i] < -least:
-            raise ResultError(f"the first well flows back, at {times[i]:g} s with {rates[i]:g} m^2/s: "
+
+    def refuse(i):
+        raise ResultError(f"the first well is not shut in at {times[last]:g} s: "
+                          f"at {times[i]:g} s its rate is {rates[i]:g} m^2/s")
+
+    if rates[last + 1] > max(least, 0.99 * rates[last]):
+        refuse(last + 1)
+    end = last + 1
+    while end < len(times) and rates[end] <= rates[end - 1] + max(least, 0.01 * rates[last]):
+        if rates[end] < -least:
+            raise ResultError(f"the first well flows back, at {times[end]:g} s with {rates[end]:g} m^2/s: "
                               "that is no shut-in")
-        if rates[i] > max(least, 0.99 * rates[last]):
-            if i < last + 4:
-                raise ResultError(f"the first well is not shut in at {times[last]:g} s: "
-                                  f"at {times[i]:g} s its rate is {rates[i]:g} m^2/s")
-            return i
-    return len(times)
+        end += 1
+    if end < last + 4:
+        refuse(end)
+    if rates[end - 1] > max(least, 0.1 * rates[last]):
+        refuse(end - 1)
+    return end
 
 
 def g_function(delta):

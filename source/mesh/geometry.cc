@@ -310,9 +310,6 @@ void Geometry<dim>::create(Triangulation &triangulation) const
       triangulation.execute_coarsening_and_refinement();
     }
   }
-  // Children are still with their parents' ranks if the triangulation shares out on request only.
-  if (triangulation.n_global_levels() > 1)
-    triangulation.repartition();
 }
 
 template <int dim>

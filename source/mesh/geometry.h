@@ -35,7 +35,8 @@ public:
   void parse_parameters(dealii::ParameterHandler &prm, const std::string &deck_directory = ".");
 
   /// The initial mesh: coarse cells, uniform refinement and the refinement boxes. The
-  /// triangulation must be empty. Regions and sides are set now and after every later change of the
+  /// triangulation must be empty; if it shares cells out on request only, children are still with
+  /// their parents' ranks. Regions and sides are set now and after every later change of the
   /// mesh.
   /// @throws EntryError if that makes too many cells
   void create(Triangulation &triangulation) const;

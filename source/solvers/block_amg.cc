@@ -127,9 +127,9 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
                                    std::vector<double> &dx_extra)
 {
   LinearReport report;
-  const bool same_bulk = is_built && stamps.mesh == built_for.mesh &&
-                         stamps.matrix == built_for.matrix &&
-                         stamps.bulk_values == built_for.bulk_values;
+  const bool new_mesh =
+    !is_built || stamps.mesh != built_for.mesh || stamps.matrix != built_for.matrix;
+  const bool same_bulk = !new_mesh && stamps.bulk_values == built_for.bulk_values;
   const SystemOperator op(system, communicator, same_bulk ? &bulk_scaling : nullptr,
                           SystemOperator::Extra::shared_out);
   if (!same_bulk)
@@ -141,8 +141,6 @@ LinearReport BlockAmgSolver::solve(const LinearSystem &system,
   Stopwatch stopwatch;
   // The displacement part is dear and tolerates a matrix that has changed a little; the pressure
   // part is cheap and depends on the time step.
-  const bool new_mesh =
-    !is_built || stamps.mesh != built_for.mesh || stamps.matrix != built_for.matrix;
   const bool worn_out = last_iterations > 1.5 * first_iterations;
   report.factorised = new_mesh || (worn_out && stamps.displacement_values != multigrid_values);
   if (!same_bulk)

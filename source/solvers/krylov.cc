@@ -18,13 +18,13 @@ constexpr unsigned int max_cycles = 4;
 
 /// All unknowns of this rank in one vector, for the library's Krylov methods: one sum over the
 /// ranks per product. Extra unknowns, each with its owner, come last.
-using Joined = LinearAlgebra::distributed::Vector<double>;
+using KrylovVector = LinearAlgebra::distributed::Vector<double>;
 
-/// Between the system's vectors and joined ones.
-class Joint
+/// Between the system's vectors and those of the Krylov methods.
+class KrylovLayout
 {
 public:
-  Joint(const SystemOperator &op, const MPI_Comm communicator)
+  KrylovLayout(const SystemOperator &op, const MPI_Comm communicator)
     : extra(op.extra_layout())
   {
     const auto &bulk = op.scaling().bulk;
@@ -32,26 +32,26 @@ public:
     for (unsigned int b = 0; b < bulk.n_blocks(); ++b)
       n += bulk.block(b).locally_owned_size();
     const auto parts = Utilities::MPI::create_ascending_partitioning(communicator, n);
-    layout = std::make_shared<Utilities::MPI::Partitioner>(
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(
       parts[Utilities::MPI::this_mpi_process(communicator)], communicator);
   }
 
-  Joined join(const SystemVector &from) const
+  KrylovVector join(const SystemVector &from) const
   {
-    Joined to(layout);
+    KrylovVector to(partitioner);
     visit(from, [&to](const double value, const unsigned int i) { to.local_element(i) = value; });
     return to;
   }
 
   /// to = factor * from, unknown by unknown.
-  void join(Joined &to, const SystemVector &from, const Joined &factor) const
+  void join(KrylovVector &to, const SystemVector &from, const KrylovVector &factor) const
   {
     visit(from, [&](const double value, const unsigned int i)
           { to.local_element(i) = factor.local_element(i) * value; });
   }
 
   /// to = factor * from, unknown by unknown.
-  void split(SystemVector &to, const Joined &from, const Joined &factor) const
+  void split(SystemVector &to, const KrylovVector &from, const KrylovVector &factor) const
   {
     visit(to, [&](double &value, const unsigned int i)
           { value = factor.local_element(i) * from.local_element(i); });
@@ -77,7 +77,7 @@ private:
   }
 
   const ExtraLayout &extra;
-  std::shared_ptr<const Utilities::MPI::Partitioner> layout;
+  std::shared_ptr<const Utilities::MPI::Partitioner> partitioner;
 };
 
 /// A linear action on all unknowns between diagonal scalings, so that the Krylov method sees the
@@ -88,8 +88,11 @@ public:
   /// dst = action of src, which it may use as working space.
   using Action = std::function<void(SystemVector &dst, SystemVector &src)>;
 
-  Scaled(const SystemOperator &op, const Joint &joint, const Joined &scaling, Action action)
-    : joint(joint)
+  Scaled(const SystemOperator &op,
+         const KrylovLayout &layout,
+         const KrylovVector &scaling,
+         Action action)
+    : layout(layout)
     , action(std::move(action))
     , scaling(scaling)
     , in(op.make_vector())
@@ -97,17 +100,17 @@ public:
   {
   }
 
-  void vmult(Joined &dst, const Joined &src) const
+  void vmult(KrylovVector &dst, const KrylovVector &src) const
   {
-    joint.split(in, src, scaling);
+    layout.split(in, src, scaling);
     action(out, in);
-    joint.join(dst, out, scaling);
+    layout.join(dst, out, scaling);
   }
 
 private:
-  const Joint &joint;
+  const KrylovLayout &layout;
   const Action action;
-  const Joined &scaling;
+  const KrylovVector &scaling;
   mutable SystemVector in, out;
 };
 } // namespace
@@ -120,15 +123,15 @@ void solve_by_krylov(const SystemOperator &op,
                      SystemVector &dx,
                      LinearReport &report)
 {
-  const Joint joint(op, communicator);
-  const Joined scaling = joint.join(op.scaling());
-  Joined inverse_scaling(scaling);
+  const KrylovLayout layout(op, communicator);
+  const KrylovVector scaling = layout.join(op.scaling());
+  KrylovVector inverse_scaling(scaling);
   for (double &s : inverse_scaling)
     s = 1. / s;
-  const Scaled matrix(op, joint, scaling,
+  const Scaled matrix(op, layout, scaling,
                       [&](SystemVector &dst, SystemVector &src) { op.vmult(dst, src); });
-  const Scaled scaled_preconditioner(op, joint, inverse_scaling, preconditioner);
-  Joined b = joint.join(op.load()), x, r;
+  const Scaled scaled_preconditioner(op, layout, inverse_scaling, preconditioner);
+  KrylovVector b = layout.join(op.load()), x, r;
   x.reinit(b);
   r.reinit(b);
   b.scale(scaling);
@@ -143,9 +146,10 @@ void solve_by_krylov(const SystemOperator &op,
     try
     {
       if (limits.symmetric_definite)
-        SolverCG<Joined>(control).solve(matrix, x, b, scaled_preconditioner);
+        SolverCG<KrylovVector>(control).solve(matrix, x, b, scaled_preconditioner);
       else
-        SolverFGMRES<Joined>(control, SolverFGMRES<Joined>::AdditionalData(limits.restart))
+        SolverFGMRES<KrylovVector>(control,
+                                   SolverFGMRES<KrylovVector>::AdditionalData(limits.restart))
           .solve(matrix, x, b, scaled_preconditioner);
     }
     catch (const SolverControl::NoConvergence &)
@@ -159,6 +163,6 @@ void solve_by_krylov(const SystemOperator &op,
     report.converged = report.relative_residual <= 1.01 * limits.tolerance;
   }
   report.iterations += iterations;
-  joint.split(dx, x, scaling);
+  layout.split(dx, x, scaling);
 }
 } // namespace stockwork

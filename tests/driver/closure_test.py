@@ -69,12 +69,17 @@ class Closure(unittest.TestCase):
     def test_pumps_again(self):
         table = falloff(lambda g: 0.05e6 * g)
         expected = closure.closure({name: column[:249] for name, column in table.items()})[0]
-        for column, value in (("well_1_rate", 1.), ("inlet_pressure", 30e6), ("inlet_aperture", 2e-3)):
+        for column, value in (("inlet_pressure", 30e6), ("inlet_aperture", 2e-3)):
             table[column] = table[column][:249] + [value] * 150
-        result, start, _, again = closure.closure(table, 100.)
-        self.assertEqual((result, start, again), (expected, 100., 250.))
+        for rate in (1., 0.5):
+            table["well_1_rate"] = table["well_1_rate"][:249] + [rate] * 150
+            result, start, _, again = closure.closure(table, 100.)
+            self.assertEqual((result, start, again), (expected, 100., 250.))
+        self.refused(table, "'--shut-in' names an earlier rest")
         table["well_1_rate"] = table["well_1_rate"][:102] + [1.] * 297
         self.refused(table, "not shut in at 100 s: at 103 s", 100.)
+        table["well_1_rate"] = table["well_1_rate"][:100] + [0.5] * 299
+        self.refused(table, "not shut in at 100 s: at 399 s", 100.)
 
     def test_trickle_of_a_well_that_stores(self):
         table = falloff(lambda g: 0.05e6 * g)

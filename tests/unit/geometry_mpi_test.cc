@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "mesh/geometry.h"
+#include "mesh/partition.h"
 #include "mesh/refinement.h"
 #include "stockwork/base/error.h"
 
@@ -256,6 +257,7 @@ TEST_CASE("regions are known to the rank that gets the cells later")
     MPI_COMM_WORLD, Triangulation<2>::none,
     parallel::distributed::Triangulation<2>::no_automatic_repartitioning);
   c.geometry.create(triangulation);
+  share_out(triangulation, 2);
   unsigned int n = 0;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
