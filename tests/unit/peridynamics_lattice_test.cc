@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "fracture/peridynamics/lattice_moduli.h"
+#include "fracture/peridynamics/separation.h"
 #include "fracture/peridynamics/state_based.h"
 #include "lattice_rock.h"
 
@@ -238,6 +239,53 @@ TEST_CASE_TEMPLATE("calibrated, a cut at the critical stretch takes G_c",
         if (m == 6)
           CHECK(std::abs(error(energy, 100.)) < 0.4);
       }
+}
+
+TEST_CASE_TEMPLATE("work of separation: the force of a lattice that is moved apart, over its way",
+                   D,
+                   std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+  constexpr int dim = D::value;
+  const int m = dim == 2 ? 3 : 2;
+  const SofteningLaw softening{5e-5, 2e-4};
+  const auto stencil = horizon_stencil<dim>(m, VolumeRule::exact);
+  for (const double poisson_ratio : {0.15, 0.25, 0.35})
+  {
+    CAPTURE(poisson_ratio);
+    const BondLaw law = state_based_law<dim>(lattice_rock(poisson_ratio), stencil, spacing);
+    const auto bonds = bond_coefficients<dim>(stencil, law, spacing);
+    // Of a column of sites, those above the plane moved by so much, with damage of another opening.
+    const auto energy = [&](const double opening, const double opening_of_damage)
+    {
+      double sum = 0.;
+      for (int layer = -m; layer < m; ++layer)
+      {
+        double theta = 0.;
+        for (unsigned int b = 0; b < stencil.size(); ++b)
+        {
+          const bool is_above = layer >= 0, ends_above = layer + stencil[b].offset[dim - 1] >= 0;
+          const double parted = (static_cast<int>(ends_above) - static_cast<int>(is_above)) *
+                                bonds[b].direction[dim - 1];
+          const double left = 1. - softening.damage(parted * opening_of_damage / bonds[b].length);
+          sum += 0.25 * left * bonds[b].stiffness * std::pow(parted * opening, 2);
+          theta += left * bonds[b].dilatation * parted * opening;
+        }
+        sum += 0.5 * law.dilatation_modulus * std::pow(spacing, dim) * theta * theta;
+      }
+      return sum / std::pow(spacing, dim - 1);
+    };
+    const double most = softening.last * (m + 1) * (m + 1) * spacing;
+    const unsigned int n_steps = 20000;
+    double work = 0.;
+    for (unsigned int i = 0; i < n_steps; ++i)
+    {
+      const double middle = (i + 0.5) * most / n_steps, half = 0.5 * most / n_steps;
+      work += energy(middle + half, middle) - energy(middle - half, middle);
+    }
+    CHECK(separation_energy<dim>(stencil, law, spacing, softening) ==
+          doctest::Approx(work).epsilon(1e-5));
+  }
 }
 
 TEST_CASE("what calibration leaves: the anisotropy C11/(3 C12) of the study")

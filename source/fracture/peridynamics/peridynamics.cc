@@ -2,6 +2,7 @@
 
 #include "flow/permeability_tensor.h"
 #include "fracture/peridynamics/lattice_moduli.h"
+#include "fracture/peridynamics/separation.h"
 #include "fracture/peridynamics/state_based.h"
 #include "mesh/box_list.h"
 #include "stockwork/base/error.h"
@@ -86,27 +87,22 @@ void Peridynamics<dim>::set_law(const double spacing)
                                : bond_based_law<dim>(rock, stencil, spacing);
   coefficients = bond_coefficients<dim>(stencil, law, spacing);
   strain_of_pressure = 1. / (dim * lattice_moduli<dim>(stencil, law, spacing).bulk());
-  critical_stretch = continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
   softening.first = 1. / std::sqrt(parameters.softening);
   softening.last = std::sqrt(parameters.softening);
   BondLaw springs = law;
   springs.dilatation_modulus = 0.;
   // What bonds across a plane take that break at a stretch: as springs, and by their dilatation.
-  const auto energy_at = [&](const double stretch)
-  {
-    const double of_springs = crossing_energy<dim>(stencil, springs, spacing, stretch);
-    return of_springs + softening.share_of_squares() *
-                          (crossing_energy<dim>(stencil, law, spacing, stretch) - of_springs);
-  };
-  const double at_one = energy_at(1.);
+  const double at_one = separation_energy<dim>(stencil, law, spacing, softening);
   energy_over_spring = at_one / crossing_energy<dim>(stencil, springs, spacing, 1.);
+  const double of_continuum =
+    continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
-  const double held = energy_at(critical_stretch);
-  critical_stretch *=
-    !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor
-    : parameters.softening > 1. && held > 0.
-      ? std::sqrt(rock.energy_release_rate / held)
-      : trapping_factor(parameters.horizon, law.dilatation_modulus / rock.shear_modulus());
+  critical_stretch =
+    !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor * of_continuum
+    : parameters.softening > 1.
+      ? std::sqrt(rock.energy_release_rate / at_one)
+      : of_continuum *
+          trapping_factor(parameters.horizon, law.dilatation_modulus / rock.shear_modulus());
   softening.first = critical_stretch / std::sqrt(parameters.softening);
   softening.last = critical_stretch * std::sqrt(parameters.softening);
   // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.

@@ -58,19 +58,6 @@ struct SofteningLaw
     return stretch_of(wet_damage);
   }
 
-  /// Energy that goes as the square of what is left of the bond and of its stretch (that of a
-  /// dilatation), until it is broken, over that of a brittle one: 2/(first last) int (1 - D)^2 s
-  /// ds.
-  double share_of_squares() const
-  {
-    if (brittle())
-      return 1.;
-    const double n = last / first;
-    return 2. / n *
-           (0.5 +
-            (n * n * std::log(n) - 2. * n * (n - 1.) + 0.5 * (n * n - 1.)) / ((n - 1.) * (n - 1.)));
-  }
-
   /// Over that of a bond that broke at stretch one.
   double dissipated(const double kappa) const
   {
