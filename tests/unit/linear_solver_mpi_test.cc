@@ -625,6 +625,23 @@ TEST_CASE("patches that hold all of the rock make the sparse block exact, but fo
   CHECK(run.report.iterations <= rock.report.iterations + 6);
 }
 
+TEST_CASE("a fracture that is large beside its rock has no dense block")
+{
+  for (const unsigned int n_extra : {6u, 60u})
+  {
+    CAPTURE(n_extra);
+    auto solver = make(Type::automatic);
+    auto d = make_dense(31, 0, n_extra, 0., 0., 0.4);
+    const SystemStamps stamps;
+    const auto run = solve(*solver, d, stamps);
+    CHECK(run.report.converged);
+    CHECK(run.error < 1e-10);
+    for (unsigned int i = 0; i < d.n_u; ++i)
+      d.R(i) = 0.;
+    CHECK((solver->condense(*distribute(d), stamps, 1e-6) != nullptr) == (n_extra == 6));
+  }
+}
+
 TEST_CASE("a singular matrix is an error that helps")
 {
   auto solver = make(Type::direct);
