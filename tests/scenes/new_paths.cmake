@@ -22,3 +22,8 @@ stockwork_restart_test(NAME scenes/new_path/restart DECK tests/data/soft_spot_ah
 stockwork_case_test(NAME scenes/new_path/none DECK prm/kgd/sun/peridynamics.prm
   SET Resolution=coarse "In situ/Stress=-5 MPa, -3 MPa" Verification/Reference=none "Time/End time=3 s" Output/Fields=false
   EXPECT "warnings == 3")
+
+# Tips that come past one another within a cell and a half join. Where they run on side by side, the length of both is 3.02 m.
+stockwork_case_test(NAME scenes/passing_tips DECK tests/data/en_echelon.prm
+  EXPECT "final/fracture_length = 2.85 within 0.02" "final/fracture_volume = final/injected_volume within 1e-12"
+         "fluid_balance/relative_error < 1e-12")

@@ -21,6 +21,10 @@ constexpr double nearly_there = 1.5;
 /// A way that crosses no other path within so much is not about to meet it, but comes past it, if
 /// it comes near [pieces].
 constexpr double look_ahead = 3.;
+/// The sine of an angle. A way that comes past another path joins it unless it leads away from it
+/// by more; and it goes straight to the way of another one, from farther off, if it leads towards
+/// that by more: what bonds are between would be shared out to two ways that run on side by side.
+constexpr double least_towards = 0.17;
 /// To share bonds out by. Pieces then read an opening alike to some tenths of a per cent, at any
 /// angle; more would carry what the ends of a path lack farther along it.
 constexpr unsigned int sweeps = 3;
@@ -423,14 +427,21 @@ void TrackedPaths::extend(const End &end, const Tensor<1, 2> &direction)
     }
   growth.joined = ahead < nearly_there;
   Point<2> next = head + (growth.joined ? ahead : 1.) * h * direction;
-  if (ahead > look_ahead)
-    if (const auto [beside, away] = nearest(head, end.path);
-        away < nearly_there * h && (point(beside) - head) * direction > -same_spot * h)
+  if (!growth.joined)
+  {
+    const auto [beside, away] = nearest(head, end.path);
+    const Tensor<1, 2> across = point(beside) - head;
+    const double towards = across * direction;
+    const bool passes = ahead > look_ahead, is_way = end_at(beside).has_value();
+    if (away < nearly_there * h && towards >= -least_towards * away && (passes || is_way))
     {
       growth.joined = growth.passes = true;
       joint = beside;
       next = point(beside);
     }
+    else if (passes && is_way && away < look_ahead * h && towards > least_towards * away)
+      next = head + h / away * across;
+  }
   if (growth.joined)
   {
     growth.grows = false;
