@@ -542,18 +542,13 @@ void TrackedPaths::begin_at_side(const Point<2> &place,
 
 bool TrackedPaths::is_joined(const End &end) const
 {
-  return std::any_of(paths.begin(), paths.end(),
-                     [&](const Path &path)
-                     {
-                       return std::any_of(
-                         path.ends.begin(), path.ends.end(),
-                         [&](const Growth &other)
-                         {
-                           const auto at = end_at({other.joined_path, other.joined_arc});
-                           return other.joined && at && at->path == end.path &&
-                                  at->side == end.side;
-                         });
-                     });
+  for (const Path &path : paths)
+    for (const Growth &other : path.ends)
+      if (other.joined)
+        if (const auto at = end_at({other.joined_path, other.joined_arc});
+            at && at->path == end.path && at->side == end.side)
+          return true;
+  return false;
 }
 
 
