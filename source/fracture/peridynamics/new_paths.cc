@@ -23,21 +23,46 @@ constexpr double nearly_most = 0.02;
 
 
 template <int dim>
+void Peridynamics<dim>::find_sites_off_paths()
+{
+  sites_off_paths.clear();
+  if constexpr (dim == 2)
+  {
+    double longest = 0.;
+    for (const BondCoefficients<dim> &bond : coefficients)
+      longest = std::max(longest, bond.length);
+    const double least = least_distance * parameters.horizon * zone.spacing() - 0.5 * longest;
+    for (const unsigned int i : zone.peridynamic_sites())
+      if (paths.distance(zone.position(zone.sites()[i].place)) >= least)
+        sites_off_paths.push_back(i);
+  }
+}
+
+
+template <int dim>
 std::vector<typename Peridynamics<dim>::Overstretched>
 Peridynamics<dim>::overstretched_off_paths() const
 {
   std::vector<Overstretched> result;
   if constexpr (dim == 2)
-    for (const unsigned int i : zone.peridynamic_sites())
+    for (const unsigned int i : sites_off_paths)
+    {
+      // Bonds that the stress in situ presses together in all directions are looked at by their
+      // elongation first, which tells nearly always.
+      const bool pressed =
+        in_situ_is_zero ||
+        eigenvalues(effective_in_situ_stress(i, 0, zone.position(zone.sites()[i].place)))[0] <= 0.;
       for (unsigned int b = 0; b < stencil.size(); ++b)
       {
-        if (bonds.is_broken(i, b) || !bonds.can_break(i, b) || never_breaks(i, b) ||
-            volume_share(i, b) == 0.)
+        double longer = elongation(i, b, displacement);
+        if ((pressed && longer <= 0.) || bonds.is_broken(i, b) || !bonds.can_break(i, b) ||
+            never_breaks(i, b) || volume_share(i, b) == 0.)
+          continue;
+        if (pressed && equivalent_stretch(i, b, longer) < (1. - 2. * nearly_most) * softening.first)
           continue;
         const Tensor<1, dim> &e = coefficients[b].direction;
         const Point<dim> middle =
           zone.position(zone.sites()[i].place) + 0.5 * coefficients[b].length * e;
-        double longer = elongation(i, b, displacement);
         if (!in_situ_is_zero)
           longer += coefficients[b].length * dry_stretch(i, b, middle, e);
         const double stretch = rounded(equivalent_stretch(i, b, longer) / softening.first);
@@ -47,6 +72,7 @@ Peridynamics<dim>::overstretched_off_paths() const
           continue;
         result.push_back({stretch, i, middle});
       }
+    }
   return result;
 }
 
@@ -172,6 +198,7 @@ void Peridynamics<dim>::begin_path(const Point<dim> &middle,
 }
 
 #define INSTANTIATE(dim)                                                               \
+  template void Peridynamics<dim>::find_sites_off_paths();                             \
   template std::vector<Peridynamics<dim>::Overstretched>                               \
   Peridynamics<dim>::overstretched_off_paths() const;                                  \
   template void Peridynamics<dim>::begin_paths(const StepContext &, const State &,     \

@@ -400,6 +400,9 @@ private:
     dealii::Point<dim> middle;
   };
 
+  /// Sites that may have bonds so far from all paths.
+  void find_sites_off_paths();
+
   /// Those far from all paths, by site, and others that nearly would.
   std::vector<Overstretched> overstretched_off_paths() const;
 
@@ -676,6 +679,7 @@ private:
   TrackedPaths paths, committed_paths;
   std::vector<BondAcross> crossing_bonds; ///< of `paths_crossed`, sorted by view
   TrackedPaths paths_crossed;
+  std::vector<unsigned int> sites_off_paths;                    ///< of `paths_crossed`
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
   std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
   std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here

@@ -65,6 +65,7 @@ void Peridynamics<dim>::find_crossing_bonds()
       return;
     paths_crossed = paths;
     crossing_bonds.clear();
+    find_sites_off_paths();
     std::vector<bool> is_near(zone.sites().size(), false);
     const int reach = parameters.horizon + 1;
     for (const auto &[lower, upper] : paths.boxes())
