@@ -277,7 +277,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
       crack(bond.view);
   }
   if (parameters.tracked)
-    changed = advance_tips(candidates);
+    changed = advance_tips();
   else if (changed)
     changed = find_fracture_cells(zone, cracked).size() != cells.size();
   for (const Candidate &candidate : candidates)
@@ -285,12 +285,10 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   if (!changed)
     return false;
 
-  // Those that were broken before this step do not need their unknowns any more; but what stress
-  // in situ does between the faces of a dry path is theirs, for it has no segments.
+  // Those that were broken before this step do not need their unknowns any more.
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)
-    if (bond.committed >= softening.last &&
-        !(parameters.tracked && dry_stretch(bond.view.first, bond.view.second) != 0.))
+    if (bond.committed >= softening.last)
       bonds.set_broken(bond.view.first, bond.view.second);
     else
       softening_now.push_back(bond);
