@@ -17,7 +17,7 @@ double separation_energy(const std::vector<StencilBond<dim>> &stencil,
 {
   BondLaw springs = law;
   springs.dilatation_modulus = 0.;
-  double energy =
+  const double energy =
     crossing_energy<dim>(stencil, springs, spacing, std::sqrt(softening.first * softening.last));
   if (!law.state_based())
     return energy;
