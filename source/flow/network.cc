@@ -127,8 +127,8 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
     numbers.push_back({segment.key, segment.centre, segment.normal, segment.area,
                        segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
                        segment.region, segment.pore_distance, segment.has_pressure_of_pores,
-                       segment.share_of_pores, segment.bare_aperture, segment.propped_conductivity,
-                       collectives.rank(), segment.at_tip,
+                       segment.share_of_pores, bridges_count(segment) ? segment.bare_aperture : 0.,
+                       segment.propped_conductivity, collectives.rank(), segment.at_tip,
                        static_cast<unsigned int>(segment.neighbours.size())});
     neighbours.insert(neighbours.end(), segment.neighbours.begin(), segment.neighbours.end());
   }
@@ -330,6 +330,24 @@ typename Network<dim>::Exposure Network<dim>::exposure(const unsigned int segmen
 
 
 template <int dim>
+bool Network<dim>::bridges_count(const Segment<dim> &segment) const
+{
+  return leak_off == LeakOff::carter || segment.taken_from_pores > 0.;
+}
+
+
+template <int dim>
+double Network<dim>::bare_share(const unsigned int segment) const
+{
+  constexpr double least = 1e-3; // or nothing would say what the pressure drops by
+  if (network[segment].bare_aperture == 0.)
+    return 1.;
+  const auto old = history.find(network[segment].key);
+  return old == history.end() ? least : old->second.bare ? 1. : std::max(least, old->second.wetted);
+}
+
+
+template <int dim>
 double Network<dim>::leak_off_coefficient(const unsigned int segment) const
 {
   const NetworkSegment<dim> &s = network[segment];
@@ -341,12 +359,12 @@ double Network<dim>::leak_off_coefficient(const unsigned int segment) const
   const auto of_region = mobility_of_region.find(s.region);
   const double mobility = of_region != mobility_of_region.end() ? of_region->second : rock_mobility;
   if (leak_off == LeakOff::resolved || clean)
-    return resolved_coefficient(mobility, s.size(), s.pore_distance);
+    return bare_share(segment) * resolved_coefficient(mobility, s.size(), s.pore_distance);
   if (leak_off != LeakOff::filter_cake)
     return 0.;
-  return s.rock_has_pore_pressure && mobility > 0.
-           ? 1. / (1. / filter_cake_coefficient + s.pore_distance / mobility)
-           : filter_cake_coefficient;
+  return bare_share(segment) * (s.rock_has_pore_pressure && mobility > 0.
+                                  ? 1. / (1. / filter_cake_coefficient + s.pore_distance / mobility)
+                                  : filter_cake_coefficient);
 }
 
 

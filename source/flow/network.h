@@ -406,6 +406,13 @@ private:
              : std::max(network[segment].bare_aperture, minimum_aperture);
   }
 
+  /// Whether bridges of rock hold back what leaks from a segment, see Segment::bare_aperture.
+  bool bridges_count(const Segment<dim> &segment) const;
+
+  /// Share of the faces of a segment that leaks into pores, as it was at the end of the last step,
+  /// so that the law is linear within one.
+  double bare_share(unsigned int segment) const;
+
   /// c_l of the linear leak-off laws [m/(Pa s)].
   double leak_off_coefficient(unsigned int segment) const;
 

@@ -106,8 +106,10 @@ struct Segment
   /// the pore pressure carry the fluid of the fracture, too, and the segment has no neighbours.
   bool has_pressure_of_pores = false;
 
-  /// Aperture from which on the faces are bare and leak in full, for Carter's law; below, bridges
-  /// of rock still hold them together [m]. The minimum aperture of the flow if that is larger.
+  /// Aperture from which on the faces are bare and leak in full; below, bridges of rock still hold
+  /// them together [m]. The minimum aperture of the flow if that is larger. For Carter's law; into
+  /// pores, only where the opening takes its room from them (`taken_from_pores`), elsewhere all of
+  /// a process zone leaks in full.
   double bare_aperture = 0.;
 
   /// Of proppant between the faces, beside what the opening conducts: permeability times thickness

@@ -380,9 +380,17 @@ private:
   /// Paths go on ahead of tips that have come near to their ends.
   void track(const State &state, const OfCells &of_cells);
 
-  /// How far tips have come by the energy that softening bonds have dissipated.
+  /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
+  /// porous rock in all of the process zone, with candidates.
+  std::vector<std::array<double, 2>> fluid_ahead(const std::vector<Candidate> &candidates) const;
+
+  /// How far tips have come by the energy that softening bonds have dissipated, and fluid with
+  /// them.
   /// @return whether fluid has reached another piece
-  bool advance_tips();
+  bool advance_tips(const std::vector<Candidate> &candidates);
+
+  /// Of a piece in porous rock, see Segment [m].
+  double bare_aperture(unsigned int cell) const;
 
   /// What all bonds take across the way of an end [J/m].
   double energy_of_way(const TrackedPaths::End &end) const;

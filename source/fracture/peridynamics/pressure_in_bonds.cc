@@ -30,6 +30,10 @@ namespace
 constexpr double closed = 1e-12;
 /// What bonds of a piece read of a jump, less all of it, from which on too few are there to tell.
 constexpr double too_few_bonds = 0.5;
+/// Of the opening at which nothing holds faces together any more, from which on they leak as bare
+/// ones. By the energy, in all as much would leak as the tip has come, but the pores of the process
+/// zone would lack pressure (doc/laboratory/peridynamics_paths.md).
+constexpr double share_when_bare = 0.25;
 } // namespace
 
 
@@ -273,6 +277,7 @@ void Peridynamics<dim>::open_by_bonds()
     if (!scene.has_pore_pressure)
       continue;
     segment.taken_from_pores = own.biot_coefficient = biot_coefficient(i);
+    segment.bare_aperture = bare_aperture(i);
     own.pores = parameters.tracked ? &pores_of_pieces[i] : &segment.pore_pressure;
   }
   // Of each dof, what it adds to the jumps, and the force of the stress in situ.
@@ -349,6 +354,26 @@ void Peridynamics<dim>::open_by_bonds()
                                            (e * (modes[cell][m] * e)));
       }
   }
+}
+
+
+/// The force that softens linearly parts at 2 G_c over the strength, which goes with the root of
+/// G_c and of the modulus.
+template <int dim>
+double Peridynamics<dim>::bare_aperture(const unsigned int cell) const
+{
+  if constexpr (dim == 2)
+    if (parameters.tracked)
+    {
+      const TrackedPaths::Piece &piece = paths.wet_pieces()[cell];
+      const RockProperties &main = scene.rock.main(),
+                           &here = scene.rock(regions[zone.active_cell_index(cells[cell].place)]);
+      if (paths.end_at({piece.path, 0.5 * (piece.begin + piece.end)}))
+        return share_when_bare * 2. * main.energy_release_rate / strength() *
+               std::sqrt(here.energy_release_rate / main.energy_release_rate *
+                         main.shear_modulus() / here.shear_modulus());
+    }
+  return 0.; // an initial crack has no bridges
 }
 
 
@@ -447,6 +472,7 @@ std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const
   template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const;       \
   template void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &);                   \
   template void Peridynamics<dim>::open_by_bonds();                                               \
+  template double Peridynamics<dim>::bare_aperture(unsigned int) const;                           \
   template double Peridynamics<dim>::push(const BondView &) const;                                \
   template void Peridynamics<dim>::commit_contact(const State &);                                 \
   template void Peridynamics<dim>::keep_committed_cells();                                        \

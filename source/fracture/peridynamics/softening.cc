@@ -277,7 +277,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
       crack(bond.view);
   }
   if (parameters.tracked)
-    changed = advance_tips();
+    changed = advance_tips(candidates);
   else if (changed)
     changed = find_fracture_cells(zone, cracked).size() != cells.size();
   for (const Candidate &candidate : candidates)

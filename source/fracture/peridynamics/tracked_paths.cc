@@ -317,7 +317,8 @@ double TrackedPaths::way(const End &end) const
 }
 
 
-bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance)
+bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance,
+                                const std::function<double(const End &)> &fluid)
 {
   for (unsigned int p = 0; p < paths.size(); ++p)
     for (const unsigned int side : {0u, 1u})
@@ -326,7 +327,7 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
       if (growth.n_points == 0)
         continue;
       growth.advance = std::min(advance({p, side}), way({p, side}));
-      growth.wet = std::max(growth.wet, growth.advance);
+      growth.wet = std::max({growth.wet, growth.advance, fluid({p, side})});
     }
   std::vector<Piece> before;
   before.swap(wet);
@@ -339,11 +340,11 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
 }
 
 
-double TrackedPaths::beyond_tip(const Crossing &crossing, const End &end) const
+double TrackedPaths::along_way(const Crossing &crossing, const End &end) const
 {
   const Path &path = paths[end.path];
   const double start = path.begin(path.n_pieces() - path.ends[1].n_points);
-  return (end.side == 0 ? -crossing.arc : crossing.arc - start) - at(end).advance;
+  return end.side == 0 ? -crossing.arc : crossing.arc - start;
 }
 
 

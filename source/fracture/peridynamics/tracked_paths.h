@@ -17,8 +17,8 @@ namespace stockwork::peridynamics
 /// crack, and ahead of each of its ends that is in rock the way that it will take. Bonds soften
 /// only where they cross one. How far a tip has come on its way is known from the energy that has
 /// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
-/// paths: those that a tip has come to, and of a path that begins beyond another one the first when
-/// it has taken a tenth of its energy.
+/// paths: those that a tip has come to, or in porous rock its process zone, and of a path that
+/// begins beyond another one the first when it has taken a tenth of its energy.
 class TrackedPaths
 {
 public:
@@ -101,12 +101,14 @@ public:
     return at(end).advance;
   }
 
-  /// How far the tip of an end has come, on the way that is there [m].
+  /// How far the tip of an end has come, on the way that is there [m], and fluid where it is ahead
+  /// of that.
   /// @return whether fluid has reached other pieces than before
-  bool set_advances(const std::function<double(const End &)> &advance);
+  bool set_advances(const std::function<double(const End &)> &advance,
+                    const std::function<double(const End &)> &fluid);
 
-  /// How far ahead of the tip of an end its way is crossed there [m].
-  double beyond_tip(const Crossing &crossing, const End &end) const;
+  /// How far along the way of an end that is crossed there [m].
+  double along_way(const Crossing &crossing, const End &end) const;
 
   /// Length of the way of an end [m].
   double way(const End &end) const;
@@ -186,7 +188,7 @@ private:
   {
     bool grows = false;
     unsigned int n_points = 0;     ///< of its way
-    double advance = 0., wet = 0.; ///< of the tip, and the greatest so far [m]
+    double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
     bool joined = false;           ///< it has met another path
     unsigned int joined_path = 0;  ///< which
     double joined_arc = 0.;        ///< and where on it

@@ -360,7 +360,7 @@ double Peridynamics<dim>::half_process_zones() const
       const auto crossing =
         crossing_of(softening_bonds[n].view.first, softening_bonds[n].view.second);
       double &farthest = ahead[{end->path, end->side}];
-      farthest = std::max(farthest, paths.beyond_tip(*crossing, *end));
+      farthest = std::max(farthest, paths.along_way(*crossing, *end) - paths.advance(*end));
     }
   double sum = 0.;
   for (const auto &end : ahead)
@@ -369,14 +369,45 @@ double Peridynamics<dim>::half_process_zones() const
 }
 
 
+/// In porous rock the elements' strain across what softens is opening: the pores around must not
+/// feel it, so the fluid of the piece that is there takes it, and leaks into them.
+template <int dim>
+std::vector<std::array<double, 2>>
+Peridynamics<dim>::fluid_ahead(const std::vector<Candidate> &candidates) const
+{
+  std::vector<std::array<double, 2>> farthest(paths.n_paths(), {{0., 0.}});
+  const auto reach = [&](const BondView &view)
+  {
+    const auto crossing = crossing_of(view.first, view.second);
+    const auto end = crossing ? paths.end_at(*crossing) : std::nullopt;
+    // What begins beyond another path is dry at first, see TrackedPaths.
+    if (!end || (paths.began_beyond(end->path) && !paths.is_wet(end->path)))
+      return;
+    double &fluid = farthest[end->path][end->side];
+    fluid = std::max(fluid, paths.along_way(*crossing, *end));
+  };
+  if (scene.has_pore_pressure)
+  {
+    for (const SofteningBond &bond : softening_bonds)
+      if (rounded(softening.damage(bond.trial)) > 0.)
+        reach(bond.view);
+    for (const Candidate &candidate : candidates)
+      if (candidate.stretch >= 1.)
+        reach({candidate.site, candidate.bond});
+  }
+  return farthest;
+}
+
+
 /// Where a way meets another path, the bonds across both belong to that one, so its last part takes
 /// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
 /// has broken.
 template <int dim>
-bool Peridynamics<dim>::advance_tips()
+bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &candidates)
 {
   const auto energy = energy_across_ways();
   const double h = zone.spacing(), unit = h * scene.rock.main().energy_release_rate;
+  const auto fluid = fluid_ahead(candidates);
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
     {
@@ -390,7 +421,8 @@ bool Peridynamics<dim>::advance_tips()
       return by_energy <= begin
                ? by_energy
                : begin + (by_energy - begin) * (way - begin) / std::max(h, way - begin - missing);
-    });
+    },
+    [&](const TrackedPaths::End &end) { return fluid[end.path][end.side]; });
 }
 
 
@@ -564,7 +596,9 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;     \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
   template double Peridynamics<dim>::half_process_zones() const;                             \
-  template bool Peridynamics<dim>::advance_tips();                                           \
+  template std::vector<std::array<double, 2>> Peridynamics<dim>::fluid_ahead(                \
+    const std::vector<Candidate> &) const;                                                   \
+  template bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &);             \
   template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;         \
   template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                       \
     unsigned int, const std::map<BondView, double> &, const OfCells &) const;                \
