@@ -33,6 +33,11 @@ bool anywhere(const Point<2> &)
 {
   return true;
 }
+
+double none_ahead(const TrackedPaths::End &)
+{
+  return 0.;
+}
 } // namespace
 
 
@@ -148,18 +153,23 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
   CHECK(paths.shares(*ahead, 1.).empty());
   CHECK(sum(paths.shares(*ahead, 2.)) == doctest::Approx(1.));
 
-  CHECK(paths.set_advances([](const TrackedPaths::End &) { return 1.25; }));
+  // Fluid may be ahead of the tip.
+  CHECK(paths.set_advances([](const TrackedPaths::End &) { return 0.5; },
+                           [](const TrackedPaths::End &) { return 1.25; }));
+  CHECK(paths.wet_pieces().size() == 4);
+  CHECK(paths.lead(end) == doctest::Approx(1.5));
+  CHECK(!paths.set_advances([](const TrackedPaths::End &) { return 1.25; }, none_ahead));
   CHECK(paths.wet_pieces().size() == 4);
   CHECK(paths.wet_pieces().back().at_tip);
   CHECK(!paths.wet_pieces()[1].at_tip);
   CHECK(paths.lead(end) == doctest::Approx(0.75));
   CHECK((paths.left(*ahead) - Tensor<1, 2>({-0.5, std::sqrt(0.75)})).norm() < 1e-12);
   CHECK(paths.length() == doctest::Approx(3.25));
-  CHECK(paths.beyond_tip(*ahead, end) == doctest::Approx(1. / std::sqrt(0.75) - 1.25));
+  CHECK(paths.along_way(*ahead, end) == doctest::Approx(1. / std::sqrt(0.75)));
   CHECK(paths.distance(Point<2>(1., 2.)) == doctest::Approx(2.));
   CHECK(paths.tip(end).distance(Point<2>(2., 0.) + 1.25 * up) < 1e-12);
   // It does not run dry again.
-  paths.set_advances([](const TrackedPaths::End &) { return 0.5; });
+  paths.set_advances([](const TrackedPaths::End &) { return 0.5; }, none_ahead);
   CHECK(paths.wet_pieces().size() == 4);
 }
 
@@ -179,7 +189,7 @@ TEST_CASE("a way ends where it meets another path, and the fluid goes on there")
   CHECK(paths.ends().size() == 2);
   CHECK(paths.lead(end) == doctest::Approx(1.7));
   const std::size_t before = paths.wet_pieces().size();
-  paths.set_advances([](const TrackedPaths::End &e) { return e.path == 0 ? 1.5 : 0.; });
+  paths.set_advances([](const TrackedPaths::End &e) { return e.path == 0 ? 1.5 : 0.; }, none_ahead);
   const auto &pieces = paths.wet_pieces();
   REQUIRE(pieces.size() == before + 2);
   CHECK(!pieces[3].at_tip);
@@ -231,14 +241,16 @@ TEST_CASE("beyond a path that has been met another one begins, which fluid reach
     paths.set_advances([advance](const TrackedPaths::End &e)
                        { return e.path == 0   ? 1.7
                                 : e.path == 2 ? advance
-                                              : 0.; });
+                                              : 0.; },
+                       none_ahead);
     CHECK(paths.advance(beyond) == advance);
     CHECK(paths.is_wet(2) == (advance > 0.1));
   }
   paths.set_advances([](const TrackedPaths::End &e)
                      { return e.path == 0   ? 1.7
                               : e.path == 2 ? 1.2
-                                            : 0.; });
+                                            : 0.; },
+                     none_ahead);
   CHECK(paths.is_wet(2));
   CHECK(paths.tip(beyond).distance(Point<2>(4.9, 0.)) < 1e-12);
   const auto &pieces = paths.wet_pieces();
