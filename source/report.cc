@@ -437,7 +437,8 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     observed["pore_volume"] = pores.volume;
     // Of what was injected, what is neither in fractures nor in boreholes nor in pores by their
     // volumes as they are, nor has left; where what leaks off stays in the model. The compression
-    // of the fluid in fractures is in it.
+    // of the fluid in fractures is in it, and with BDF2 what the sum of its rates over the steps
+    // is off the volume.
     const FluidBalance &balance = stepper.fluid_balance();
     if (network.leaks_into_pores() || balance.total.leaked == 0.)
       observed["fluid_volume_defect"] = balance.total.injected - summary.fluid_balance.outflow -
