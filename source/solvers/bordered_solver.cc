@@ -49,6 +49,46 @@ void for_each_row(const LinearSystem &system, const Function &use)
     }
 }
 
+/// Sparse vectors that all lie in the same small part of a long one, to be multiplied by many of
+/// these, of which only that part is read, once.
+struct FewEntries
+{
+  explicit FewEntries(const ExtraSchur::SparseVectors &vectors)
+  {
+    for (const auto *vector : vectors)
+      for (const auto &[i, value] : *vector)
+        indices.push_back(i);
+    std::sort(indices.begin(), indices.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    for (const auto *vector : vectors)
+    {
+      for (const auto &[i, value] : *vector)
+        entries.emplace_back(std::lower_bound(indices.begin(), indices.end(), i) - indices.begin(),
+                             value);
+      ends.push_back(entries.size());
+    }
+  }
+
+  /// The products of all vectors with that one. `few` is memory for the part.
+  void multiply(const double *one, std::vector<double> &few, double *products) const
+  {
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      few[i] = one[indices[i]];
+    std::size_t k = 0;
+    for (std::size_t v = 0; v < ends.size(); ++v)
+    {
+      double sum = 0.;
+      for (; k < ends[v]; ++k)
+        sum += entries[k].second * few[entries[k].first];
+      products[v] = sum;
+    }
+  }
+
+  std::vector<int> indices;                             ///< of the part, ascending
+  std::vector<std::pair<unsigned int, double>> entries; ///< place in the part, and value
+  std::vector<std::size_t> ends;                        ///< of each vector's
+};
+
 /// Values of this rank's rows of the bulk, not scaled.
 std::vector<double> bulk_values(const LinearSystem &system)
 {
@@ -202,16 +242,10 @@ std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &le
       return std::move(*products);
   const std::size_t n = factor->size();
   std::vector<double> result(left.size() * right.size());
+  const FewEntries of_left(left);
+  std::vector<double> few(of_left.indices.size());
   const auto multiply_one = [&](const std::size_t j, const double *solution)
-  {
-    for (std::size_t l = 0; l < left.size(); ++l)
-    {
-      double sum = 0.;
-      for (const auto &[i, value] : *left[l])
-        sum += value * solution[i];
-      result[j * left.size() + l] = sum;
-    }
-  };
+  { of_left.multiply(solution, few, result.data() + j * left.size()); };
   std::vector<std::size_t> wanted;
   for (std::size_t j = 0; j < right.size(); ++j)
     if (const auto known = solutions.find(*right[j]); known == solutions.end())

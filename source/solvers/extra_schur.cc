@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "stockwork/base/all_gather.h"
@@ -17,6 +18,28 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int no_place = -1;
+/// Of the greatest entry, by which two vectors that are a factor apart differ: rounding errors.
+constexpr double same_direction = 1e-13;
+
+/// f with b = f a, if there is one; 1 where both are empty.
+std::optional<double> factor_between(const ExtraSchur::SparseVector &a,
+                                     const ExtraSchur::SparseVector &b)
+{
+  if (a.size() != b.size())
+    return {};
+  if (a == b)
+    return 1.;
+  std::size_t greatest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i].second) > std::abs(a[greatest].second))
+      greatest = i;
+  const double factor = b[greatest].second / a[greatest].second;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].first != b[i].first || !(std::abs(b[i].second - factor * a[i].second) <=
+                                      same_direction * std::abs(b[greatest].second)))
+      return {};
+  return factor;
+}
 } // namespace
 
 void ExtraSchur::throw_singular()
@@ -77,11 +100,12 @@ ExtraSchur::gather_borders(const SystemOperator &op,
 
 void ExtraSchur::forget_unused()
 {
-  std::vector<unsigned int> kept(place);
+  std::vector<unsigned int> kept;
+  for (const Known &one : found)
+    if (one.place != no_place)
+      kept.push_back(one.place);
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  if (!kept.empty() && kept.back() == no_place)
-    kept.pop_back();
   std::vector<Border> few;
   std::vector<std::vector<double>> few_products;
   for (const unsigned int i : kept)
@@ -91,41 +115,47 @@ void ExtraSchur::forget_unused()
     for (const unsigned int j : kept)
       few_products.back().push_back(products[i][j]);
   }
-  for (unsigned int &p : place)
-    if (p != no_place)
-      p = std::lower_bound(kept.begin(), kept.end(), p) - kept.begin();
+  for (Known &one : found)
+    if (one.place != no_place)
+      one.place = std::lower_bound(kept.begin(), kept.end(), one.place) - kept.begin();
   known = std::move(few);
   products = std::move(few_products);
 }
 
 void ExtraSchur::update_products(const std::vector<Border> &borders, const bool symmetric_bulk)
 {
-  // Known borders by their first entry and size: few candidates to compare in full.
+  // Known borders by where they begin and by their size: few candidates to compare in full.
   const auto key = [](const Border &b)
   {
     return std::make_tuple(b.column.size(), b.column.empty() ? -1 : b.column.front().first,
-                           b.column.empty() ? 0. : b.column.front().second);
+                           b.row.size(), b.row.empty() ? -1 : b.row.front().first);
   };
   std::multimap<decltype(key(Border())), unsigned int> candidates;
   for (unsigned int i = 0; i < known.size(); ++i)
     candidates.emplace(key(known[i]), i);
+  const auto find = [&](const Border &border) -> std::optional<Known>
+  {
+    const auto [begin, end] = candidates.equal_range(key(border));
+    for (auto candidate = begin; candidate != end; ++candidate)
+      if (const auto column = factor_between(known[candidate->second].column, border.column))
+        if (const auto row = factor_between(known[candidate->second].row, border.row))
+          return Known{candidate->second, *column, *row};
+    return {};
+  };
 
   const unsigned int n_old = known.size();
-  place.assign(borders.size(), no_place);
+  found.assign(borders.size(), {no_place, 1., 1.});
   for (unsigned int e = 0; e < borders.size(); ++e)
     if (!borders[e].empty())
     {
-      const auto [begin, end] = candidates.equal_range(key(borders[e]));
-      const auto match = std::find_if(
-        begin, end, [&](const auto &candidate) { return known[candidate.second] == borders[e]; });
-      if (match != end)
-        place[e] = match->second;
-      else
+      if (const auto one = find(borders[e]))
       {
-        place[e] = known.size();
-        candidates.emplace(key(borders[e]), known.size());
-        known.push_back(borders[e]);
+        found[e] = *one;
+        continue;
       }
+      found[e].place = known.size();
+      candidates.emplace(key(borders[e]), known.size());
+      known.push_back(borders[e]);
     }
 
   // Of a symmetric A, rows of the product are solves with rows of the border as right-hand sides;
@@ -164,13 +194,16 @@ void ExtraSchur::update_products(const std::vector<Border> &borders, const bool 
 
 dealii::FullMatrix<double> ExtraSchur::product() const
 {
-  const unsigned int n = place.size();
+  const unsigned int n = found.size();
   dealii::FullMatrix<double> result(n, n);
   for (unsigned int i = 0; i < n; ++i)
-    if (place[i] != no_place)
+    if (found[i].place != no_place)
+    {
+      const std::vector<double> &row = products[found[i].place];
       for (unsigned int j = 0; j < n; ++j)
-        if (place[j] != no_place)
-          result(i, j) = products[place[i]][place[j]];
+        if (found[j].place != no_place)
+          result(i, j) = found[i].row * found[j].column * row[found[j].place];
+    }
   return result;
 }
 
@@ -179,7 +212,10 @@ void ExtraSchur::factorise(dealii::FullMatrix<double> s)
   has_factor = false;
   try
   {
-    schur.factorise(std::move(s), place);
+    std::vector<unsigned int> identities;
+    for (const Known &one : found)
+      identities.push_back(one.place);
+    schur.factorise(std::move(s), identities);
   }
   catch (const SolveError &)
   {
@@ -205,7 +241,7 @@ void ExtraSchur::update(const SystemOperator &op,
   update_border(op, border, end, symmetric_bulk, bulk_scaling);
   const auto &corner = border.extra_extra;
   const bool same =
-    has_factor && place == place_of_factor &&
+    has_factor && found == found_for_factor &&
     std::equal(corner.begin(), corner.end(), corner_of_factor.begin(), corner_of_factor.end(),
                [](const auto &a, const auto &b)
                { return a.row == b.row && a.column == b.column && a.value == b.value; });
@@ -217,7 +253,7 @@ void ExtraSchur::update(const SystemOperator &op,
     s(e.row, e.column) += e.value;
   factorise(std::move(s));
   corner_of_factor = corner;
-  place_of_factor = place;
+  found_for_factor = found;
   has_factor = true;
 }
 

@@ -15,9 +15,9 @@ namespace stockwork
 ///   [ C  D ],   S = D - C A^-1 B,
 ///
 /// dense, on every rank. Of C A^-1 B only the rows and columns of new extra unknowns are computed;
-/// an unknown is known by the contents of its row and column, so renumbering costs nothing, and
-/// S follows a growing fracture and Newton's iterations at the price of a dense factorisation of
-/// what changes.
+/// an unknown is known by the contents of its row and column, each up to a factor, so renumbering
+/// costs nothing, nor does a bond whose tangent stiffness changes, and S follows a growing fracture
+/// and Newton's iterations at the price of a dense factorisation of what changes.
 class ExtraSchur
 {
 public:
@@ -70,13 +70,20 @@ private:
   {
     SparseVector column; ///< of B
     SparseVector row;    ///< of C
-    bool operator==(const Border &other) const
-    {
-      return column == other.column && row == other.row;
-    }
     bool empty() const
     {
       return column.empty() && row.empty();
+    }
+  };
+
+  /// Where the border of an extra unknown is found: it is a known one times these factors.
+  struct Known
+  {
+    unsigned int place; ///< unsigned -1: it has none
+    double column, row; ///< factors
+    bool operator==(const Known &other) const
+    {
+      return place == other.place && column == other.column && row == other.row;
     }
   };
 
@@ -85,8 +92,7 @@ private:
                                      dealii::types::global_dof_index end,
                                      const dealii::TrilinosWrappers::MPI::BlockVector *) const;
 
-  /// Find each border among the known ones, computing what is new. Unknowns without a border get
-  /// no place (unsigned -1).
+  /// Find each border among the known ones, computing what is new.
   void update_products(const std::vector<Border> &borders, bool symmetric_bulk);
 
   /// Drop known borders that are no longer in use.
@@ -97,11 +103,11 @@ private:
 
   std::vector<Border> known;
   std::vector<std::vector<double>> products; ///< [i][j] = row_i A^-1 column_j of known borders
-  std::vector<unsigned int> place;           ///< of each extra unknown among the known borders
+  std::vector<Known> found;                  ///< of each extra unknown
 
   DenseSolver schur;
   std::vector<SystemOperator::Entry> corner_of_factor; ///< D
-  std::vector<unsigned int> place_of_factor;
+  std::vector<Known> found_for_factor;
   bool has_factor = false;
 };
 } // namespace stockwork

@@ -397,6 +397,16 @@ TEST_CASE("the bordered solver keeps the rock's factor while the fracture change
         d.J(i, 31) *= 1.2;
       }
     CHECK(solve(*solver, d, stamps).error < 1e-10);
+    // The tangent stiffness of a bond: its row alone, of another one, and but for one entry.
+    for (unsigned int i = 0, n_seen = 0; i < 31; ++i)
+    {
+      d.J(32, i) *= -3.;
+      d.J(33, i) *= n_seen == 0 ? 2. : 0.7;
+      n_seen += d.J(33, i) != 0.;
+    }
+    run = solve(*solver, d, stamps);
+    CHECK_FALSE(run.report.factorised);
+    CHECK(run.error < 1e-10);
     d.J(3, 3) *= 1.5;
     CHECK(solve(*solver, d, stamps).error < 1e-10);
     ++stamps.mesh;
