@@ -114,7 +114,7 @@ foreach(tracking none path)
   stockwork_same_test(NAME convergence/kgd/toughness/in_bonds/stress/${tracking}
     DECK prm/kgd/toughness/peridynamics.prm SET ${in_bonds} "Fracture/peridynamics/Tracking=${tracking}"
     SECOND_SET "In situ/Stress=-23 MPa, -17 MPa" TOLERANCE ${tolerance} IGNORE "${ignored}")
-  stockwork_case_test(NAME convergence/kgd/toughness/in_bonds/${tracking} NEGATIVE ${labels}
+  stockwork_case_test(NAME convergence/kgd/toughness/in_bonds/${tracking} NEGATIVE LABELS nightly
     DECK prm/kgd/toughness/peridynamics.prm
     SET "Resolution=coarse" "Fracture/peridynamics/Closure=in bonds" "Fracture/peridynamics/Tracking=${tracking}"
     EXPECT "errors/equivalent_length/final < 0.025" "errors/inlet_aperture/final < 0.012"

@@ -75,7 +75,7 @@ stockwork_case_test(NAME convergence/natural_crack/peridynamics/path
 stockwork_case_test(NAME convergence/natural_crack/crossing DECK tests/data/crossing.prm
   EXPECT "final/extent_x > 1.85" "final/extent_y < 1.85" "final/fluid_volume_defect < 4.5e-13" "final/fluid_volume_defect > -4.5e-13"
          "fluid_balance/relative_error < 1e-8")
-stockwork_same_test(NAME convergence/natural_crack/crossing/ranks DECK tests/data/crossing.prm RANKS 1,2 TOLERANCE 1e-6
+stockwork_same_test(NAME convergence/natural_crack/crossing/ranks DECK tests/data/crossing.prm RANKS 1,2 TOLERANCE 1e-6 LABELS nightly
   IGNORE "balance_error|volume_defect|minimum_aperture")
 stockwork_restart_test(NAME convergence/natural_crack/crossing/restart DECK tests/data/crossing.prm RANKS 1,2 AFTER 44 TOLERANCE 1e-6
   IGNORE "balance_error|volume_defect|minimum_aperture")

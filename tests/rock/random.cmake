@@ -59,8 +59,12 @@ set(of_bonds Resolution=coarse "Verification/Reference=none" "Time/End time=3 s"
 foreach(closure conserving "in bonds")
   string(REPLACE " " "_" name ${closure})
   set(of_closure ${of_bonds} "Fracture/peridynamics/Closure=${closure}")
+  set(labels)
+  if(closure STREQUAL "conserving")
+    set(labels LABELS nightly)
+  endif()
   stockwork_same_test(NAME rock/random/peridynamics/${name}/ranks DECK prm/kgd/sun/peridynamics.prm SET ${of_closure}
-    RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error)
+    RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error ${labels})
   stockwork_same_test(NAME rock/random/peridynamics/${name}/uniform DECK prm/kgd/sun/peridynamics.prm SET ${of_closure}
     "Rock/Random field/Weibull modulus=1e300" TOLERANCE 1e-8 IGNORE balance_error
     SECOND_SET "Rock/Random field/Properties=" "Rock/Random field/Weibull modulus="
