@@ -234,29 +234,6 @@ void Peridynamics<dim>::warn_of_pressure(const State &state)
 
 
 template <int dim>
-void Peridynamics<dim>::warn_off_paths()
-{
-  if constexpr (dim == 2)
-    for (const unsigned int i : zone.peridynamic_sites())
-      for (unsigned int b = 0; b < stencil.size() && !told_off_paths; ++b)
-      {
-        if (bonds.is_broken(i, b) ||
-            equivalent_stretch(i, b, elongation(i, b, displacement)) < softening.first)
-          continue;
-        const Point<dim> middle = zone.position(zone.sites()[i].place) +
-                                  0.5 * coefficients[b].length * coefficients[b].direction;
-        if (paths.distance(middle) < 2. * parameters.horizon * zone.spacing())
-          continue;
-        messages.push_back("Bonds at (" + text(middle[0]) + ", " + text(middle[1]) +
-                           ") m are stretched too far, but no path comes near them, so they hold: "
-                           "with 'Fracture/peridynamics/Tracking = path' cracks begin where the "
-                           "deck says. Where others are expected, use 'none'.");
-        told_off_paths = true;
-      }
-}
-
-
-template <int dim>
 std::string Peridynamics<dim>::why_sliding_crack_holds() const
 {
   if (!parameters.tracked || std::isnan(scene.crack_pressure))
@@ -322,6 +299,9 @@ double Peridynamics<dim>::fracture_volume(const State &state, const Collectives 
 template <int dim>
 double Peridynamics<dim>::extent() const
 {
+  // Fluid may get into a path far from all others at once, which is no jump of a tip.
+  if (parameters.tracked)
+    return paths.length();
   double greatest = 0.;
   for (unsigned int d = 0; d < dim && !all_segments.empty(); ++d)
   {
@@ -419,7 +399,6 @@ std::string Peridynamics<dim>::what_bonds_carry() const
   template void Peridynamics<dim>::foresee(double);                                             \
   template void Peridynamics<dim>::foresee_stress(double);                                      \
   template void Peridynamics<dim>::foresee_pressure(double);                                    \
-  template void Peridynamics<dim>::warn_off_paths();                                            \
   template std::string Peridynamics<dim>::why_sliding_crack_holds() const;                      \
   template void Peridynamics<dim>::warn_of_pressure(const State &);                             \
   template double Peridynamics<dim>::fracture_volume(const State &, const Collectives &) const; \

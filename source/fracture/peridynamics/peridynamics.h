@@ -367,6 +367,12 @@ private:
   /// which the fracture would release.
   double dry_stretch(unsigned int site, unsigned int bond) const;
 
+  /// The same of a bond across a plane.
+  double dry_stretch(unsigned int site,
+                     unsigned int bond,
+                     const dealii::Point<dim> &place,
+                     const dealii::Tensor<1, dim> &normal) const;
+
   /// A place itself, if it is that of a cell, or the nearest cell of the zone.
   Place<dim> cell_of_zone(const Place<dim> &place) const;
 
@@ -383,6 +389,31 @@ private:
   /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
   /// porous rock in all of the process zone, with candidates.
   std::vector<std::array<double, 2>> fluid_ahead(const std::vector<Candidate> &candidates) const;
+
+  // Paths that begin where there is none (new_paths.cc).
+
+  /// A bond that would soften if a path crossed it at right angles.
+  struct Overstretched
+  {
+    double stretch; ///< over the one at which it softens, rounded
+    unsigned int site;
+    dealii::Point<dim> middle;
+  };
+
+  /// Sites that may have bonds so far from all paths.
+  void find_sites_off_paths();
+
+  /// Those far from all paths, by site, and others that nearly would.
+  std::vector<Overstretched> overstretched_off_paths() const;
+
+  /// Paths begin where bonds far from all others are stretched too far.
+  void begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
+
+  /// One of them.
+  void begin_path(const dealii::Point<dim> &place,
+                  const StepContext &context,
+                  const State &state,
+                  const OfCells &of_cells);
 
   /// How far tips have come by the energy that softening bonds have dissipated, and fluid with
   /// them.
@@ -410,6 +441,19 @@ private:
 
   /// Of a site among elements of the size of the lattice's cells; nothing at the rim of these.
   std::optional<dealii::SymmetricTensor<2, dim>> stress_of_elements(unsigned int site) const;
+
+  /// The stress, with that in situ, in the mean over the sites no farther than @p reach from a
+  /// place, weighted by where they are from there [Pa].
+  dealii::SymmetricTensor<2, dim>
+  mean_stress(const dealii::Point<dim> &place,
+              double reach,
+              const std::function<double(const dealii::Tensor<1, dim> &away)> &weight,
+              const State &state,
+              const OfCells &of_cells) const;
+
+  /// The direction at right angles to the greatest principal stress, nearest to another one.
+  static dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress,
+                                              const dealii::Tensor<1, 2> &ahead);
 
   /// The stress ahead of a tip, of sites on the side that @p ahead points to, weighted by their
   /// distance [Pa].
@@ -515,9 +559,6 @@ private:
   void foresee_stress(double spacing);
   void foresee_pressure(double spacing);
 
-  /// Once, when bonds are stretched too far where no crack may go, far from all paths.
-  void warn_off_paths();
-
   /// Where what is given opens a crack on a path and slides it as well: bonds across it that are
   /// pressed by that do not break, and hold what has parted. A sentence once that counts.
   std::string why_sliding_crack_holds() const;
@@ -532,7 +573,7 @@ private:
   /// Volume between the faces [m^2; m^3 in 3-D].
   double fracture_volume(const State &state, const Collectives &collectives) const;
 
-  /// Greatest edge of the box that the fractures fill [m].
+  /// Greatest edge of the box that the fractures fill, or the length of tracked paths [m].
   double extent() const;
 
   /// A sentence: which zone to write into the deck.
@@ -638,6 +679,7 @@ private:
   TrackedPaths paths, committed_paths;
   std::vector<BondAcross> crossing_bonds; ///< of `paths_crossed`, sorted by view
   TrackedPaths paths_crossed;
+  std::vector<unsigned int> sites_off_paths;                    ///< of `paths_crossed`
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
   std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
   std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here

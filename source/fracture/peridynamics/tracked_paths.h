@@ -18,7 +18,8 @@ namespace stockwork::peridynamics
 /// only where they cross one. How far a tip has come on its way is known from the energy that has
 /// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
 /// paths: those that a tip has come to, or in porous rock its process zone, and of a path that
-/// begins beyond another one the first when it has taken a tenth of its energy.
+/// begins beyond another one, or where there is none, the first when it has taken a tenth of its
+/// energy.
 class TrackedPaths
 {
 public:
@@ -128,13 +129,14 @@ public:
   }
 
   /// A piece more, in this direction. It ends at another path if it meets one, or comes as near as
-  /// half of a piece; then the end does not grow any more.
+  /// half of a piece; then the end does not grow any more. So it does if it comes past another path
+  /// as near as one and a half: bonds tell no two lines there.
   void extend(const End &end, const dealii::Tensor<1, 2> &direction);
 
   /// Forget the way ahead, where nothing has softened yet.
   void forget_way(const End &end);
 
-  /// Where the way of an end has met another path, and may go on beyond it.
+  /// Where the way of an end has met another path, and may go on beyond it. Not where it came past.
   struct Meeting
   {
     End end;                     ///< that has met the path
@@ -155,19 +157,41 @@ public:
   /// has begun there before it is forgotten.
   void begin_beyond(const Meeting &meeting, const dealii::Tensor<1, 2> &direction);
 
-  /// Whether a path has begun beyond another one: no part of it is an initial crack.
+  /// Whether no part of a path is an initial crack.
+  bool is_all_way(const unsigned int path) const
+  {
+    return paths[path].ends[0].n_points + paths[path].ends[1].n_points == paths[path].n_pieces();
+  }
+
+  /// Whether a path has begun beyond another one.
   bool began_beyond(const unsigned int path) const
   {
-    return paths[path].ends[1].n_points == paths[path].n_pieces();
+    return is_all_way(path) && paths[path].ends[0].joined && paths[path].ends[0].n_points == 0;
   }
+
+  /// A path with a piece to either side of a place.
+  /// @param dry fluid gets in only where a path that has some joins it
+  void begin_at(const dealii::Point<2> &place, const dealii::Tensor<1, 2> &direction, bool dry);
+
+  /// A path with a piece that leads away from a place on the boundary of the domain, where its
+  /// other end does not grow.
+  void
+  begin_at_side(const dealii::Point<2> &place, const dealii::Tensor<1, 2> &direction, bool dry);
 
   unsigned int n_paths() const
   {
     return paths.size();
   }
 
+  /// Whether another path has joined the way of an end.
+  bool is_joined(const End &end) const;
+
   /// Whether fluid has reached any piece of a path.
   bool is_wet(unsigned int path) const;
+
+  /// The place nearest to a point on any path, ways as well, but one of them; and how far it is
+  /// [m].
+  std::pair<Joint, double> nearest(const dealii::Point<2> &point, unsigned int but) const;
 
   /// Of a point from the nearest piece of any path or way [m].
   double distance(const dealii::Point<2> &point) const;
@@ -184,12 +208,16 @@ public:
   }
 
 private:
+  /// Places that are nearer to one another are the same [pieces].
+  static constexpr double same_spot = 1e-6;
+
   struct Growth
   {
     bool grows = false;
     unsigned int n_points = 0;     ///< of its way
     double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
     bool joined = false;           ///< it has met another path
+    bool passes = false;           ///< and came past it
     unsigned int joined_path = 0;  ///< which
     double joined_arc = 0.;        ///< and where on it
     unsigned int beyond = 0;       ///< path that begins there on the far side, 0: none
@@ -197,7 +225,7 @@ private:
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &grows &n_points &advance &wet &joined &joined_path &joined_arc &beyond;
+      ar &grows &n_points &advance &wet &joined &passes &joined_path &joined_arc &beyond;
     }
   };
 
@@ -205,11 +233,12 @@ private:
   {
     std::vector<std::array<double, 2>> points; ///< of the ways as well
     std::array<Growth, 2> ends;
+    bool dry = false; ///< as long as no path with fluid has joined it
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &points &ends;
+      ar &points &ends &dry;
     }
 
     unsigned int n_pieces() const
@@ -244,6 +273,12 @@ private:
 
   /// Where an initial crack ends at another one.
   void join_where_it_begins(const End &end);
+
+  /// Pieces of the ways of a path that its tips, and fluid if there is any, have reached.
+  std::array<unsigned int, 2> reached(unsigned int path) const;
+
+  /// Fluid gets into dry paths where those that have some meet them.
+  void wet_what_is_joined();
 
   void find_wet_pieces();
 

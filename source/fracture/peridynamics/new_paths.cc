@@ -1,0 +1,211 @@
+// `Tracking = path`: where bonds are stretched too far and no path is near, one begins.
+#include "fracture/peridynamics/peridynamics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+/// From all paths, of a place where one may begin [horizons]. Nearer to a tip bonds are stretched
+/// by it.
+constexpr double least_distance = 2.;
+/// Bonds that are stretched as much as the most stretched one, less this share, are where a path
+/// begins: in the middle of them, which is the same on any lattice.
+constexpr double nearly_most = 0.02;
+} // namespace
+
+
+template <int dim>
+void Peridynamics<dim>::find_sites_off_paths()
+{
+  sites_off_paths.clear();
+  if constexpr (dim == 2)
+  {
+    double longest = 0.;
+    for (const BondCoefficients<dim> &bond : coefficients)
+      longest = std::max(longest, bond.length);
+    const double least = least_distance * parameters.horizon * zone.spacing() - 0.5 * longest;
+    for (const unsigned int i : zone.peridynamic_sites())
+      if (paths.distance(zone.position(zone.sites()[i].place)) >= least)
+        sites_off_paths.push_back(i);
+  }
+}
+
+
+template <int dim>
+std::vector<typename Peridynamics<dim>::Overstretched>
+Peridynamics<dim>::overstretched_off_paths() const
+{
+  std::vector<Overstretched> result;
+  if constexpr (dim == 2)
+    for (const unsigned int i : sites_off_paths)
+    {
+      // Bonds that the stress in situ presses together in all directions are looked at by their
+      // elongation first, which tells nearly always.
+      const bool pressed =
+        in_situ_is_zero ||
+        eigenvalues(effective_in_situ_stress(i, 0, zone.position(zone.sites()[i].place)))[0] <= 0.;
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+      {
+        double longer = elongation(i, b, displacement);
+        if ((pressed && longer <= 0.) || bonds.is_broken(i, b) || !bonds.can_break(i, b) ||
+            never_breaks(i, b) || volume_share(i, b) == 0.)
+          continue;
+        if (pressed && equivalent_stretch(i, b, longer) < (1. - 2. * nearly_most) * softening.first)
+          continue;
+        const Tensor<1, dim> &e = coefficients[b].direction;
+        const Point<dim> middle =
+          zone.position(zone.sites()[i].place) + 0.5 * coefficients[b].length * e;
+        if (!in_situ_is_zero)
+          longer += coefficients[b].length * dry_stretch(i, b, middle, e);
+        const double stretch = rounded(equivalent_stretch(i, b, longer) / softening.first);
+        if (stretch < 1. - nearly_most ||
+            !zone.all_rock().point_inside(middle, same_place * zone.spacing()) ||
+            paths.distance(middle) < least_distance * parameters.horizon * zone.spacing())
+          continue;
+        result.push_back({stretch, i, middle});
+      }
+    }
+  return result;
+}
+
+
+template <int dim>
+void Peridynamics<dim>::begin_paths(const StepContext &context,
+                                    const State &state,
+                                    const OfCells &of_cells)
+{
+  const std::vector<Overstretched> all = overstretched_off_paths();
+  double most = 0.;
+  for (const Overstretched &bond : all)
+    most = std::max(most, bond.stretch);
+  if (most < 1.)
+    return;
+  const double least = (1. - nearly_most) * most;
+  std::map<unsigned int, std::vector<const Overstretched *>> by_site;
+  for (const Overstretched &bond : all)
+    if (bond.stretch > least)
+      by_site[bond.site].push_back(&bond);
+  // Those that hang together by bonds are one place. Sites are sorted by place, so it does not
+  // matter which rank looks.
+  while (!by_site.empty())
+  {
+    std::vector<unsigned int> sites{by_site.begin()->first};
+    std::vector<const Overstretched *> group;
+    for (unsigned int k = 0; k < sites.size(); ++k)
+    {
+      const auto found = by_site.find(sites[k]);
+      if (found == by_site.end())
+        continue;
+      group.insert(group.end(), found->second.begin(), found->second.end());
+      by_site.erase(found);
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+        sites.push_back(zone.far_end(sites[k], b).site);
+    }
+    // Of several places only the worst, and those that are as bad.
+    if (std::none_of(group.begin(), group.end(),
+                     [&](const Overstretched *bond)
+                     { return bond->stretch > most - 1.5 * same_stretch; }))
+      continue;
+    Tensor<1, dim> sum;
+    double weights = 0.;
+    for (const Overstretched *bond : group)
+    {
+      sum += (bond->stretch - least) * bond->middle;
+      weights += bond->stretch - least;
+    }
+    Point<dim> place(sum / weights);
+    // They may lie around something that is no place for a path.
+    const Overstretched *nearest =
+      *std::min_element(group.begin(), group.end(),
+                        [&](const Overstretched *a, const Overstretched *b)
+                        { return a->middle.distance(place) < b->middle.distance(place); });
+    if (nearest->middle.distance(place) > zone.spacing())
+      place = nearest->middle;
+    begin_path(place, context, state, of_cells);
+  }
+}
+
+
+template <int dim>
+void Peridynamics<dim>::begin_path(const Point<dim> &middle,
+                                   const StepContext &context,
+                                   const State &state,
+                                   const OfCells &of_cells)
+{
+  if constexpr (dim == 2)
+  {
+    const double horizon = parameters.horizon * zone.spacing();
+    Point<dim> place = middle;
+    if (paths.distance(place) < least_distance * horizon)
+      return; // another one has begun meanwhile
+    const SymmetricTensor<2, dim> stress = mean_stress(
+      place, 2. * horizon,
+      [&](const Tensor<1, dim> &away)
+      { return std::pow(1. - away.norm_square() / (4. * horizon * horizon), 2); },
+      state, of_cells);
+    // Of a crack that nothing has led here either end may be the first. One along an axis, or in a
+    // diagonal, shall not have another first end by a rounding error.
+    Tensor<1, dim> direction = across_greatest(stress, Tensor<1, dim>({0.9, 0.44}));
+    // The side of the domain that is nearest, and so near that the path begins on it.
+    Tensor<1, dim> inwards;
+    double nearest = horizon;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const unsigned int side : {0u, 1u})
+      {
+        const double bound =
+          side == 0 ? zone.all_rock().lower_bound(d) : zone.all_rock().upper_bound(d);
+        if (std::abs(middle[d] - bound) > nearest - same_place * zone.spacing())
+          continue;
+        nearest = std::abs(middle[d] - bound);
+        place = middle;
+        place[d] = bound;
+        inwards = 0.;
+        inwards[d] = side == 0 ? 1. : -1.;
+      }
+    std::ostringstream where;
+    where.precision(4);
+    where << "at (" << place << ") m, at " << context.time << " s";
+    if (inwards.norm() > 0. && std::abs(direction * inwards) < std::sqrt(0.5))
+    {
+      if (!told_off_paths)
+        messages.push_back("Bonds are stretched too far " + where.str() +
+                           ", along a side of the domain, where 'Fracture/peridynamics/Tracking = "
+                           "path' lets no crack begin: they hold. Enlarge the domain, or give the "
+                           "crack in 'Cracks'.");
+      told_off_paths = true;
+      return;
+    }
+    // What the deck presses in all cracks is nothing in a dry scene.
+    const bool dry = scene.crack_pressure != 0.;
+    if (inwards.norm() > 0.)
+      paths.begin_at_side(place, direction = inwards, dry);
+    else
+      paths.begin_at(place, direction, dry);
+    where << ", " << std::atan2(direction[1], direction[0]) * 180. / M_PI
+          << " degrees from the x axis";
+    messages.push_back("A crack begins " + where.str() +
+                       ": bonds are stretched too far there, and no other is near." +
+                       (dry ? " It is dry until a fracture joins it." : ""));
+  }
+}
+
+#define INSTANTIATE(dim)                                                               \
+  template void Peridynamics<dim>::find_sites_off_paths();                             \
+  template std::vector<Peridynamics<dim>::Overstretched>                               \
+  Peridynamics<dim>::overstretched_off_paths() const;                                  \
+  template void Peridynamics<dim>::begin_paths(const StepContext &, const State &,     \
+                                               const OfCells &);                       \
+  template void Peridynamics<dim>::begin_path(const Point<dim> &, const StepContext &, \
+                                              const State &, const OfCells &);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics
