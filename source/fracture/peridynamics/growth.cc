@@ -242,7 +242,12 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   const OfCells of_cells = pressure_stretch(state, collectives);
   if (parameters.tracked)
   {
-    begin_paths(context, state, of_cells);
+    if (const std::string reason = begin_paths(context, state, of_cells); !reason.empty())
+    {
+      verdict.kind = Verdict::Kind::stop;
+      verdict.reason = reason;
+      return verdict;
+    }
     track(state, of_cells);
   }
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);

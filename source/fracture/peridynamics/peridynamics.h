@@ -396,9 +396,20 @@ private:
   struct Overstretched
   {
     double stretch; ///< over the one at which it softens, rounded
-    unsigned int site;
+    unsigned int site, bond;
     dealii::Point<dim> middle;
   };
+
+  /// Where a path begins, or would.
+  struct Beginning
+  {
+    Overstretched bond; ///< with the place in its middle
+    dealii::Tensor<1, dim> direction;
+    dealii::SymmetricTensor<2, dim> stress; ///< in the mean around [Pa]
+  };
+
+  /// Why bonds hold that are stretched too far, once each: bits of told_off_paths.
+  static constexpr unsigned int held_at_side = 1, held_in_box = 2, held_at_rim = 4;
 
   /// Sites that may have bonds so far from all paths.
   void find_sites_off_paths();
@@ -406,14 +417,42 @@ private:
   /// Those far from all paths, by site, and others that nearly would.
   std::vector<Overstretched> overstretched_off_paths() const;
 
+  /// Whether a point is in a cell of the zone, or of what may become one, or beyond all rock.
+  bool is_in_zone(const dealii::Point<dim> &point) const;
+
+  /// Whether others with the same middle would lead out of it.
+  bool is_near_rim(const Overstretched &bond) const;
+
+  /// At right angles to the greatest principal stress in the mean around.
+  Beginning
+  beginning_at(const Overstretched &bond, const State &state, const OfCells &of_cells) const;
+
+  /// Whether the place or the first pieces are in a box of 'Unbreakable'.
+  bool begins_in_unbreakable(const Beginning &path) const;
+
   /// Paths begin where bonds far from all others are stretched too far.
-  void begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
+  /// @return why the run cannot go on; empty: it can
+  std::string begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
 
   /// One of them.
-  void begin_path(const dealii::Point<dim> &place,
-                  const StepContext &context,
-                  const State &state,
-                  const OfCells &of_cells);
+  /// @return see begin_paths()
+  std::string begin_path(const Beginning &path, const StepContext &context);
+
+  /// Bonds are stretched too far at the rim of the zone.
+  /// @return why the run cannot go on; empty: it can, and it is said
+  std::string why_none_begins(const Beginning &path, const StepContext &context);
+
+  /// Part of a sentence.
+  std::string place_and_time(const dealii::Point<dim> &place, const StepContext &context) const;
+
+  /// A sentence: what acts at a place where bonds are stretched too far, and what they hold.
+  std::string stress_and_strength(const Beginning &path) const;
+
+  /// At a bond [Pa], see strength().
+  double strength_of(unsigned int site, unsigned int bond) const
+  {
+    return strength() * relative_stretch(site, bond) * rock_of_bonds.modulus(site, bond);
+  }
 
   /// How far tips have come by the energy that softening bonds have dissipated, and fluid with
   /// them.
@@ -555,6 +594,10 @@ private:
 
   /// Before the run: what of the scene bonds of cells of this size [m] cannot carry.
   void foresee(double spacing);
+
+  /// @throws InputError where it alone stretches bonds too far, so that paths would begin all over
+  /// the rock
+  void refuse_in_situ_tension();
 
   void foresee_stress(double spacing);
   void foresee_pressure(double spacing);
@@ -699,8 +742,8 @@ private:
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
-  bool told_of_rim = false, told_of_pressure = false, told_off_paths = false;
-  bool told_of_contact = false;
+  bool told_of_rim = false, told_of_pressure = false, told_of_contact = false;
+  unsigned int told_off_paths = 0;
 
   // Of the current step.
   std::size_t n_messages_before = 0;
@@ -714,6 +757,7 @@ private:
   bool has_rejected = false;        ///< the last attempt
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
-  bool told_of_rim_before = false, told_of_pressure_before = false, told_off_paths_before = false;
+  bool told_of_rim_before = false, told_of_pressure_before = false;
+  unsigned int told_off_paths_before = 0;
 };
 } // namespace stockwork::peridynamics
