@@ -390,28 +390,14 @@ Tensor<1, 2> TrackedPaths::direction(const End &end) const
 }
 
 
-void TrackedPaths::extend(const End &end, const Tensor<1, 2> &direction)
+TrackedPaths::Extension TrackedPaths::extension(const End &end, const Tensor<1, 2> &direction) const
 {
-  Path &path = paths[end.path];
-  Growth &growth = path.ends[end.side];
-  const Point<2> head = path.point(end.side == 0 ? 0 : path.n_pieces());
+  Extension result;
+  const Path &path = paths[end.path];
   const unsigned int last_piece = end.side == 0 ? 0 : path.n_pieces() - 1;
-  // Another path may have come to this end.
-  const double arc = path.begin(end.side == 0 ? 0 : path.n_pieces());
-  for (unsigned int p = 0; p < paths.size(); ++p)
-    for (const Growth &other : paths[p].ends)
-      if (other.joined && other.joined_path == end.path && p != end.path &&
-          std::abs(other.joined_arc - arc) < short_piece * h)
-      {
-        growth.grows = false;
-        growth.joined = growth.passes = true;
-        growth.joined_path = p;
-        growth.joined_arc = paths[p].begin(&other == &paths[p].ends[0] ? 0 : paths[p].n_pieces());
-        return;
-      }
+  const Point<2> head = path.point(end.side == 0 ? 0 : path.n_pieces());
   // Where the line ahead crosses a path, in pieces.
   double ahead = std::numeric_limits<double>::infinity();
-  Joint joint{};
   for (unsigned int p = 0; p < paths.size(); ++p)
     for (unsigned int i = 0; i < paths[p].n_pieces(); ++i)
     {
@@ -422,40 +408,135 @@ void TrackedPaths::extend(const End &end, const Tensor<1, 2> &direction)
           met && look_ahead * (*met)[0] < ahead && (*met)[0] > -same_spot)
       {
         ahead = look_ahead * (*met)[0];
-        joint = {p, paths[p].begin(i) + (*met)[1] * paths[p].length(i)};
+        result.joint = {p, paths[p].begin(i) + (*met)[1] * paths[p].length(i)};
       }
     }
-  growth.joined = ahead < nearly_there;
-  Point<2> next = head + (growth.joined ? ahead : 1.) * h * direction;
-  if (!growth.joined)
+  result.joins = ahead < nearly_there;
+  result.next = head + (result.joins ? ahead : 1.) * h * direction;
+  if (result.joins)
+    return result;
+  const auto [beside, away] = nearest(head, end.path);
+  const Tensor<1, 2> across = point(beside) - head;
+  const double towards = across * direction;
+  const bool passes = ahead > look_ahead, is_way = end_at(beside).has_value();
+  if (away < nearly_there * h && towards >= -least_towards * away && (passes || is_way))
   {
-    const auto [beside, away] = nearest(head, end.path);
-    const Tensor<1, 2> across = point(beside) - head;
-    const double towards = across * direction;
-    const bool passes = ahead > look_ahead, is_way = end_at(beside).has_value();
-    if (away < nearly_there * h && towards >= -least_towards * away && (passes || is_way))
-    {
-      growth.joined = growth.passes = true;
-      joint = beside;
-      next = point(beside);
-    }
-    else if (passes && is_way && away < look_ahead * h && towards > least_towards * away)
-      next = head + h / away * across;
+    result.joins = result.passes = true;
+    result.joint = beside;
+    result.next = point(beside);
   }
-  if (growth.joined)
-  {
-    growth.grows = false;
-    growth.joined_path = joint.path;
-    growth.joined_arc = joint.arc;
-  }
-  const std::array<double, 2> added{{next[0], next[1]}};
-  if (!growth.joined || head.distance(next) > short_piece * h)
+  else if (passes && is_way && away < look_ahead * h && towards > least_towards * away)
+    result.next = head + h / away * across;
+  return result;
+}
+
+
+std::optional<TrackedPaths::End> TrackedPaths::head_at(const Joint &joint) const
+{
+  const Path &path = paths[joint.path];
+  for (const unsigned int side : {0u, 1u})
+    if (path.ends[side].grows &&
+        std::abs(joint.arc - path.begin(side == 0 ? 0 : path.n_pieces())) < short_piece * h)
+      return End{joint.path, side};
+  return {};
+}
+
+
+bool TrackedPaths::lead_to(const End &end, const Point<2> &place)
+{
+  Path &path = paths[end.path];
+  Growth &growth = path.ends[end.side];
+  const unsigned int last = end.side == 0 ? 0 : path.n_pieces();
+  const std::array<double, 2> added{{place[0], place[1]}};
+  if (path.point(last).distance(place) > short_piece * h)
   {
     path.points.insert(end.side == 0 ? path.points.begin() : path.points.end(), added);
     ++growth.n_points;
   }
   else if (growth.n_points > 0)
-    path.points[end.side == 0 ? 0 : path.n_pieces()] = added;
+    path.points[last] = added;
+  else
+    return false;
+  return true;
+}
+
+
+bool TrackedPaths::stops_where_joined(const End &end)
+{
+  Growth &growth = paths[end.path].ends[end.side];
+  const double arc = paths[end.path].begin(end.side == 0 ? 0 : paths[end.path].n_pieces());
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+      if (const Growth &other = paths[p].ends[side];
+          other.joined && other.joined_path == end.path && p != end.path &&
+          std::abs(other.joined_arc - arc) < short_piece * h)
+      {
+        growth.grows = false;
+        growth.joined = growth.passes = true;
+        growth.joined_path = p;
+        growth.joined_arc = paths[p].begin(side == 0 ? 0 : paths[p].n_pieces());
+        return true;
+      }
+  return false;
+}
+
+
+/// Two that come upon one another meet half-way, so that neither is the one which has been joined.
+void TrackedPaths::join_heads(const End &a, const End &b)
+{
+  const auto head = [&](const End &end)
+  { return paths[end.path].point(end.side == 0 ? 0 : paths[end.path].n_pieces()); };
+  const Point<2> middle = head(a) + 0.5 * (head(b) - head(a));
+  // What has not set out stays where it is, if that is near.
+  if (!lead_to(a, middle))
+    lead_to(b, head(a));
+  else if (!lead_to(b, middle))
+    lead_to(a, head(b));
+  for (const auto &[end, other] : {std::make_pair(a, b), std::make_pair(b, a)})
+  {
+    Growth &growth = paths[end.path].ends[end.side];
+    growth.grows = false;
+    growth.joined = growth.passes = true;
+    growth.joined_path = other.path;
+    growth.joined_arc = paths[other.path].begin(other.side == 0 ? 0 : paths[other.path].n_pieces());
+  }
+}
+
+
+void TrackedPaths::extend(const std::vector<std::pair<End, Tensor<1, 2>>> &ahead)
+{
+  std::vector<Extension> extensions;
+  for (const auto &[end, direction] : ahead)
+    extensions.push_back(extension(end, direction));
+  std::vector<bool> has_joined(paths.size(), false);
+  for (unsigned int k = 0; k < ahead.size(); ++k)
+  {
+    const End &end = ahead[k].first;
+    const Extension &next = extensions[k];
+    Growth &growth = paths[end.path].ends[end.side];
+    if (!growth.grows || stops_where_joined(end))
+      continue;
+    // What it would join, or has been joined by, is not where it was any more.
+    if (next.joins && (has_joined[end.path] || has_joined[next.joint.path]))
+      continue;
+    if (!next.joins)
+    {
+      lead_to(end, next.next);
+      continue;
+    }
+    has_joined[end.path] = has_joined[next.joint.path] = true;
+    if (const auto head = head_at(next.joint); head && head->path != end.path)
+    {
+      join_heads(end, *head);
+      continue;
+    }
+    growth.grows = false;
+    growth.joined = true;
+    growth.passes = next.passes;
+    growth.joined_path = next.joint.path;
+    growth.joined_arc = next.joint.arc;
+    lead_to(end, next.next);
+  }
 }
 
 

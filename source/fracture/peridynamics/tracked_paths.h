@@ -128,10 +128,13 @@ public:
     return at(end).n_points > 0;
   }
 
-  /// A piece more, in this direction. It ends at another path if it meets one, or comes as near as
-  /// half of a piece; then the end does not grow any more. So it does if it comes past another path
-  /// as near as one and a half: bonds tell no two lines there.
-  void extend(const End &end, const dealii::Tensor<1, 2> &direction);
+  /// A piece more of each of these ends, in its direction. It ends at another path if it meets one,
+  /// or comes as near as half of a piece; then the end does not grow any more. So it does if it
+  /// comes past another path as near as one and a half: bonds tell no two lines there. Two ends
+  /// that come upon one another meet half-way. All pieces follow from the paths as they are,
+  /// whatever the order of the ends; one that would join what another has joined just now gets none
+  /// yet.
+  void extend(const std::vector<std::pair<End, dealii::Tensor<1, 2>>> &ahead);
 
   /// Forget the way ahead, where nothing has softened yet.
   void forget_way(const End &end);
@@ -270,6 +273,28 @@ private:
   {
     return paths[end.path].ends[end.side];
   }
+
+  /// Where the next piece of an end leads, and what it joins.
+  struct Extension
+  {
+    dealii::Point<2> next;
+    bool joins = false, passes = false; ///< see Growth
+    Joint joint{};
+  };
+
+  Extension extension(const End &end, const dealii::Tensor<1, 2> &direction) const;
+
+  /// The end that grows and has come so far on a path.
+  std::optional<End> head_at(const Joint &joint) const;
+
+  /// A piece more, or where it is short the last one up to there; nothing if there is none.
+  /// @return whether the end is there
+  bool lead_to(const End &end, const dealii::Point<2> &place);
+
+  /// Where an initial crack has joined an end, that goes no further.
+  bool stops_where_joined(const End &end);
+
+  void join_heads(const End &a, const End &b);
 
   /// Where an initial crack ends at another one.
   void join_where_it_begins(const End &end);

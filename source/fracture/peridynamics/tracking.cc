@@ -486,24 +486,24 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
           off_line(turned(ahead, across_greatest(stress, ahead), most_first_turn), meeting.across));
       }
     for (const TrackedPaths::End &end : paths.ends())
-    {
       if (!paths.is_all_way(end.path) && is_untouched(end) && !paths.is_joined(end))
         paths.forget_way(end);
-      const auto grows = [&]
-      {
-        for (const TrackedPaths::End &other : paths.ends())
-          if (other.path == end.path && other.side == end.side)
-            return true;
-        return false;
-      };
-      while (grows() && paths.lead(end) < (parameters.horizon - 1e-6) * h)
-      {
-        const Tensor<1, dim> ahead = paths.direction(end);
-        const SymmetricTensor<2, dim> stress = stress_ahead(paths.tip(end), ahead, state, of_cells);
-        paths.extend(end, turned(ahead, across_greatest(stress, ahead),
-                                 paths.has_set_out(end) ? most_turn : most_first_turn));
-      }
-    }
+    // All ends by turns, so that none finds the others farther on than they find it.
+    std::vector<std::pair<TrackedPaths::End, Tensor<1, dim>>> further;
+    do
+    {
+      further.clear();
+      for (const TrackedPaths::End &end : paths.ends())
+        if (paths.lead(end) < (parameters.horizon - 1e-6) * h)
+        {
+          const Tensor<1, dim> ahead = paths.direction(end);
+          const SymmetricTensor<2, dim> stress =
+            stress_ahead(paths.tip(end), ahead, state, of_cells);
+          further.emplace_back(end, turned(ahead, across_greatest(stress, ahead),
+                                           paths.has_set_out(end) ? most_turn : most_first_turn));
+        }
+      paths.extend(further);
+    } while (!further.empty());
     find_crossing_bonds();
   }
 }

@@ -2,6 +2,8 @@
 #include "fracture/peridynamics/softening.h"
 #include "fracture/peridynamics/tracked_paths.h"
 
+#include <algorithm>
+
 namespace stockwork::peridynamics
 {
 std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p) const
@@ -99,13 +101,20 @@ void TrackedPaths::find_wet_pieces()
       wet.push_back(piece);
     }
   }
+  const auto make_neighbours = [&](const unsigned int a, const unsigned int b)
+  {
+    const std::vector<unsigned int> &of_a = wet[a].neighbours;
+    if (std::find(of_a.begin(), of_a.end(), b) != of_a.end())
+      return;
+    wet[a].neighbours.push_back(b);
+    wet[b].neighbours.push_back(a);
+  };
   for (const auto &[piece, joint] : joints)
     for (unsigned int i = 0; i < wet.size(); ++i)
       if (i != piece && wet[i].path == joint.path && wet[i].begin <= joint.arc &&
           wet[i].end >= joint.arc)
       {
-        wet[piece].neighbours.push_back(i);
-        wet[i].neighbours.push_back(piece);
+        make_neighbours(piece, i); // they may have joined one another
         wet[i].at_tip = false;
         break;
       }
@@ -114,8 +123,7 @@ void TrackedPaths::find_wet_pieces()
     for (unsigned int i = 0; i < wet.size(); ++i)
       if (wet[i].path == beyond)
       {
-        wet[piece].neighbours.push_back(i);
-        wet[i].neighbours.push_back(piece);
+        make_neighbours(piece, i);
         break;
       }
 }
