@@ -21,6 +21,9 @@ constexpr double nearly_there = 1.5;
 /// A way that crosses no other path within so much is not about to meet it, but comes past it, if
 /// it comes near [pieces].
 constexpr double look_ahead = 3.;
+/// Two tips that are led to one another, and in a turn each come nearer by a piece, see one another
+/// from so far off, and meet half-way from so far [pieces].
+constexpr double see_tips = look_ahead + 1., meet_tips = 2.5;
 /// The sine of an angle. A way that comes past another path joins it unless it leads away from it
 /// by more; and it goes straight to the way of another one, from farther off, if it leads towards
 /// that by more: what bonds are between would be shared out to two ways that run on side by side.
@@ -395,7 +398,7 @@ TrackedPaths::Extension TrackedPaths::extension(const End &end, const Tensor<1, 
   Extension result;
   const Path &path = paths[end.path];
   const unsigned int last_piece = end.side == 0 ? 0 : path.n_pieces() - 1;
-  const Point<2> head = path.point(end.side == 0 ? 0 : path.n_pieces());
+  const Point<2> head = this->head(end);
   // Where the line ahead crosses a path, in pieces.
   double ahead = std::numeric_limits<double>::infinity();
   for (unsigned int p = 0; p < paths.size(); ++p)
@@ -403,14 +406,16 @@ TrackedPaths::Extension TrackedPaths::extension(const End &end, const Tensor<1, 
     {
       if (p == end.path && i == last_piece)
         continue;
-      if (const auto met = meet(head, head + look_ahead * h * direction, paths[p].point(i),
+      if (const auto met = meet(head, head + see_tips * h * direction, paths[p].point(i),
                                 paths[p].point(i + 1), same_spot * h);
-          met && look_ahead * (*met)[0] < ahead && (*met)[0] > -same_spot)
+          met && see_tips * (*met)[0] < ahead && (*met)[0] > -same_spot)
       {
-        ahead = look_ahead * (*met)[0];
+        ahead = see_tips * (*met)[0];
         result.joint = {p, paths[p].begin(i) + (*met)[1] * paths[p].length(i)};
       }
     }
+  if (ahead <= see_tips)
+    result.towards = tip_of(result.joint);
   result.joins = ahead < nearly_there;
   result.next = head + (result.joins ? ahead : 1.) * h * direction;
   if (result.joins)
@@ -418,6 +423,8 @@ TrackedPaths::Extension TrackedPaths::extension(const End &end, const Tensor<1, 
   const auto [beside, away] = nearest(head, end.path);
   const Tensor<1, 2> across = point(beside) - head;
   const double towards = across * direction;
+  if (away < see_tips * h && towards > least_towards * away && !result.towards)
+    result.towards = tip_of(beside);
   const bool passes = ahead > look_ahead, is_way = end_at(beside).has_value();
   if (away < nearly_there * h && towards >= -least_towards * away && (passes || is_way))
   {
@@ -439,6 +446,15 @@ std::optional<TrackedPaths::End> TrackedPaths::head_at(const Joint &joint) const
         std::abs(joint.arc - path.begin(side == 0 ? 0 : path.n_pieces())) < short_piece * h)
       return End{joint.path, side};
   return {};
+}
+
+
+std::optional<TrackedPaths::End> TrackedPaths::tip_of(const Joint &joint) const
+{
+  if (const auto head = head_at(joint))
+    return head;
+  const auto end = end_at(joint);
+  return end && at(*end).grows ? end : std::nullopt;
 }
 
 
@@ -484,8 +500,6 @@ bool TrackedPaths::stops_where_joined(const End &end)
 /// Two that come upon one another meet half-way, so that neither is the one which has been joined.
 void TrackedPaths::join_heads(const End &a, const End &b)
 {
-  const auto head = [&](const End &end)
-  { return paths[end.path].point(end.side == 0 ? 0 : paths[end.path].n_pieces()); };
   const Point<2> middle = head(a) + 0.5 * (head(b) - head(a));
   // What has not set out stays where it is, if that is near.
   if (!lead_to(a, middle))
@@ -508,6 +522,27 @@ void TrackedPaths::extend(const std::vector<std::pair<End, Tensor<1, 2>>> &ahead
   std::vector<Extension> extensions;
   for (const auto &[end, direction] : ahead)
     extensions.push_back(extension(end, direction));
+  const auto is_led_to = [&](const unsigned int k, const unsigned int l)
+  {
+    const auto &towards = extensions[k].towards;
+    return towards && towards->path == ahead[l].first.path && towards->side == ahead[l].first.side;
+  };
+  for (unsigned int k = 0; k < ahead.size(); ++k)
+    for (unsigned int l = 0; l < k; ++l)
+      if (ahead[k].first.path != ahead[l].first.path && is_led_to(k, l) && is_led_to(l, k))
+      {
+        const Tensor<1, 2> apart = head(ahead[l].first) - head(ahead[k].first);
+        const double distance = apart.norm();
+        if (distance >= see_tips * h ||
+            (distance >= meet_tips * h && (extensions[k].joins || extensions[l].joins)))
+          continue;
+        extensions[k].meets = extensions[l].meets = distance < meet_tips * h;
+        extensions[k].joins = extensions[l].joins = extensions[k].meets;
+        extensions[k].joint.path = ahead[l].first.path;
+        extensions[l].joint.path = ahead[k].first.path;
+        extensions[k].next = head(ahead[k].first) + h / distance * apart;
+        extensions[l].next = head(ahead[l].first) - h / distance * apart;
+      }
   std::vector<bool> has_joined(paths.size(), false);
   for (unsigned int k = 0; k < ahead.size(); ++k)
   {
@@ -517,7 +552,8 @@ void TrackedPaths::extend(const std::vector<std::pair<End, Tensor<1, 2>>> &ahead
     if (!growth.grows || stops_where_joined(end))
       continue;
     // What it would join, or has been joined by, is not where it was any more.
-    if (next.joins && (has_joined[end.path] || has_joined[next.joint.path]))
+    if (next.joins && (has_joined[end.path] || has_joined[next.joint.path] ||
+                       (next.meets && !at(*next.towards).grows)))
       continue;
     if (!next.joins)
     {
@@ -525,9 +561,10 @@ void TrackedPaths::extend(const std::vector<std::pair<End, Tensor<1, 2>>> &ahead
       continue;
     }
     has_joined[end.path] = has_joined[next.joint.path] = true;
-    if (const auto head = head_at(next.joint); head && head->path != end.path)
+    const auto other = next.meets ? next.towards : head_at(next.joint);
+    if (other && other->path != end.path)
     {
-      join_heads(end, *head);
+      join_heads(end, *other);
       continue;
     }
     growth.grows = false;

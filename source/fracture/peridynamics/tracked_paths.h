@@ -280,12 +280,24 @@ private:
     dealii::Point<2> next;
     bool joins = false, passes = false; ///< see Growth
     Joint joint{};
+    std::optional<End> towards{}; ///< the tip whose way it is led to
+    bool meets = false;           ///< that one half-way
   };
 
   Extension extension(const End &end, const dealii::Tensor<1, 2> &direction) const;
 
   /// The end that grows and has come so far on a path.
   std::optional<End> head_at(const Joint &joint) const;
+
+  /// The same, or the end that grows and whose way is there.
+  std::optional<End> tip_of(const Joint &joint) const;
+
+  /// The last point of the way of an end.
+  dealii::Point<2> head(const End &end) const
+  {
+    const Path &path = paths[end.path];
+    return path.point(end.side == 0 ? 0 : path.n_pieces());
+  }
 
   /// A piece more, or where it is short the last one up to there; nothing if there is none.
   /// @return whether the end is there
