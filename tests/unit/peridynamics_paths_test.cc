@@ -139,11 +139,11 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
   const Tensor<1, 2> up({std::sqrt(0.75), 0.5});
   const TrackedPaths before = paths;
   CHECK(paths.run_as(before));
-  paths.extend(end, up);
+  paths.extend({{end, up}});
   CHECK(!paths.run_as(before));
   CHECK(paths.boxes().size() == 3);
   CHECK(paths.boxes().back()[1].distance(Point<2>(2., 0.) + up) < 1e-12);
-  paths.extend(end, up);
+  paths.extend({{end, up}});
   CHECK(paths.wet_pieces().size() == 2); // the way is dry
   // A bond across the way feels the fluid that is near enough.
   const auto ahead = paths.crossing(Point<2>(3., 0.), Point<2>(3., 1.));
@@ -183,9 +183,9 @@ TEST_CASE("a way ends where it meets another path, and the fluid goes on there")
   REQUIRE(paths.ends().size() == 3);
   const TrackedPaths::End end{0, 1};
   const Tensor<1, 2> along({1., 0.});
-  paths.extend(end, along);
+  paths.extend({{end, along}});
   CHECK(paths.ends().size() == 3);
-  paths.extend(end, along); // 0.7 to go
+  paths.extend({{end, along}}); // 0.7 to go
   CHECK(paths.ends().size() == 2);
   CHECK(paths.lead(end) == doctest::Approx(1.7));
   const std::size_t before = paths.wet_pieces().size();
@@ -200,6 +200,49 @@ TEST_CASE("a way ends where it meets another path, and the fluid goes on there")
 }
 
 
+TEST_CASE("tips that come upon one another meet half-way, whatever their order")
+{
+  const Tensor<1, 2> along({1., 0.});
+  const TrackedPaths::End left{0, 1}, right{1, 1};
+  for (const double apart : {1.4, 3.2})
+    for (const bool left_is_first : {true, false})
+    {
+      CAPTURE(apart);
+      CAPTURE(left_is_first);
+      TrackedPaths paths;
+      paths.reinit({crack({Point<2>(0., 0.), Point<2>(2., 0.)}),
+                    crack({Point<2>(4. + apart, 0.2), Point<2>(2. + apart, 0.2)})},
+                   1., [&](const Point<2> &end) { return end[0] > 1. && end[0] < 3. + apart; });
+      std::vector<std::pair<TrackedPaths::End, Tensor<1, 2>>> ahead{{left, along}, {right, -along}};
+      if (!left_is_first)
+        std::swap(ahead[0], ahead[1]);
+      paths.extend(ahead);
+      const unsigned int n = apart > 3. ? 4 : 3; // pieces of each, in the end
+      if (n == 4) // they come nearer, both from where the other was
+      {
+        CHECK(paths.ends().size() == 2);
+        CHECK(paths.way(left) == doctest::Approx(1.));
+        CHECK(paths.way(right) == doctest::Approx(1.));
+        paths.extend(ahead);
+      }
+      CHECK(paths.ends().empty());
+      const double way = std::hypot(0.5 * apart, 0.1);
+      CHECK(paths.way(left) == doctest::Approx(way));
+      CHECK(paths.way(left) == doctest::Approx(paths.way(right)));
+      for (const unsigned int path : {0u, 1u})
+        CHECK(paths.point({path, 2. + paths.way(left)}).distance(Point<2>(2. + 0.5 * apart, 0.1)) <
+              1e-12);
+      paths.set_advances([&](const TrackedPaths::End &end) { return paths.way(end); }, none_ahead);
+      const auto &pieces = paths.wet_pieces();
+      REQUIRE(pieces.size() == 2 * n);
+      CHECK(pieces[n - 1].neighbours == std::vector<unsigned int>{n - 2, 2 * n - 1});
+      CHECK(pieces[2 * n - 1].neighbours == std::vector<unsigned int>{2 * n - 2, n - 1});
+      CHECK(!pieces[n - 1].at_tip);
+      CHECK(!pieces[2 * n - 1].at_tip);
+    }
+}
+
+
 TEST_CASE("beyond a path that has been met another one begins, which fluid reaches from both")
 {
   TrackedPaths paths;
@@ -209,8 +252,8 @@ TEST_CASE("beyond a path that has been met another one begins, which fluid reach
   const TrackedPaths::End end{0, 1};
   const Tensor<1, 2> along({1., 0.}), up({std::sqrt(0.5), std::sqrt(0.5)});
   CHECK(paths.meetings().empty());
-  paths.extend(end, along);
-  paths.extend(end, along);
+  paths.extend({{end, along}});
+  paths.extend({{end, along}});
   REQUIRE(paths.meetings().size() == 1);
   const auto meeting = paths.meetings().front();
   CHECK(meeting.place.distance(Point<2>(3.7, 0.)) < 1e-12);
@@ -234,7 +277,7 @@ TEST_CASE("beyond a path that has been met another one begins, which fluid reach
   CHECK(paths.end_at(*crossing));
   CHECK(paths.shares(*crossing, 3.).empty());
 
-  paths.extend(beyond, along);
+  paths.extend({{beyond, along}});
   // A bond that has begun to soften lets no fluid in; a tenth of the first piece's energy does.
   for (const double advance : {0.01, 0.11})
   {

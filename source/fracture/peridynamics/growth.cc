@@ -241,7 +241,15 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   Rim rim = Rim::away;
   const OfCells of_cells = pressure_stretch(state, collectives);
   if (parameters.tracked)
+  {
+    if (const std::string reason = begin_paths(context, state, of_cells); !reason.empty())
+    {
+      verdict.kind = Verdict::Kind::stop;
+      verdict.reason = reason;
+      return verdict;
+    }
     track(state, of_cells);
+  }
   const std::vector<Candidate> candidates = overstretched(displacement, of_cells, rim);
   if (rim == Rim::stays && context.acceleration > 0. && !std::isnan(scene.crack_pressure))
   {
@@ -275,9 +283,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     return verdict;
   }
 
-  if (parameters.tracked)
-    warn_off_paths();
-  else
+  if (!parameters.tracked)
     warn_of_pressure(state); // on a path, bonds break nowhere else
 
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);

@@ -129,6 +129,88 @@ void Peridynamics<dim>::foresee(const double spacing)
 }
 
 
+template <int dim>
+void Peridynamics<dim>::refuse_in_situ_tension()
+{
+  if (in_situ_is_zero)
+    return;
+  displacement.assign(zone.sites().size() * dim, 0.);
+  const std::vector<Overstretched> all = overstretched_off_paths();
+  const auto worst = std::max_element(all.begin(), all.end(),
+                                      [](const Overstretched &a, const Overstretched &b)
+                                      { return a.stretch < b.stretch; });
+  if (worst == all.end() || worst->stretch < 1.)
+    return;
+  const double tension =
+                 eigenvalues(effective_in_situ_stress(worst->site, worst->bond, worst->middle))[0],
+               strength = strength_of(worst->site, worst->bond);
+  std::ostringstream place;
+  place.precision(4);
+  place << worst->middle;
+  throw InputError("In situ/Stress: at (" + place.str() + ") m it is " +
+                   (scene.has_pore_pressure ? "an effective tension, with the pore pressure, of "
+                                            : "a tension of ") +
+                   megapascals(tension) + ", and bonds there hold " + megapascals(strength) +
+                   " with cells of " + text(zone.spacing()) +
+                   " m: with 'Fracture/peridynamics/Tracking = path' cracks would begin all over "
+                   "the rock before anything has moved. Compression is negative. Use less tension, "
+                   "or cells of less than " +
+                   text(std::pow(strength / tension, 2) * zone.spacing()) +
+                   " m ('Fracture/peridynamics/Cell size'), which hold more.");
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::place_and_time(const Point<dim> &place,
+                                              const StepContext &context) const
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << "(" << place << ") m, at " << context.time << " s";
+  return text.str();
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::stress_and_strength(const Beginning &path) const
+{
+  SymmetricTensor<2, dim> stress = path.stress;
+  if (scene.has_pore_pressure)
+    stress += effective_in_situ_stress(path.bond.site, path.bond.bond, path.bond.middle) -
+              scene.in_situ_stress(path.bond.middle);
+  const auto principal = eigenvalues(stress);
+  return std::string("The mean ") + (scene.has_pore_pressure ? "effective " : "") +
+         "stress there is " + megapascals(principal[0]) + " across it and " +
+         megapascals(principal[dim - 1]) + " along it; bonds with a horizon of " +
+         text(parameters.horizon * zone.spacing()) + " m hold " +
+         megapascals(strength_of(path.bond.site, path.bond.bond)) +
+         " of a stress that is the same in all directions. That follows from the energy release "
+         "rate, the stiffness and the horizon (with half of it, 1.41 times as much): with other "
+         "cells cracks begin at another load.";
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::why_none_begins(const Beginning &path, const StepContext &context)
+{
+  const std::string what =
+    "bonds are stretched too far at " + place_and_time(path.bond.middle, context) +
+    ", and all around up to the rim of the peridynamic zone, far from all cracks; so near to the "
+    "rim none can begin. " +
+    stress_and_strength(path) +
+    " If only a part of the rock is stretched so, let 'Fracture/peridynamics/Zone' reach two "
+    "horizons beyond it; if all of it is, use smaller loads, less tension in 'In situ/Stress', or "
+    "smaller cells; or name in 'Fracture/peridynamics/Unbreakable' what shall hold.";
+  if (!(context.acceleration > 0. && !std::isnan(scene.crack_pressure)))
+    return what;
+  // Waves come to the rim, as they do where a crack has reached it.
+  if ((told_off_paths & held_at_rim) == 0)
+    messages.push_back("They hold: " + what);
+  told_off_paths |= held_at_rim;
+  return "";
+}
+
+
 /// Bonds that cross the way of a crack feel the stress along it as well, and the faces release only
 /// that across it.
 template <int dim>
@@ -234,29 +316,6 @@ void Peridynamics<dim>::warn_of_pressure(const State &state)
 
 
 template <int dim>
-void Peridynamics<dim>::warn_off_paths()
-{
-  if constexpr (dim == 2)
-    for (const unsigned int i : zone.peridynamic_sites())
-      for (unsigned int b = 0; b < stencil.size() && !told_off_paths; ++b)
-      {
-        if (bonds.is_broken(i, b) ||
-            equivalent_stretch(i, b, elongation(i, b, displacement)) < softening.first)
-          continue;
-        const Point<dim> middle = zone.position(zone.sites()[i].place) +
-                                  0.5 * coefficients[b].length * coefficients[b].direction;
-        if (paths.distance(middle) < 2. * parameters.horizon * zone.spacing())
-          continue;
-        messages.push_back("Bonds at (" + text(middle[0]) + ", " + text(middle[1]) +
-                           ") m are stretched too far, but no path comes near them, so they hold: "
-                           "with 'Fracture/peridynamics/Tracking = path' cracks begin where the "
-                           "deck says. Where others are expected, use 'none'.");
-        told_off_paths = true;
-      }
-}
-
-
-template <int dim>
 std::string Peridynamics<dim>::why_sliding_crack_holds() const
 {
   if (!parameters.tracked || std::isnan(scene.crack_pressure))
@@ -322,6 +381,9 @@ double Peridynamics<dim>::fracture_volume(const State &state, const Collectives 
 template <int dim>
 double Peridynamics<dim>::extent() const
 {
+  // Fluid may get into a path far from all others at once, which is no jump of a tip.
+  if (parameters.tracked)
+    return paths.length();
   double greatest = 0.;
   for (unsigned int d = 0; d < dim && !all_segments.empty(); ++d)
   {
@@ -413,20 +475,24 @@ std::string Peridynamics<dim>::what_bonds_carry() const
          "by as much, use smaller cells, or 'cohesive_xfem'.";
 }
 
-#define INSTANTIATE(dim)                                                                        \
-  template void Peridynamics<dim>::refuse_what_bonds_do_not_know() const;                       \
-  template double Peridynamics<dim>::strength() const;                                          \
-  template void Peridynamics<dim>::foresee(double);                                             \
-  template void Peridynamics<dim>::foresee_stress(double);                                      \
-  template void Peridynamics<dim>::foresee_pressure(double);                                    \
-  template void Peridynamics<dim>::warn_off_paths();                                            \
-  template std::string Peridynamics<dim>::why_sliding_crack_holds() const;                      \
-  template void Peridynamics<dim>::warn_of_pressure(const State &);                             \
-  template double Peridynamics<dim>::fracture_volume(const State &, const Collectives &) const; \
-  template double Peridynamics<dim>::extent() const;                                            \
-  template Verdict Peridynamics<dim>::verdict_on(const StepContext &, const State &,            \
-                                                 const Collectives &) const;                    \
-  template std::string Peridynamics<dim>::wanted_zone() const;                                  \
+#define INSTANTIATE(dim)                                                                           \
+  template void Peridynamics<dim>::refuse_what_bonds_do_not_know() const;                          \
+  template double Peridynamics<dim>::strength() const;                                             \
+  template void Peridynamics<dim>::foresee(double);                                                \
+  template void Peridynamics<dim>::foresee_stress(double);                                         \
+  template void Peridynamics<dim>::refuse_in_situ_tension();                                       \
+  template std::string Peridynamics<dim>::place_and_time(const Point<dim> &, const StepContext &)  \
+    const;                                                                                         \
+  template std::string Peridynamics<dim>::stress_and_strength(const Beginning &) const;            \
+  template std::string Peridynamics<dim>::why_none_begins(const Beginning &, const StepContext &); \
+  template void Peridynamics<dim>::foresee_pressure(double);                                       \
+  template std::string Peridynamics<dim>::why_sliding_crack_holds() const;                         \
+  template void Peridynamics<dim>::warn_of_pressure(const State &);                                \
+  template double Peridynamics<dim>::fracture_volume(const State &, const Collectives &) const;    \
+  template double Peridynamics<dim>::extent() const;                                               \
+  template Verdict Peridynamics<dim>::verdict_on(const StepContext &, const State &,               \
+                                                 const Collectives &) const;                       \
+  template std::string Peridynamics<dim>::wanted_zone() const;                                     \
   template std::string Peridynamics<dim>::what_bonds_carry() const;
 INSTANTIATE(2)
 INSTANTIATE(3)

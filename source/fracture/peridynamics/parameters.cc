@@ -122,8 +122,12 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "else none. none: any bond softens that is stretched too far; where nothing guides it, the "
     "way of a fracture is the mesh's. path: only those that cross a path, which "
     "runs ahead of each tip, at right angles to the greatest principal stress, "
-    "averaged there over some horizons. In two dimensions, with 'Closure = in bonds'; "
-    "not where fractures fork.");
+    "averaged there over some horizons. Where bonds two horizons from all paths are stretched "
+    "too far another path begins, dry until a fracture joins it. The stress at which one does "
+    "follows from the energy release rate, the stiffness and the horizon, as the root of one over "
+    "the horizon, so it depends on the size of the cells; the log says it. None begins near "
+    "the rim of the zone (the run ends, and says so), nor in 'Unbreakable'. In two "
+    "dimensions, with 'Closure = in bonds'; not where fractures fork.");
   prm.declare_entry("Bonds per pass", default_bonds_per_pass, Patterns::Integer(1),
                     "Brittle bonds that break, the most stretched first, before the step is solved "
                     "again. Bonds that soften all follow their stretch at once.");

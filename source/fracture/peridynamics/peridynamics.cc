@@ -200,11 +200,13 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
       for (const unsigned int i : zone.peridynamic_sites())
         if (const double gone = bonds.damage(i) + zone.absent_share(i, stencil); gone > 0.)
           committed_correction[zone.sites()[i].place] = gone;
-    started = true;
   }
   row_versions.restart(zone.sites().size());
   paths_crossed = TrackedPaths(); // by other sites
   refresh_segments();
+  if (!started && parameters.tracked && parameters.growth)
+    refuse_in_situ_tension();
+  started = true;
   if (parameters.explicit_steps)
     make_explicit_bonds();
   if (explicit_bonds && stretch_of_given_pressure() != 0.)

@@ -367,6 +367,12 @@ private:
   /// which the fracture would release.
   double dry_stretch(unsigned int site, unsigned int bond) const;
 
+  /// The same of a bond across a plane.
+  double dry_stretch(unsigned int site,
+                     unsigned int bond,
+                     const dealii::Point<dim> &place,
+                     const dealii::Tensor<1, dim> &normal) const;
+
   /// A place itself, if it is that of a cell, or the nearest cell of the zone.
   Place<dim> cell_of_zone(const Place<dim> &place) const;
 
@@ -383,6 +389,70 @@ private:
   /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
   /// porous rock in all of the process zone, with candidates.
   std::vector<std::array<double, 2>> fluid_ahead(const std::vector<Candidate> &candidates) const;
+
+  // Paths that begin where there is none (new_paths.cc).
+
+  /// A bond that would soften if a path crossed it at right angles.
+  struct Overstretched
+  {
+    double stretch; ///< over the one at which it softens, rounded
+    unsigned int site, bond;
+    dealii::Point<dim> middle;
+  };
+
+  /// Where a path begins, or would.
+  struct Beginning
+  {
+    Overstretched bond; ///< with the place in its middle
+    dealii::Tensor<1, dim> direction;
+    dealii::SymmetricTensor<2, dim> stress; ///< in the mean around [Pa]
+  };
+
+  /// Why bonds hold that are stretched too far, once each: bits of told_off_paths.
+  static constexpr unsigned int held_at_side = 1, held_in_box = 2, held_at_rim = 4;
+
+  /// Sites that may have bonds so far from all paths.
+  void find_sites_off_paths();
+
+  /// Those far from all paths, by site, and others that nearly would.
+  std::vector<Overstretched> overstretched_off_paths() const;
+
+  /// Whether a point is in a cell of the zone, or of what may become one, or beyond all rock.
+  bool is_in_zone(const dealii::Point<dim> &point) const;
+
+  /// Whether others with the same middle would lead out of it.
+  bool is_near_rim(const Overstretched &bond) const;
+
+  /// At right angles to the greatest principal stress in the mean around.
+  Beginning
+  beginning_at(const Overstretched &bond, const State &state, const OfCells &of_cells) const;
+
+  /// Whether the place or the first pieces are in a box of 'Unbreakable'.
+  bool begins_in_unbreakable(const Beginning &path) const;
+
+  /// Paths begin where bonds far from all others are stretched too far.
+  /// @return why the run cannot go on; empty: it can
+  std::string begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
+
+  /// One of them.
+  /// @return see begin_paths()
+  std::string begin_path(const Beginning &path, const StepContext &context);
+
+  /// Bonds are stretched too far at the rim of the zone.
+  /// @return why the run cannot go on; empty: it can, and it is said
+  std::string why_none_begins(const Beginning &path, const StepContext &context);
+
+  /// Part of a sentence.
+  std::string place_and_time(const dealii::Point<dim> &place, const StepContext &context) const;
+
+  /// A sentence: what acts at a place where bonds are stretched too far, and what they hold.
+  std::string stress_and_strength(const Beginning &path) const;
+
+  /// At a bond [Pa], see strength().
+  double strength_of(unsigned int site, unsigned int bond) const
+  {
+    return strength() * relative_stretch(site, bond) * rock_of_bonds.modulus(site, bond);
+  }
 
   /// How far tips have come by the energy that softening bonds have dissipated, and fluid with
   /// them.
@@ -410,6 +480,19 @@ private:
 
   /// Of a site among elements of the size of the lattice's cells; nothing at the rim of these.
   std::optional<dealii::SymmetricTensor<2, dim>> stress_of_elements(unsigned int site) const;
+
+  /// The stress, with that in situ, in the mean over the sites no farther than @p reach from a
+  /// place, weighted by where they are from there [Pa].
+  dealii::SymmetricTensor<2, dim>
+  mean_stress(const dealii::Point<dim> &place,
+              double reach,
+              const std::function<double(const dealii::Tensor<1, dim> &away)> &weight,
+              const State &state,
+              const OfCells &of_cells) const;
+
+  /// The direction at right angles to the greatest principal stress, nearest to another one.
+  static dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress,
+                                              const dealii::Tensor<1, 2> &ahead);
 
   /// The stress ahead of a tip, of sites on the side that @p ahead points to, weighted by their
   /// distance [Pa].
@@ -512,11 +595,12 @@ private:
   /// Before the run: what of the scene bonds of cells of this size [m] cannot carry.
   void foresee(double spacing);
 
+  /// @throws InputError where it alone stretches bonds too far, so that paths would begin all over
+  /// the rock
+  void refuse_in_situ_tension();
+
   void foresee_stress(double spacing);
   void foresee_pressure(double spacing);
-
-  /// Once, when bonds are stretched too far where no crack may go, far from all paths.
-  void warn_off_paths();
 
   /// Where what is given opens a crack on a path and slides it as well: bonds across it that are
   /// pressed by that do not break, and hold what has parted. A sentence once that counts.
@@ -532,7 +616,7 @@ private:
   /// Volume between the faces [m^2; m^3 in 3-D].
   double fracture_volume(const State &state, const Collectives &collectives) const;
 
-  /// Greatest edge of the box that the fractures fill [m].
+  /// Greatest edge of the box that the fractures fill, or the length of tracked paths [m].
   double extent() const;
 
   /// A sentence: which zone to write into the deck.
@@ -638,6 +722,7 @@ private:
   TrackedPaths paths, committed_paths;
   std::vector<BondAcross> crossing_bonds; ///< of `paths_crossed`, sorted by view
   TrackedPaths paths_crossed;
+  std::vector<unsigned int> sites_off_paths;                    ///< of `paths_crossed`
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
   std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
   std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here
@@ -657,8 +742,8 @@ private:
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
-  bool told_of_rim = false, told_of_pressure = false, told_off_paths = false;
-  bool told_of_contact = false;
+  bool told_of_rim = false, told_of_pressure = false, told_of_contact = false;
+  unsigned int told_off_paths = 0;
 
   // Of the current step.
   std::size_t n_messages_before = 0;
@@ -672,6 +757,7 @@ private:
   bool has_rejected = false;        ///< the last attempt
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
-  bool told_of_rim_before = false, told_of_pressure_before = false, told_off_paths_before = false;
+  bool told_of_rim_before = false, told_of_pressure_before = false;
+  unsigned int told_off_paths_before = 0;
 };
 } // namespace stockwork::peridynamics

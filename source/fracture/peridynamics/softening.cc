@@ -285,10 +285,12 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   if (!changed)
     return false;
 
-  // Those that were broken before this step do not need their unknowns any more.
+  // Those that were broken before this step do not need their unknowns any more; but what stress
+  // in situ does between the faces of a dry path is theirs, for it has no segments.
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)
-    if (bond.committed >= softening.last)
+    if (bond.committed >= softening.last &&
+        !(parameters.tracked && dry_stretch(bond.view.first, bond.view.second) != 0.))
       bonds.set_broken(bond.view.first, bond.view.second);
     else
       softening_now.push_back(bond);

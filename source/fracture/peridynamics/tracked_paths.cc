@@ -1,7 +1,5 @@
 #include "fracture/peridynamics/tracked_paths.h"
 
-#include "fracture/peridynamics/softening.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,10 +12,22 @@ using dealii::Tensor;
 
 namespace
 {
-/// Places that are nearer to one another are the same [pieces].
-constexpr double same_spot = 1e-6;
 /// Shorter pieces are joined with the one before [pieces].
-constexpr double short_piece = 0.3;
+constexpr double short_piece = 0.45;
+/// An initial crack that ends no farther from another one begins there [pieces].
+constexpr double same_place_as = 0.3;
+/// A way that is no farther from another path joins it with its next piece [pieces].
+constexpr double nearly_there = 1.5;
+/// A way that crosses no other path within so much is not about to meet it, but comes past it, if
+/// it comes near [pieces].
+constexpr double look_ahead = 3.;
+/// Two tips that are led to one another, and in a turn each come nearer by a piece, see one another
+/// from so far off, and meet half-way from so far [pieces].
+constexpr double see_tips = look_ahead + 1., meet_tips = 2.5;
+/// The sine of an angle. A way that comes past another path joins it unless it leads away from it
+/// by more; and it goes straight to the way of another one, from farther off, if it leads towards
+/// that by more: what bonds are between would be shared out to two ways that run on side by side.
+constexpr double least_towards = 0.17;
 /// To share bonds out by. Pieces then read an opening alike to some tenths of a per cent, at any
 /// angle; more would carry what the ends of a path lack farther along it.
 constexpr unsigned int sweeps = 3;
@@ -106,7 +116,7 @@ void TrackedPaths::join_where_it_begins(const End &end)
       const Point<2> from = paths[p].point(i);
       const Tensor<1, 2> along = paths[p].point(i + 1) - from;
       const double place = std::clamp((own - from) * along / along.norm_square(), 0., 1.);
-      if (own.distance(from + place * along) > short_piece * h)
+      if (own.distance(from + place * along) > same_place_as * h)
         continue;
       growth.grows = false;
       growth.joined = true;
@@ -383,37 +393,186 @@ Tensor<1, 2> TrackedPaths::direction(const End &end) const
 }
 
 
-void TrackedPaths::extend(const End &end, const Tensor<1, 2> &direction)
+TrackedPaths::Extension TrackedPaths::extension(const End &end, const Tensor<1, 2> &direction) const
 {
-  Path &path = paths[end.path];
-  Growth &growth = path.ends[end.side];
-  const Point<2> head = path.point(end.side == 0 ? 0 : path.n_pieces());
-  Point<2> next = head + h * direction;
-  double nearest = 2.;
+  Extension result;
+  const Path &path = paths[end.path];
+  const unsigned int last_piece = end.side == 0 ? 0 : path.n_pieces() - 1;
+  const Point<2> head = this->head(end);
+  // Where the line ahead crosses a path, in pieces.
+  double ahead = std::numeric_limits<double>::infinity();
   for (unsigned int p = 0; p < paths.size(); ++p)
     for (unsigned int i = 0; i < paths[p].n_pieces(); ++i)
     {
-      if (p == end.path && i == (end.side == 0 ? 0 : path.n_pieces() - 1))
+      if (p == end.path && i == last_piece)
         continue;
-      if (const auto met = meet(head, head + 1.5 * h * direction, paths[p].point(i),
+      if (const auto met = meet(head, head + see_tips * h * direction, paths[p].point(i),
                                 paths[p].point(i + 1), same_spot * h);
-          met && (*met)[0] < nearest && (*met)[0] > -same_spot)
+          met && see_tips * (*met)[0] < ahead && (*met)[0] > -same_spot)
       {
-        nearest = (*met)[0];
-        next = head + 1.5 * h * nearest * direction;
-        growth.grows = false;
-        growth.joined = true;
-        growth.joined_path = p;
-        growth.joined_arc = paths[p].begin(i) + (*met)[1] * paths[p].length(i);
+        ahead = see_tips * (*met)[0];
+        result.joint = {p, paths[p].begin(i) + (*met)[1] * paths[p].length(i)};
       }
     }
-  const std::array<double, 2> point{{next[0], next[1]}};
-  if (growth.joined && nearest < short_piece && growth.n_points > 0)
-    path.points[end.side == 0 ? 0 : path.n_pieces()] = point;
-  else
+  if (ahead <= see_tips)
+    result.towards = tip_of(result.joint);
+  result.joins = ahead < nearly_there;
+  result.next = head + (result.joins ? ahead : 1.) * h * direction;
+  if (result.joins)
+    return result;
+  const auto [beside, away] = nearest(head, end.path);
+  const Tensor<1, 2> across = point(beside) - head;
+  const double towards = across * direction;
+  if (away < see_tips * h && towards > least_towards * away && !result.towards)
+    result.towards = tip_of(beside);
+  const bool passes = ahead > look_ahead, is_way = end_at(beside).has_value();
+  if (away < nearly_there * h && towards >= -least_towards * away && (passes || is_way))
   {
-    path.points.insert(end.side == 0 ? path.points.begin() : path.points.end(), point);
+    result.joins = result.passes = true;
+    result.joint = beside;
+    result.next = point(beside);
+  }
+  else if (passes && is_way && away < look_ahead * h && towards > least_towards * away)
+    result.next = head + h / away * across;
+  return result;
+}
+
+
+std::optional<TrackedPaths::End> TrackedPaths::head_at(const Joint &joint) const
+{
+  const Path &path = paths[joint.path];
+  for (const unsigned int side : {0u, 1u})
+    if (path.ends[side].grows &&
+        std::abs(joint.arc - path.begin(side == 0 ? 0 : path.n_pieces())) < short_piece * h)
+      return End{joint.path, side};
+  return {};
+}
+
+
+std::optional<TrackedPaths::End> TrackedPaths::tip_of(const Joint &joint) const
+{
+  if (const auto head = head_at(joint))
+    return head;
+  const auto end = end_at(joint);
+  return end && at(*end).grows ? end : std::nullopt;
+}
+
+
+bool TrackedPaths::lead_to(const End &end, const Point<2> &place)
+{
+  Path &path = paths[end.path];
+  Growth &growth = path.ends[end.side];
+  const unsigned int last = end.side == 0 ? 0 : path.n_pieces();
+  const std::array<double, 2> added{{place[0], place[1]}};
+  if (path.point(last).distance(place) > short_piece * h)
+  {
+    path.points.insert(end.side == 0 ? path.points.begin() : path.points.end(), added);
     ++growth.n_points;
+  }
+  else if (growth.n_points > 0)
+    path.points[last] = added;
+  else
+    return false;
+  return true;
+}
+
+
+bool TrackedPaths::stops_where_joined(const End &end)
+{
+  Growth &growth = paths[end.path].ends[end.side];
+  const double arc = paths[end.path].begin(end.side == 0 ? 0 : paths[end.path].n_pieces());
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+      if (const Growth &other = paths[p].ends[side];
+          other.joined && other.joined_path == end.path && p != end.path &&
+          std::abs(other.joined_arc - arc) < short_piece * h)
+      {
+        growth.grows = false;
+        growth.joined = growth.passes = true;
+        growth.joined_path = p;
+        growth.joined_arc = paths[p].begin(side == 0 ? 0 : paths[p].n_pieces());
+        return true;
+      }
+  return false;
+}
+
+
+/// Two that come upon one another meet half-way, so that neither is the one which has been joined.
+void TrackedPaths::join_heads(const End &a, const End &b)
+{
+  const Point<2> middle = head(a) + 0.5 * (head(b) - head(a));
+  // What has not set out stays where it is, if that is near.
+  if (!lead_to(a, middle))
+    lead_to(b, head(a));
+  else if (!lead_to(b, middle))
+    lead_to(a, head(b));
+  for (const auto &[end, other] : {std::make_pair(a, b), std::make_pair(b, a)})
+  {
+    Growth &growth = paths[end.path].ends[end.side];
+    growth.grows = false;
+    growth.joined = growth.passes = true;
+    growth.joined_path = other.path;
+    growth.joined_arc = paths[other.path].begin(other.side == 0 ? 0 : paths[other.path].n_pieces());
+  }
+}
+
+
+void TrackedPaths::extend(const std::vector<std::pair<End, Tensor<1, 2>>> &ahead)
+{
+  std::vector<Extension> extensions;
+  for (const auto &[end, direction] : ahead)
+    extensions.push_back(extension(end, direction));
+  const auto is_led_to = [&](const unsigned int k, const unsigned int l)
+  {
+    const auto &towards = extensions[k].towards;
+    return towards && towards->path == ahead[l].first.path && towards->side == ahead[l].first.side;
+  };
+  for (unsigned int k = 0; k < ahead.size(); ++k)
+    for (unsigned int l = 0; l < k; ++l)
+      if (ahead[k].first.path != ahead[l].first.path && is_led_to(k, l) && is_led_to(l, k))
+      {
+        const Tensor<1, 2> apart = head(ahead[l].first) - head(ahead[k].first);
+        const double distance = apart.norm();
+        if (distance >= see_tips * h ||
+            (distance >= meet_tips * h && (extensions[k].joins || extensions[l].joins)))
+          continue;
+        extensions[k].meets = extensions[l].meets = distance < meet_tips * h;
+        extensions[k].joins = extensions[l].joins = extensions[k].meets;
+        extensions[k].joint.path = ahead[l].first.path;
+        extensions[l].joint.path = ahead[k].first.path;
+        extensions[k].next = head(ahead[k].first) + h / distance * apart;
+        extensions[l].next = head(ahead[l].first) - h / distance * apart;
+      }
+  std::vector<bool> has_joined(paths.size(), false);
+  for (unsigned int k = 0; k < ahead.size(); ++k)
+  {
+    const End &end = ahead[k].first;
+    const Extension &next = extensions[k];
+    Growth &growth = paths[end.path].ends[end.side];
+    if (!growth.grows || stops_where_joined(end))
+      continue;
+    // What it would join, or has been joined by, is not where it was any more.
+    if (next.joins && (has_joined[end.path] || has_joined[next.joint.path] ||
+                       (next.meets && !at(*next.towards).grows)))
+      continue;
+    if (!next.joins)
+    {
+      lead_to(end, next.next);
+      continue;
+    }
+    has_joined[end.path] = has_joined[next.joint.path] = true;
+    const auto other = next.meets ? next.towards : head_at(next.joint);
+    if (other && other->path != end.path)
+    {
+      join_heads(end, *other);
+      continue;
+    }
+    growth.grows = false;
+    growth.joined = true;
+    growth.passes = next.passes;
+    growth.joined_path = next.joint.path;
+    growth.joined_arc = next.joint.arc;
+    lead_to(end, next.next);
   }
 }
 
@@ -438,7 +597,7 @@ std::vector<TrackedPaths::Meeting> TrackedPaths::meetings() const
     for (const unsigned int side : {0u, 1u})
     {
       const Growth &growth = paths[p].ends[side];
-      if (!has_met({p, side}))
+      if (!has_met({p, side}) || growth.passes)
         continue;
       const Joint joint{growth.joined_path, growth.joined_arc};
       Meeting meeting{{p, side}, point(joint), left(joint), {}};
@@ -470,6 +629,44 @@ void TrackedPaths::begin_beyond(const Meeting &meeting, const Tensor<1, 2> &dire
   path.ends[0].joined_arc = met.joined_arc;
   path.ends[1].grows = true;
   path.ends[1].n_points = 1;
+  path.dry = paths[meeting.end.path].dry && paths[met.joined_path].dry;
+}
+
+
+void TrackedPaths::begin_at(const Point<2> &place, const Tensor<1, 2> &direction, const bool dry)
+{
+  const Point<2> from = place - h * direction;
+  begin_at_side(place, direction, dry);
+  Path &path = paths.back();
+  path.points.insert(path.points.begin(), std::array<double, 2>{{from[0], from[1]}});
+  path.ends[0].grows = true;
+  path.ends[0].n_points = 1;
+}
+
+
+void TrackedPaths::begin_at_side(const Point<2> &place,
+                                 const Tensor<1, 2> &direction,
+                                 const bool dry)
+{
+  const Point<2> to = place + h * direction;
+  Path path;
+  path.points = {{{place[0], place[1]}}, {{to[0], to[1]}}};
+  path.ends[1].grows = true;
+  path.ends[1].n_points = 1;
+  path.dry = dry;
+  paths.push_back(path);
+}
+
+
+bool TrackedPaths::is_joined(const End &end) const
+{
+  for (const Path &path : paths)
+    for (const Growth &other : path.ends)
+      if (other.joined)
+        if (const auto at = end_at({other.joined_path, other.joined_arc});
+            at && at->path == end.path && at->side == end.side)
+          return true;
+  return false;
 }
 
 
@@ -480,18 +677,27 @@ bool TrackedPaths::is_wet(const unsigned int path) const
 }
 
 
+std::pair<TrackedPaths::Joint, double> TrackedPaths::nearest(const Point<2> &to,
+                                                             const unsigned int but) const
+{
+  std::pair<Joint, double> result{{}, std::numeric_limits<double>::infinity()};
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (unsigned int i = 0; i < paths[p].n_pieces() && p != but; ++i)
+    {
+      const Point<2> from = paths[p].point(i);
+      const Tensor<1, 2> along = paths[p].point(i + 1) - from;
+      const double share = std::clamp((to - from) * along / along.norm_square(), 0., 1.);
+      if (const double away = to.distance(from + share * along);
+          away < result.second - same_spot * h)
+        result = {{p, paths[p].begin(i) + share * along.norm()}, away};
+    }
+  return result;
+}
+
+
 double TrackedPaths::distance(const Point<2> &point) const
 {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Path &path : paths)
-    for (unsigned int i = 0; i < path.n_pieces(); ++i)
-    {
-      const Tensor<1, 2> along = path.point(i + 1) - path.point(i);
-      const double place =
-        std::clamp((point - path.point(i)) * along / along.norm_square(), 0., 1.);
-      nearest = std::min(nearest, point.distance(path.point(i) + place * along));
-    }
-  return nearest;
+  return nearest(point, paths.size()).second;
 }
 
 
@@ -505,84 +711,5 @@ double TrackedPaths::length() const
     sum += path.ends[0].advance + path.ends[1].advance;
   }
   return sum;
-}
-
-
-void TrackedPaths::find_wet_pieces()
-{
-  wet.clear();
-  std::vector<std::pair<unsigned int, Joint>> joints;
-  // Pieces at ends of which fluid has reached all, and the path that goes on beyond each.
-  std::vector<std::pair<unsigned int, unsigned int>> goes_on;
-  for (unsigned int p = 0; p < paths.size(); ++p)
-  {
-    const Path &path = paths[p];
-    // Pieces of each way that fluid has reached.
-    std::array<unsigned int, 2> reached{{0, 0}};
-    for (const unsigned int side : {0u, 1u})
-    {
-      const Growth &growth = path.ends[side];
-      double inner = 0.;
-      for (unsigned int k = growth.n_points; k > 0; --k)
-      {
-        const double length = path.length(side == 0 ? k - 1 : path.n_pieces() - k);
-        // Elsewhere fluid is behind the tip. Beyond another path it comes through a face of whole
-        // rock, and not by the first bond that is stretched too far: its pressure on all of the
-        // first horizon would part the rest.
-        const bool is_first = began_beyond(p) && k == growth.n_points;
-        if (growth.wet <= inner + (is_first ? SofteningLaw::wet_damage * length : same_spot * h))
-          break;
-        ++reached[side];
-        inner += length;
-      }
-    }
-    const unsigned int first = path.ends[0].n_points - reached[0],
-                       end = path.n_pieces() - path.ends[1].n_points + reached[1];
-    for (unsigned int i = first; i < end; ++i)
-    {
-      Piece piece{p, path.point(i), path.point(i + 1), path.begin(i), 0., false, {}};
-      piece.end = piece.begin + path.length(i);
-      const unsigned int number = wet.size();
-      if (i > first)
-        piece.neighbours.push_back(number - 1);
-      if (i + 1 < end)
-        piece.neighbours.push_back(number + 1);
-      for (const unsigned int side : {0u, 1u})
-      {
-        const Growth &growth = path.ends[side];
-        if (i != (side == 0 ? first : end - 1))
-          continue;
-        const bool all = reached[side] == growth.n_points;
-        if (growth.joined && all)
-        {
-          joints.emplace_back(number, Joint{growth.joined_path, growth.joined_arc});
-          if (growth.beyond != 0)
-            goes_on.emplace_back(number, growth.beyond);
-        }
-        else if (growth.grows || growth.joined)
-          piece.at_tip = true;
-      }
-      wet.push_back(piece);
-    }
-  }
-  for (const auto &[piece, joint] : joints)
-    for (unsigned int i = 0; i < wet.size(); ++i)
-      if (i != piece && wet[i].path == joint.path && wet[i].begin <= joint.arc &&
-          wet[i].end >= joint.arc)
-      {
-        wet[piece].neighbours.push_back(i);
-        wet[i].neighbours.push_back(piece);
-        wet[i].at_tip = false;
-        break;
-      }
-  // The mouths of both are opposite one another: the fluid need not go along what is between.
-  for (const auto &[piece, beyond] : goes_on)
-    for (unsigned int i = 0; i < wet.size(); ++i)
-      if (wet[i].path == beyond)
-      {
-        wet[piece].neighbours.push_back(i);
-        wet[i].neighbours.push_back(piece);
-        break;
-      }
 }
 } // namespace stockwork::peridynamics

@@ -18,7 +18,8 @@ namespace stockwork::peridynamics
 /// only where they cross one. How far a tip has come on its way is known from the energy that has
 /// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
 /// paths: those that a tip has come to, or in porous rock its process zone, and of a path that
-/// begins beyond another one the first when it has taken a tenth of its energy.
+/// begins beyond another one, or where there is none, the first when it has taken a tenth of its
+/// energy.
 class TrackedPaths
 {
 public:
@@ -127,14 +128,18 @@ public:
     return at(end).n_points > 0;
   }
 
-  /// A piece more, in this direction. It ends at another path if it meets one, or comes as near as
-  /// half of a piece; then the end does not grow any more.
-  void extend(const End &end, const dealii::Tensor<1, 2> &direction);
+  /// A piece more of each of these ends, in its direction. It ends at another path if it meets one,
+  /// or comes as near as half of a piece; then the end does not grow any more. So it does if it
+  /// comes past another path as near as one and a half: bonds tell no two lines there. Two ends
+  /// that come upon one another meet half-way. All pieces follow from the paths as they are,
+  /// whatever the order of the ends; one that would join what another has joined just now gets none
+  /// yet.
+  void extend(const std::vector<std::pair<End, dealii::Tensor<1, 2>>> &ahead);
 
   /// Forget the way ahead, where nothing has softened yet.
   void forget_way(const End &end);
 
-  /// Where the way of an end has met another path, and may go on beyond it.
+  /// Where the way of an end has met another path, and may go on beyond it. Not where it came past.
   struct Meeting
   {
     End end;                     ///< that has met the path
@@ -155,19 +160,41 @@ public:
   /// has begun there before it is forgotten.
   void begin_beyond(const Meeting &meeting, const dealii::Tensor<1, 2> &direction);
 
-  /// Whether a path has begun beyond another one: no part of it is an initial crack.
+  /// Whether no part of a path is an initial crack.
+  bool is_all_way(const unsigned int path) const
+  {
+    return paths[path].ends[0].n_points + paths[path].ends[1].n_points == paths[path].n_pieces();
+  }
+
+  /// Whether a path has begun beyond another one.
   bool began_beyond(const unsigned int path) const
   {
-    return paths[path].ends[1].n_points == paths[path].n_pieces();
+    return is_all_way(path) && paths[path].ends[0].joined && paths[path].ends[0].n_points == 0;
   }
+
+  /// A path with a piece to either side of a place.
+  /// @param dry fluid gets in only where a path that has some joins it
+  void begin_at(const dealii::Point<2> &place, const dealii::Tensor<1, 2> &direction, bool dry);
+
+  /// A path with a piece that leads away from a place on the boundary of the domain, where its
+  /// other end does not grow.
+  void
+  begin_at_side(const dealii::Point<2> &place, const dealii::Tensor<1, 2> &direction, bool dry);
 
   unsigned int n_paths() const
   {
     return paths.size();
   }
 
+  /// Whether another path has joined the way of an end.
+  bool is_joined(const End &end) const;
+
   /// Whether fluid has reached any piece of a path.
   bool is_wet(unsigned int path) const;
+
+  /// The place nearest to a point on any path, ways as well, but one of them; and how far it is
+  /// [m].
+  std::pair<Joint, double> nearest(const dealii::Point<2> &point, unsigned int but) const;
 
   /// Of a point from the nearest piece of any path or way [m].
   double distance(const dealii::Point<2> &point) const;
@@ -184,12 +211,16 @@ public:
   }
 
 private:
+  /// Places that are nearer to one another are the same [pieces].
+  static constexpr double same_spot = 1e-6;
+
   struct Growth
   {
     bool grows = false;
     unsigned int n_points = 0;     ///< of its way
     double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
     bool joined = false;           ///< it has met another path
+    bool passes = false;           ///< and came past it
     unsigned int joined_path = 0;  ///< which
     double joined_arc = 0.;        ///< and where on it
     unsigned int beyond = 0;       ///< path that begins there on the far side, 0: none
@@ -197,7 +228,7 @@ private:
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &grows &n_points &advance &wet &joined &joined_path &joined_arc &beyond;
+      ar &grows &n_points &advance &wet &joined &passes &joined_path &joined_arc &beyond;
     }
   };
 
@@ -205,11 +236,12 @@ private:
   {
     std::vector<std::array<double, 2>> points; ///< of the ways as well
     std::array<Growth, 2> ends;
+    bool dry = false; ///< as long as no path with fluid has joined it
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &points &ends;
+      ar &points &ends &dry;
     }
 
     unsigned int n_pieces() const
@@ -242,8 +274,48 @@ private:
     return paths[end.path].ends[end.side];
   }
 
+  /// Where the next piece of an end leads, and what it joins.
+  struct Extension
+  {
+    dealii::Point<2> next;
+    bool joins = false, passes = false; ///< see Growth
+    Joint joint{};
+    std::optional<End> towards{}; ///< the tip whose way it is led to
+    bool meets = false;           ///< that one half-way
+  };
+
+  Extension extension(const End &end, const dealii::Tensor<1, 2> &direction) const;
+
+  /// The end that grows and has come so far on a path.
+  std::optional<End> head_at(const Joint &joint) const;
+
+  /// The same, or the end that grows and whose way is there.
+  std::optional<End> tip_of(const Joint &joint) const;
+
+  /// The last point of the way of an end.
+  dealii::Point<2> head(const End &end) const
+  {
+    const Path &path = paths[end.path];
+    return path.point(end.side == 0 ? 0 : path.n_pieces());
+  }
+
+  /// A piece more, or where it is short the last one up to there; nothing if there is none.
+  /// @return whether the end is there
+  bool lead_to(const End &end, const dealii::Point<2> &place);
+
+  /// Where an initial crack has joined an end, that goes no further.
+  bool stops_where_joined(const End &end);
+
+  void join_heads(const End &a, const End &b);
+
   /// Where an initial crack ends at another one.
   void join_where_it_begins(const End &end);
+
+  /// Pieces of the ways of a path that its tips, and fluid if there is any, have reached.
+  std::array<unsigned int, 2> reached(unsigned int path) const;
+
+  /// Fluid gets into dry paths where those that have some meet them.
+  void wet_what_is_joined();
 
   void find_wet_pieces();
 

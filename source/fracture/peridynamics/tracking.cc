@@ -18,8 +18,6 @@ namespace
 constexpr double most_turn = 20. * M_PI / 180., most_first_turn = 70. * M_PI / 180.;
 /// Between a path that begins beyond another one and that [rad].
 constexpr double least_off_line = 20. * M_PI / 180.;
-/// Of the greater principal stress, less than which they do not differ.
-constexpr double same_stress = 1e-9;
 
 /// Of the stress at a place, from the tip, in the mean ahead of it. Near the tip the stress is the
 /// lattice's, so most of it is that of a ring, 1.7 units wide; and sites come in and go out at its
@@ -30,20 +28,12 @@ constexpr double same_stress = 1e-9;
 double ring_weight(const Tensor<1, 2> &away, const Tensor<1, 2> &ahead)
 {
   constexpr double first = 70. * M_PI / 180., last = 110. * M_PI / 180.;
-  const double r = away.norm(), cosine = std::clamp(away * ahead / r, -1., 1.);
+  const double r = away.norm();
+  if (r == 0.)
+    return 0.;
+  const double cosine = std::clamp(away * ahead / r, -1., 1.);
   const double t = std::clamp((last - std::acos(cosine)) / (last - first), 0., 1.);
   return r * r * std::exp(-0.5 * r * r) * (1.5 - 0.5 * cosine * cosine) * t * t * (3. - 2. * t);
-}
-
-/// The direction at right angles to the greatest principal stress, nearest to another one.
-Tensor<1, 2> across_greatest(const SymmetricTensor<2, 2> &stress, const Tensor<1, 2> &ahead)
-{
-  const double half = 0.5 * (stress[0][0] - stress[1][1]), shear = stress[0][1];
-  if (std::hypot(half, shear) <= same_stress * stress.norm())
-    return ahead;
-  const double angle = 0.5 * std::atan2(shear, half) + 0.5 * M_PI;
-  const Tensor<1, 2> direction({std::cos(angle), std::sin(angle)});
-  return direction * ahead < 0. ? -direction : direction;
 }
 
 /// A direction, turned towards another one, by so much at most.
@@ -75,6 +65,7 @@ void Peridynamics<dim>::find_crossing_bonds()
       return;
     paths_crossed = paths;
     crossing_bonds.clear();
+    find_sites_off_paths();
     std::vector<bool> is_near(zone.sites().size(), false);
     const int reach = parameters.horizon + 1;
     for (const auto &[lower, upper] : paths.boxes())
@@ -151,13 +142,21 @@ double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned in
   if constexpr (dim == 2)
     if (!in_situ_is_zero)
       if (const auto crossing = crossing_of(site, bond); crossing && !paths.is_wet(crossing->path))
-      {
-        const Tensor<1, dim> n = paths.left(*crossing), &e = coefficients[bond].direction;
-        const SymmetricTensor<2, dim> strain =
-          strain_of_traction(n, effective_in_situ_stress(site, bond, paths.point(*crossing)) * n);
-        return e * (strain * e) * coefficients[bond].stiffness / stiffness(site, bond);
-      }
+        return dry_stretch(site, bond, paths.point(*crossing), paths.left(*crossing));
   return 0.;
+}
+
+
+template <int dim>
+double Peridynamics<dim>::dry_stretch(const unsigned int site,
+                                      const unsigned int bond,
+                                      const Point<dim> &place,
+                                      const Tensor<1, dim> &normal) const
+{
+  const Tensor<1, dim> &e = coefficients[bond].direction;
+  const SymmetricTensor<2, dim> strain =
+    strain_of_traction(normal, effective_in_situ_stress(site, bond, place) * normal);
+  return e * (strain * e) * coefficients[bond].stiffness / stiffness(site, bond);
 }
 
 
@@ -380,8 +379,8 @@ Peridynamics<dim>::fluid_ahead(const std::vector<Candidate> &candidates) const
   {
     const auto crossing = crossing_of(view.first, view.second);
     const auto end = crossing ? paths.end_at(*crossing) : std::nullopt;
-    // What begins beyond another path is dry at first, see TrackedPaths.
-    if (!end || (paths.began_beyond(end->path) && !paths.is_wet(end->path)))
+    // What begins beyond another path, or by itself, is dry at first, see TrackedPaths.
+    if (!end || (paths.is_all_way(end->path) && !paths.is_wet(end->path)))
       return;
     double &fluid = farthest[end->path][end->side];
     fluid = std::max(fluid, paths.along_way(*crossing, *end));
@@ -440,98 +439,21 @@ double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &end) const
 
 
 template <int dim>
-SymmetricTensor<2, dim>
-Peridynamics<dim>::stress_of_bonds(const unsigned int site,
-                                   const std::map<BondView, double> &softened,
-                                   const OfCells &of_cells) const
-{
-  SymmetricTensor<2, dim> stress;
-  for (unsigned int b = 0; b < stencil.size(); ++b)
-  {
-    const Tensor<1, dim> &e = coefficients[b].direction;
-    double force = 0.;
-    if (bonds.is_broken(site, b))
-      for (const auto &[cell, share] : shares_of(site, b, false))
-        force -= coefficients[b].stiffness * coefficients[b].length * share *
-                 (e * (of_cells.strain[cell] * e));
-    else
-    {
-      const auto found = softened.find({site, b});
-      force = stiffness(site, b) *
-              (elongation(site, b, displacement) - (found != softened.end() ? found->second : 0.));
-    }
-    stress += 0.5 * force * coefficients[b].length * symmetrize(outer_product(e, e));
-  }
-  return stress / std::pow(zone.spacing(), dim);
-}
-
-
-template <int dim>
-std::optional<SymmetricTensor<2, dim>>
-Peridynamics<dim>::stress_of_elements(const unsigned int site) const
-{
-  SymmetricTensor<2, dim> strain;
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    std::array<unsigned int, 2> beside;
-    for (const unsigned int side : {0u, 1u})
-    {
-      Place<dim> place = zone.sites()[site].place;
-      place[d] += side == 0 ? -1 : 1;
-      beside[side] = zone.find(place);
-      if (beside[side] == dealii::numbers::invalid_unsigned_int)
-        return {};
-    }
-    for (unsigned int c = 0; c < dim; ++c)
-      strain[c][d] += (c == d ? 1. : 0.5) *
-                      (displacement[beside[1] * dim + c] - displacement[beside[0] * dim + c]) /
-                      (2. * zone.spacing());
-  }
-  const RockProperties &rock = scene.rock.main();
-  return rock_of_bonds.modulus(site) *
-         (rock.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
-          2. * rock.shear_modulus() * strain);
-}
-
-
-template <int dim>
 SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
                                                         const Tensor<1, dim> &ahead,
                                                         const State &state,
                                                         const OfCells &of_cells) const
 {
-  SymmetricTensor<2, dim> sum;
+  SymmetricTensor<2, dim> stress;
   if constexpr (dim == 2)
   {
-    const double length = parameters.horizon * zone.spacing(), reach = 3. * length;
-    std::map<BondView, double> softened;
-    for (unsigned int n = 0; n < softening_bonds.size(); ++n)
-      for (const BondView &view :
-           views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
-        softened[view] = state.current.extra[n];
-    double weights = 0.;
-    for (unsigned int i = 0; i < zone.sites().size(); ++i)
-    {
-      const Point<dim> place = zone.position(zone.sites()[i].place);
-      const Tensor<1, dim> away = place - tip;
-      if (away.norm_square() > reach * reach || away.norm_square() == 0.)
-        continue;
-      auto stress =
-        zone.sites()[i].peridynamic
-          ? std::optional<SymmetricTensor<2, dim>>(stress_of_bonds(i, softened, of_cells))
-          : stress_of_elements(i);
-      if (!stress)
-        continue;
-      if (!in_situ_is_zero)
-        *stress += scene.in_situ_stress(place);
-      const double weight = ring_weight(away / length, ahead);
-      sum += weight * *stress;
-      weights += weight;
-    }
-    if (weights > 0.)
-      sum /= weights;
+    const double length = parameters.horizon * zone.spacing();
+    stress = mean_stress(
+      tip, 3. * length,
+      [&](const Tensor<1, dim> &away) { return ring_weight(away / length, ahead); }, state,
+      of_cells);
   }
-  return sum;
+  return stress;
 }
 
 
@@ -564,48 +486,46 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
           off_line(turned(ahead, across_greatest(stress, ahead), most_first_turn), meeting.across));
       }
     for (const TrackedPaths::End &end : paths.ends())
-    {
-      if (!paths.began_beyond(end.path) && is_untouched(end))
+      if (!paths.is_all_way(end.path) && is_untouched(end) && !paths.is_joined(end))
         paths.forget_way(end);
-      const auto grows = [&]
-      {
-        for (const TrackedPaths::End &other : paths.ends())
-          if (other.path == end.path && other.side == end.side)
-            return true;
-        return false;
-      };
-      while (grows() && paths.lead(end) < (parameters.horizon - 1e-6) * h)
-      {
-        const Tensor<1, dim> ahead = paths.direction(end);
-        const SymmetricTensor<2, dim> stress = stress_ahead(paths.tip(end), ahead, state, of_cells);
-        paths.extend(end, turned(ahead, across_greatest(stress, ahead),
-                                 paths.has_set_out(end) ? most_turn : most_first_turn));
-      }
-    }
+    // All ends by turns, so that none finds the others farther on than they find it.
+    std::vector<std::pair<TrackedPaths::End, Tensor<1, dim>>> further;
+    do
+    {
+      further.clear();
+      for (const TrackedPaths::End &end : paths.ends())
+        if (paths.lead(end) < (parameters.horizon - 1e-6) * h)
+        {
+          const Tensor<1, dim> ahead = paths.direction(end);
+          const SymmetricTensor<2, dim> stress =
+            stress_ahead(paths.tip(end), ahead, state, of_cells);
+          further.emplace_back(end, turned(ahead, across_greatest(stress, ahead),
+                                           paths.has_set_out(end) ? most_turn : most_first_turn));
+        }
+      paths.extend(further);
+    } while (!further.empty());
     find_crossing_bonds();
   }
 }
 
-#define INSTANTIATE(dim)                                                                     \
-  template void Peridynamics<dim>::find_crossing_bonds();                                    \
-  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
-    unsigned int, unsigned int) const;                                                       \
-  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;          \
-  template Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &) const;             \
-  template void Peridynamics<dim>::follow_paths();                                           \
-  template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;     \
-  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
-  template double Peridynamics<dim>::half_process_zones() const;                             \
-  template std::vector<std::array<double, 2>> Peridynamics<dim>::fluid_ahead(                \
-    const std::vector<Candidate> &) const;                                                   \
-  template bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &);             \
-  template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;         \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                       \
-    unsigned int, const std::map<BondView, double> &, const OfCells &) const;                \
-  template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(     \
-    unsigned int) const;                                                                     \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                          \
-    const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;       \
+#define INSTANTIATE(dim)                                                                         \
+  template void Peridynamics<dim>::find_crossing_bonds();                                        \
+  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(                 \
+    unsigned int, unsigned int) const;                                                           \
+  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;              \
+  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int, const Point<dim> &, \
+                                                 const Tensor<1, dim> &) const;                  \
+  template Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &) const;                 \
+  template void Peridynamics<dim>::follow_paths();                                               \
+  template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;         \
+  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const;     \
+  template double Peridynamics<dim>::half_process_zones() const;                                 \
+  template std::vector<std::array<double, 2>> Peridynamics<dim>::fluid_ahead(                    \
+    const std::vector<Candidate> &) const;                                                       \
+  template bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &);                 \
+  template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;             \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                              \
+    const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;           \
   template void Peridynamics<dim>::track(const State &, const OfCells &);
 INSTANTIATE(2)
 INSTANTIATE(3)

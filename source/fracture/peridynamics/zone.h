@@ -150,6 +150,12 @@ public:
     return inside;
   }
 
+  /// The box that holds the rock.
+  const dealii::BoundingBox<dim> &all_rock() const
+  {
+    return domain;
+  }
+
   /// A side that the deck moves and that is nearer than this to a peridynamic site, but holds none
   /// of them back as a plane of symmetry: direction and side.
   std::optional<std::array<unsigned int, 2>> moved_side_within(double distance) const;

@@ -1,0 +1,316 @@
+// `Tracking = path`: where bonds are stretched too far and no path is near, one begins.
+#include "fracture/peridynamics/peridynamics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <tuple>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+/// From all paths, of a place where one may begin [horizons]. Nearer to a tip bonds are stretched
+/// by it.
+constexpr double least_distance = 2.;
+/// Bonds that are stretched as much as the most stretched one, less this share, are where a path
+/// begins: in the middle of them, which is the same on any lattice.
+constexpr double nearly_most = 0.02;
+} // namespace
+
+
+template <int dim>
+void Peridynamics<dim>::find_sites_off_paths()
+{
+  sites_off_paths.clear();
+  if constexpr (dim == 2)
+  {
+    double longest = 0.;
+    for (const BondCoefficients<dim> &bond : coefficients)
+      longest = std::max(longest, bond.length);
+    const double least = least_distance * parameters.horizon * zone.spacing() - 0.5 * longest;
+    for (const unsigned int i : zone.peridynamic_sites())
+      if (paths.distance(zone.position(zone.sites()[i].place)) >= least)
+        sites_off_paths.push_back(i);
+  }
+}
+
+
+template <int dim>
+std::vector<typename Peridynamics<dim>::Overstretched>
+Peridynamics<dim>::overstretched_off_paths() const
+{
+  std::vector<Overstretched> result;
+  if constexpr (dim == 2)
+    for (const unsigned int i : sites_off_paths)
+    {
+      // Bonds that the stress in situ presses together in all directions are looked at by their
+      // elongation first, which tells nearly always.
+      const bool pressed =
+        in_situ_is_zero ||
+        eigenvalues(effective_in_situ_stress(i, 0, zone.position(zone.sites()[i].place)))[0] <= 0.;
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+      {
+        double longer = elongation(i, b, displacement);
+        if ((pressed && longer <= 0.) || bonds.is_broken(i, b) || !bonds.can_break(i, b) ||
+            never_breaks(i, b) || volume_share(i, b) == 0.)
+          continue;
+        if (pressed && equivalent_stretch(i, b, longer) < (1. - 2. * nearly_most) * softening.first)
+          continue;
+        const Tensor<1, dim> &e = coefficients[b].direction;
+        const Point<dim> middle =
+          zone.position(zone.sites()[i].place) + 0.5 * coefficients[b].length * e;
+        if (!in_situ_is_zero)
+          longer += coefficients[b].length * dry_stretch(i, b, middle, e);
+        const double stretch = rounded(equivalent_stretch(i, b, longer) / softening.first);
+        if (stretch < 1. - nearly_most ||
+            !zone.all_rock().point_inside(middle, same_place * zone.spacing()) ||
+            paths.distance(middle) < least_distance * parameters.horizon * zone.spacing())
+          continue;
+        result.push_back({stretch, i, b, middle});
+      }
+    }
+  return result;
+}
+
+
+template <int dim>
+bool Peridynamics<dim>::is_in_zone(const Point<dim> &point) const
+{
+  if (!zone.is_inside(point, same_place * zone.spacing()) ||
+      (parameters.zone_growth > 0 && zone.room().point_inside(point)))
+    return true;
+  for (unsigned int v = 0; v < 1u << dim; ++v)
+  {
+    Place<dim> corner;
+    for (unsigned int d = 0; d < dim; ++d)
+      corner[d] = static_cast<int>(std::floor(
+                    (point[d] - zone.position(Place<dim>{})[d]) / zone.spacing() + same_place)) +
+                  static_cast<int>(v >> d & 1);
+    const unsigned int site = zone.find(corner);
+    if (site == dealii::numbers::invalid_unsigned_int || !zone.sites()[site].peridynamic)
+      return false;
+  }
+  return true;
+}
+
+
+/// Bonds that lead out of the zone do not break. Where it cuts off those around the most stretched
+/// ones, these are the zone's choice and not the rock's.
+template <int dim>
+bool Peridynamics<dim>::is_near_rim(const Overstretched &bond) const
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    for (const double side : {-1., 1.})
+    {
+      Point<dim> beside = bond.middle;
+      beside[d] += side * (0.5 * parameters.horizon + 1.) * zone.spacing();
+      if (!is_in_zone(beside))
+        return true;
+    }
+  return false;
+}
+
+
+/// Of a crack that nothing has led here either end may be the first. One along an axis, or in a
+/// diagonal, shall not have another first end by a rounding error.
+template <int dim>
+typename Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(const Overstretched &bond,
+                                                                      const State &state,
+                                                                      const OfCells &of_cells) const
+{
+  Beginning result{bond, {}, {}};
+  if constexpr (dim == 2)
+  {
+    const double horizon = parameters.horizon * zone.spacing();
+    result.stress = mean_stress(
+      bond.middle, 2. * horizon,
+      [&](const Tensor<1, dim> &away)
+      { return std::pow(1. - away.norm_square() / (4. * horizon * horizon), 2); },
+      state, of_cells);
+    result.direction = across_greatest(result.stress, Tensor<1, dim>({0.9, 0.44}));
+  }
+  return result;
+}
+
+
+/// What a path crosses in a box holds, so none begins there; nor with a piece that leads into one,
+/// for the crack would have come from nowhere.
+template <int dim>
+bool Peridynamics<dim>::begins_in_unbreakable(const Beginning &path) const
+{
+  for (const auto &box : parameters.unbreakable)
+    for (const double along : {-1., -0.5, 0., 0.5, 1.})
+      if (box.point_inside(path.bond.middle + along * zone.spacing() * path.direction,
+                           same_place * zone.spacing()))
+        return true;
+  return false;
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::begin_paths(const StepContext &context,
+                                           const State &state,
+                                           const OfCells &of_cells)
+{
+  const std::vector<Overstretched> all = overstretched_off_paths();
+  double most = 0.;
+  for (const Overstretched &bond : all)
+    most = std::max(most, bond.stretch);
+  if (most < 1.)
+    return "";
+  const double least = (1. - nearly_most) * most;
+  std::map<unsigned int, std::vector<const Overstretched *>> by_site;
+  for (const Overstretched &bond : all)
+    if (bond.stretch > least)
+      by_site[bond.site].push_back(&bond);
+  // Those that hang together by bonds are one place. Sites are sorted by place, so it does not
+  // matter which rank looks.
+  while (!by_site.empty())
+  {
+    std::vector<unsigned int> sites{by_site.begin()->first};
+    std::vector<const Overstretched *> group;
+    for (unsigned int k = 0; k < sites.size(); ++k)
+    {
+      const auto found = by_site.find(sites[k]);
+      if (found == by_site.end())
+        continue;
+      group.insert(group.end(), found->second.begin(), found->second.end());
+      by_site.erase(found);
+      for (unsigned int b = 0; b < stencil.size(); ++b)
+        sites.push_back(zone.far_end(sites[k], b).site);
+    }
+    // Of several places only the worst, and those that are as bad.
+    if (std::none_of(group.begin(), group.end(),
+                     [&](const Overstretched *bond)
+                     { return bond->stretch > most - 1.5 * same_stretch; }))
+      continue;
+    for (const Overstretched *bond : group)
+      if (is_near_rim(*bond))
+        return why_none_begins(beginning_at(*bond, state, of_cells), context);
+    Tensor<1, dim> sum;
+    double weights = 0.;
+    for (const Overstretched *bond : group)
+    {
+      sum += (bond->stretch - least) * bond->middle;
+      weights += bond->stretch - least;
+    }
+    const Point<dim> centre(sum / weights);
+    // They may lie around something that is no place for a path.
+    Overstretched place =
+      **std::min_element(group.begin(), group.end(),
+                         [&](const Overstretched *a, const Overstretched *b)
+                         { return a->middle.distance(centre) < b->middle.distance(centre); });
+    if (place.middle.distance(centre) <= zone.spacing())
+      place.middle = centre;
+    Beginning path = beginning_at(place, state, of_cells);
+    if (begins_in_unbreakable(path))
+    {
+      std::sort(group.begin(), group.end(),
+                [](const Overstretched *a, const Overstretched *b)
+                {
+                  return std::make_tuple(-a->stretch, a->site, a->bond) <
+                         std::make_tuple(-b->stretch, b->site, b->bond);
+                });
+      const auto free =
+        std::find_if(group.begin(), group.end(),
+                     [&](const Overstretched *bond) {
+                       return !begins_in_unbreakable({*bond, path.direction, path.stress});
+                     });
+      if (free != group.end())
+        path = beginning_at(**free, state, of_cells);
+    }
+    if (const std::string reason = begin_path(path, context); !reason.empty())
+      return reason;
+  }
+  return "";
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::begin_path(const Beginning &path, const StepContext &context)
+{
+  if constexpr (dim == 2)
+  {
+    const double h = zone.spacing(), horizon = parameters.horizon * h;
+    const Point<dim> &middle = path.bond.middle;
+    Point<dim> place = middle;
+    Tensor<1, dim> direction = path.direction;
+    if (paths.distance(place) < least_distance * horizon)
+      return ""; // another one has begun meanwhile
+    // The side of the domain that is nearest, and so near that the path begins on it.
+    Tensor<1, dim> inwards;
+    double nearest = horizon;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const unsigned int side : {0u, 1u})
+      {
+        const double bound =
+          side == 0 ? zone.all_rock().lower_bound(d) : zone.all_rock().upper_bound(d);
+        if (std::abs(middle[d] - bound) > nearest - same_place * h)
+          continue;
+        nearest = std::abs(middle[d] - bound);
+        place = middle;
+        place[d] = bound;
+        inwards = 0.;
+        inwards[d] = side == 0 ? 1. : -1.;
+      }
+    const auto hold =
+      [&](const unsigned int reason, const std::string &where, const std::string &what_to_do)
+    {
+      if ((told_off_paths & reason) == 0)
+        messages.push_back("Bonds are stretched too far at " + place_and_time(place, context) +
+                           ", " + where + " lets no crack begin: they hold. " + what_to_do +
+                           stress_and_strength(path));
+      told_off_paths |= reason;
+      return std::string();
+    };
+    if (inwards.norm() > 0. && std::abs(direction * inwards) < std::sqrt(0.5))
+      return hold(held_at_side,
+                  "along a side of the domain, where 'Fracture/peridynamics/Tracking = path'",
+                  "Enlarge the domain, or give the crack in 'Cracks'. ");
+    if (begins_in_unbreakable(path))
+      return hold(held_in_box, "in or beside a box of 'Fracture/peridynamics/Unbreakable', which",
+                  "");
+    if (inwards.norm() > 0.)
+      direction = inwards;
+    for (const double ahead : {inwards.norm() > 0. ? 0. : -1., 1.})
+      if (!is_in_zone(place + ahead * (h + horizon) * direction))
+        return why_none_begins(path, context);
+    // What the deck presses in all cracks is nothing in a dry scene.
+    const bool dry = scene.crack_pressure != 0.;
+    if (inwards.norm() > 0.)
+      paths.begin_at_side(place, direction, dry);
+    else
+      paths.begin_at(place, direction, dry);
+    std::ostringstream angle;
+    angle.precision(4);
+    angle << std::atan2(direction[1], direction[0]) * 180. / M_PI;
+    messages.push_back("A crack begins at " + place_and_time(place, context) + ", " + angle.str() +
+                       " degrees from the x axis: bonds are stretched too far there, and no other "
+                       "is near. " +
+                       stress_and_strength(path) +
+                       (dry ? " It is dry until a fracture joins it." : ""));
+  }
+  return "";
+}
+
+#define INSTANTIATE(dim)                                                                  \
+  template void Peridynamics<dim>::find_sites_off_paths();                                \
+  template std::vector<Peridynamics<dim>::Overstretched>                                  \
+  Peridynamics<dim>::overstretched_off_paths() const;                                     \
+  template bool Peridynamics<dim>::is_near_rim(const Overstretched &) const;              \
+  template bool Peridynamics<dim>::is_in_zone(const Point<dim> &) const;                  \
+  template Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(                  \
+    const Overstretched &, const State &, const OfCells &) const;                         \
+  template bool Peridynamics<dim>::begins_in_unbreakable(const Beginning &) const;        \
+  template std::string Peridynamics<dim>::begin_paths(const StepContext &, const State &, \
+                                                      const OfCells &);                   \
+  template std::string Peridynamics<dim>::begin_path(const Beginning &, const StepContext &);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace stockwork::peridynamics

@@ -1,0 +1,130 @@
+// Where the fluid is in tracked paths.
+#include "fracture/peridynamics/softening.h"
+#include "fracture/peridynamics/tracked_paths.h"
+
+#include <algorithm>
+
+namespace stockwork::peridynamics
+{
+std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p) const
+{
+  const Path &path = paths[p];
+  std::array<unsigned int, 2> result{{0, 0}};
+  for (const unsigned int side : {0u, 1u})
+  {
+    const Growth &growth = path.ends[side];
+    double inner = 0.;
+    for (unsigned int k = growth.n_points; k > 0; --k)
+    {
+      const double length = path.length(side == 0 ? k - 1 : path.n_pieces() - k);
+      // Elsewhere fluid is behind the tip. Beyond another path it comes through a face of whole
+      // rock, and not by the first bond that is stretched too far: its pressure on all of the
+      // first horizon would part the rest.
+      const bool is_first = is_all_way(p) && k == growth.n_points;
+      if (growth.wet <= inner + (is_first ? SofteningLaw::wet_damage * length : same_spot * h))
+        break;
+      ++result[side];
+      inner += length;
+    }
+  }
+  return result;
+}
+
+
+void TrackedPaths::wet_what_is_joined()
+{
+  // Whether the tips of a path have passed a place on it.
+  const auto holds = [&](const unsigned int p, const double arc)
+  {
+    const Path &path = paths[p];
+    const std::array<unsigned int, 2> come_to = reached(p);
+    return arc >= path.begin(path.ends[0].n_points - come_to[0]) &&
+           arc <= path.begin(path.n_pieces() - path.ends[1].n_points + come_to[1]);
+  };
+  bool changed = true;
+  while (changed)
+  {
+    changed = false;
+    for (unsigned int p = 0; p < paths.size(); ++p)
+      for (const unsigned int side : {0u, 1u})
+      {
+        const Growth &growth = paths[p].ends[side];
+        if (!growth.joined || paths[p].dry == paths[growth.joined_path].dry ||
+            reached(p)[side] < growth.n_points || !holds(growth.joined_path, growth.joined_arc))
+          continue;
+        paths[p].dry = paths[growth.joined_path].dry = false;
+        changed = true;
+      }
+  }
+}
+
+
+void TrackedPaths::find_wet_pieces()
+{
+  wet_what_is_joined();
+  wet.clear();
+  std::vector<std::pair<unsigned int, Joint>> joints;
+  // Pieces at ends of which fluid has reached all, and the path that goes on beyond each.
+  std::vector<std::pair<unsigned int, unsigned int>> goes_on;
+  for (unsigned int p = 0; p < paths.size(); ++p)
+  {
+    const Path &path = paths[p];
+    if (path.dry)
+      continue;
+    const std::array<unsigned int, 2> come_to = reached(p);
+    const unsigned int first = path.ends[0].n_points - come_to[0],
+                       end = path.n_pieces() - path.ends[1].n_points + come_to[1];
+    for (unsigned int i = first; i < end; ++i)
+    {
+      Piece piece{p, path.point(i), path.point(i + 1), path.begin(i), 0., false, {}};
+      piece.end = piece.begin + path.length(i);
+      const unsigned int number = wet.size();
+      if (i > first)
+        piece.neighbours.push_back(number - 1);
+      if (i + 1 < end)
+        piece.neighbours.push_back(number + 1);
+      for (const unsigned int side : {0u, 1u})
+      {
+        const Growth &growth = path.ends[side];
+        if (i != (side == 0 ? first : end - 1))
+          continue;
+        const bool all = come_to[side] == growth.n_points;
+        if (growth.joined && all)
+        {
+          joints.emplace_back(number, Joint{growth.joined_path, growth.joined_arc});
+          if (growth.beyond != 0)
+            goes_on.emplace_back(number, growth.beyond);
+        }
+        else if (growth.grows || growth.joined)
+          piece.at_tip = true;
+      }
+      wet.push_back(piece);
+    }
+  }
+  const auto make_neighbours = [&](const unsigned int a, const unsigned int b)
+  {
+    const std::vector<unsigned int> &of_a = wet[a].neighbours;
+    if (std::find(of_a.begin(), of_a.end(), b) != of_a.end())
+      return;
+    wet[a].neighbours.push_back(b);
+    wet[b].neighbours.push_back(a);
+  };
+  for (const auto &[piece, joint] : joints)
+    for (unsigned int i = 0; i < wet.size(); ++i)
+      if (i != piece && wet[i].path == joint.path && wet[i].begin <= joint.arc &&
+          wet[i].end >= joint.arc)
+      {
+        make_neighbours(piece, i); // they may have joined one another
+        wet[i].at_tip = false;
+        break;
+      }
+  // The mouths of both are opposite one another: the fluid need not go along what is between.
+  for (const auto &[piece, beyond] : goes_on)
+    for (unsigned int i = 0; i < wet.size(); ++i)
+      if (wet[i].path == beyond)
+      {
+        make_neighbours(piece, i);
+        break;
+      }
+}
+} // namespace stockwork::peridynamics
