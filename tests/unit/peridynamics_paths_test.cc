@@ -218,7 +218,7 @@ TEST_CASE("tips that come upon one another meet half-way, whatever their order")
         std::swap(ahead[0], ahead[1]);
       paths.extend(ahead);
       const unsigned int n = apart > 3. ? 4 : 3; // pieces of each, in the end
-      if (n == 4) // they come nearer, both from where the other was
+      if (n == 4)                                // they come nearer, both from where the other was
       {
         CHECK(paths.ends().size() == 2);
         CHECK(paths.way(left) == doctest::Approx(1.));
