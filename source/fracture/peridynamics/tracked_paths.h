@@ -214,6 +214,17 @@ private:
   /// Places that are nearer to one another are the same [pieces].
   static constexpr double same_spot = 1e-6;
 
+  /// Shorter pieces are joined with the one before [pieces].
+  static constexpr double short_piece = 0.45;
+
+  /// Where the line from a to b crosses the one from c to d, as shares of their lengths. A point on
+  /// the second line belongs to its left side.
+  static std::optional<std::array<double, 2>> meet(const dealii::Point<2> &a,
+                                                   const dealii::Point<2> &b,
+                                                   const dealii::Point<2> &c,
+                                                   const dealii::Point<2> &d,
+                                                   double tolerance);
+
   struct Growth
   {
     bool grows = false;
