@@ -64,12 +64,10 @@ public:
                         const Unknowns &acceleration_reference,
                         Accuracy accuracy);
 
-  /// Whether rough solutions cost less: each iteration takes products with a factor, as where bonds
-  /// are stretched, or solves iteratively.
+  /// Whether rough solutions cost less: systems are solved iteratively.
   bool gains_by_rough_solutions() const
   {
-    return !restarts() &&
-           (!assembly.has_definite_displacement() || solver->wants_hierarchy(unknowns.n_bulk()));
+    return !restarts() && solver->wants_hierarchy(unknowns.n_bulk());
   }
 
   /// Every step starts at the start of the run: 'Coupling/Scheme = as published'.

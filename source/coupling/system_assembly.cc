@@ -150,7 +150,7 @@ void SystemAssembly<dim>::assemble_bulk_matrix(const StepContext &context)
   }
   kept_version = kept != nullptr ? kept->version() : 0;
   system.elastic = !has_pores();
-  system.definite_displacement = has_definite_displacement();
+  system.definite_displacement = kept == nullptr || kept->is_symmetric();
   system.definite = system.elastic && system.definite_displacement;
   matrix_context = context;
   matrix_is_current = coefficients_are_current = true;

@@ -92,13 +92,6 @@ public:
     return sees_bulk;
   }
 
-  /// Whether the displacement block, without its change by rock that yields, is symmetric positive
-  /// definite.
-  bool has_definite_displacement() const
-  {
-    return kept == nullptr || kept->is_symmetric();
-  }
-
   /// Whether one iteration solves it.
   bool is_linear() const
   {

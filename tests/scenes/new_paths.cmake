@@ -23,6 +23,16 @@ stockwork_stop_test(NAME scenes/new_path/rim DECK tests/data/soft_spot.prm
   SET "Fracture/peridynamics/Zone=(-1.3 m, -0.6 m) to (1.6 m, 0.75 m)" SAYS "so near to the rim none can begin")
 stockwork_check_test(NAME scenes/new_path/tension DECK tests/data/soft_spot_in_situ.prm SET "In situ/Stress=1 MPa, 4 MPa"
   SAYS "it is a tension of 4 MPa, and bonds there hold 0.414 MPa with cells of 0.1 m")
+# Nor does one where sides have taken all of an unequal stress away: 0.968 m of crack in rock without stress.
+stockwork_case_test(NAME scenes/new_path/taken_away DECK tests/data/soft_spot_taken_away.prm
+  EXPECT "final/fracture_length = 0.4 within 1e-12" "final/dissipated_energy < 1e-9")
+stockwork_check_test(NAME scenes/new_path/no_crack DECK tests/data/soft_spot.prm SET "Cracks/Open="
+  SAYS "none without a crack in 'Cracks'")
+# What the deck's cracks and boxes must not be, and the side that bonds would not feel.
+stockwork_check_test(NAME scenes/new_path/twice DECK tests/data/soft_spot.prm
+  SET "Cracks/Cohesive=-0.9 m, 0 -> -0.5 m, 0" SAYS "two of them, or two legs of one, lie upon one another")
+stockwork_check_test(NAME scenes/new_path/outside DECK tests/data/soft_spot.prm
+  SET "Fracture/peridynamics/Zone=(50 m, 50 m) to (60 m, 60 m)" SAYS "boxes that hold some of the rock")
 # What the crack takes is that without stress in situ, 3.72 J/m.
 stockwork_case_test(NAME scenes/new_path/in_situ DECK tests/data/soft_spot_in_situ.prm
   EXPECT "final/dissipated_energy = 3.72 within 0.03")

@@ -172,13 +172,20 @@ std::string Peridynamics<dim>::place_and_time(const Point<dim> &place,
 
 
 template <int dim>
-std::string Peridynamics<dim>::stress_and_strength(const Beginning &path) const
+SymmetricTensor<2, dim> Peridynamics<dim>::effective_stress(const Beginning &path) const
 {
   SymmetricTensor<2, dim> stress = path.stress;
   if (scene.has_pore_pressure)
     stress += effective_in_situ_stress(path.bond.site, path.bond.bond, path.bond.middle) -
               scene.in_situ_stress(path.bond.middle);
-  const auto principal = eigenvalues(stress);
+  return stress;
+}
+
+
+template <int dim>
+std::string Peridynamics<dim>::stress_and_strength(const Beginning &path) const
+{
+  const auto principal = eigenvalues(effective_stress(path));
   return std::string("The mean ") + (scene.has_pore_pressure ? "effective " : "") +
          "stress there is " + megapascals(principal[0]) + " across it and " +
          megapascals(principal[dim - 1]) + " along it; bonds with a horizon of " +
@@ -483,6 +490,7 @@ std::string Peridynamics<dim>::what_bonds_carry() const
   template void Peridynamics<dim>::refuse_in_situ_tension();                                       \
   template std::string Peridynamics<dim>::place_and_time(const Point<dim> &, const StepContext &)  \
     const;                                                                                         \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::effective_stress(const Beginning &) const;   \
   template std::string Peridynamics<dim>::stress_and_strength(const Beginning &) const;            \
   template std::string Peridynamics<dim>::why_none_begins(const Beginning &, const StepContext &); \
   template void Peridynamics<dim>::foresee_pressure(double);                                       \

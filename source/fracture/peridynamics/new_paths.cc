@@ -64,8 +64,11 @@ Peridynamics<dim>::overstretched_off_paths() const
         const Tensor<1, dim> &e = coefficients[b].direction;
         const Point<dim> middle =
           zone.position(zone.sites()[i].place) + 0.5 * coefficients[b].length * e;
+        // As across a crack, by the traction across the bond, for compression along it opens none;
+        // but no more than the strain, which sides that take the stress away take from the bond.
         if (!in_situ_is_zero)
-          longer += coefficients[b].length * dry_stretch(i, b, middle, e);
+          longer +=
+            coefficients[b].length * std::min(dry_stretch(i, b, middle, e), in_situ_stretch(i, b));
         const double stretch = rounded(equivalent_stretch(i, b, longer) / softening.first);
         if (stretch < 1. - nearly_most ||
             !zone.all_rock().point_inside(middle, same_place * zone.spacing()) ||
@@ -138,6 +141,22 @@ typename Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(const Over
 }
 
 
+/// Bonds add the stress in situ across them to their elongation. Where sides have moved and taken
+/// away a stress that was not the same in all directions, that is too much of some of them; and
+/// beside a loaded side a few may be stretched by what others lack. The mean stress knows better:
+/// by the strain that it gives in its direction, over that at which bonds soften.
+template <int dim>
+bool Peridynamics<dim>::is_in_tension(const Beginning &path) const
+{
+  constexpr double least = 2. / 3.;
+  const auto principal = eigenvalues(effective_stress(path));
+  const double ratio = scene.rock.main().poisson_ratio;
+  const double strain =
+    ((1. - ratio) * principal[0] - ratio * std::max(0., principal[dim - 1])) / (1. - 2. * ratio);
+  return strain >= least * strength_of(path.bond.site, path.bond.bond);
+}
+
+
 /// What a path crosses in a box holds, so none begins there; nor with a piece that leads into one,
 /// for the crack would have come from nowhere.
 template <int dim>
@@ -157,12 +176,41 @@ std::string Peridynamics<dim>::begin_paths(const StepContext &context,
                                            const State &state,
                                            const OfCells &of_cells)
 {
-  const std::vector<Overstretched> all = overstretched_off_paths();
+  std::vector<Overstretched> all = overstretched_off_paths();
+  std::string reason;
+  while (reason.empty())
+  {
+    const std::vector<Point<dim>> held = begin_worst_paths(all, context, state, of_cells, reason);
+    if (held.empty())
+      break;
+    // What holds for good shall not hide what is stretched less.
+    const double near = least_distance * parameters.horizon * zone.spacing();
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const Overstretched &bond)
+                             {
+                               return std::any_of(held.begin(), held.end(),
+                                                  [&](const Point<dim> &place)
+                                                  { return place.distance(bond.middle) < near; });
+                             }),
+              all.end());
+  }
+  return reason;
+}
+
+
+template <int dim>
+std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(const std::vector<Overstretched> &all,
+                                                             const StepContext &context,
+                                                             const State &state,
+                                                             const OfCells &of_cells,
+                                                             std::string &reason)
+{
+  std::vector<Point<dim>> held;
   double most = 0.;
   for (const Overstretched &bond : all)
     most = std::max(most, bond.stretch);
   if (most < 1.)
-    return "";
+    return held;
   const double least = (1. - nearly_most) * most;
   std::map<unsigned int, std::vector<const Overstretched *>> by_site;
   for (const Overstretched &bond : all)
@@ -189,9 +237,6 @@ std::string Peridynamics<dim>::begin_paths(const StepContext &context,
                      [&](const Overstretched *bond)
                      { return bond->stretch > most - 1.5 * same_stretch; }))
       continue;
-    for (const Overstretched *bond : group)
-      if (is_near_rim(*bond))
-        return why_none_begins(beginning_at(*bond, state, of_cells), context);
     Tensor<1, dim> sum;
     double weights = 0.;
     for (const Overstretched *bond : group)
@@ -208,6 +253,25 @@ std::string Peridynamics<dim>::begin_paths(const StepContext &context,
     if (place.middle.distance(centre) <= zone.spacing())
       place.middle = centre;
     Beginning path = beginning_at(place, state, of_cells);
+    if (!is_in_tension(path))
+    {
+      if ((told_off_paths & held_without_stress) == 0)
+        messages.push_back("Bonds are stretched too far at " +
+                           place_and_time(path.bond.middle, context) +
+                           ", but around them the rock bears too little tension for a crack to "
+                           "begin: they hold. Look at loads on sides, and at a stress in situ that "
+                           "sides take away. " +
+                           stress_and_strength(path));
+      told_off_paths |= held_without_stress;
+      held.push_back(path.bond.middle);
+      continue;
+    }
+    for (const Overstretched *bond : group)
+      if (is_near_rim(*bond))
+      {
+        reason = why_none_begins(beginning_at(*bond, state, of_cells), context);
+        return held;
+      }
     if (begins_in_unbreakable(path))
     {
       std::sort(group.begin(), group.end(),
@@ -224,10 +288,11 @@ std::string Peridynamics<dim>::begin_paths(const StepContext &context,
       if (free != group.end())
         path = beginning_at(**free, state, of_cells);
     }
-    if (const std::string reason = begin_path(path, context); !reason.empty())
-      return reason;
+    reason = begin_path(path, context);
+    if (!reason.empty())
+      break;
   }
-  return "";
+  return held;
 }
 
 
@@ -298,17 +363,21 @@ std::string Peridynamics<dim>::begin_path(const Beginning &path, const StepConte
   return "";
 }
 
-#define INSTANTIATE(dim)                                                                  \
-  template void Peridynamics<dim>::find_sites_off_paths();                                \
-  template std::vector<Peridynamics<dim>::Overstretched>                                  \
-  Peridynamics<dim>::overstretched_off_paths() const;                                     \
-  template bool Peridynamics<dim>::is_near_rim(const Overstretched &) const;              \
-  template bool Peridynamics<dim>::is_in_zone(const Point<dim> &) const;                  \
-  template Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(                  \
-    const Overstretched &, const State &, const OfCells &) const;                         \
-  template bool Peridynamics<dim>::begins_in_unbreakable(const Beginning &) const;        \
-  template std::string Peridynamics<dim>::begin_paths(const StepContext &, const State &, \
-                                                      const OfCells &);                   \
+#define INSTANTIATE(dim)                                                                     \
+  template void Peridynamics<dim>::find_sites_off_paths();                                   \
+  template std::vector<Peridynamics<dim>::Overstretched>                                     \
+  Peridynamics<dim>::overstretched_off_paths() const;                                        \
+  template bool Peridynamics<dim>::is_near_rim(const Overstretched &) const;                 \
+  template bool Peridynamics<dim>::is_in_zone(const Point<dim> &) const;                     \
+  template Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(                     \
+    const Overstretched &, const State &, const OfCells &) const;                            \
+  template bool Peridynamics<dim>::is_in_tension(const Beginning &) const;                   \
+  template bool Peridynamics<dim>::begins_in_unbreakable(const Beginning &) const;           \
+  template std::string Peridynamics<dim>::begin_paths(const StepContext &, const State &,    \
+                                                      const OfCells &);                      \
+  template std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(                     \
+    const std::vector<Overstretched> &, const StepContext &, const State &, const OfCells &, \
+    std::string &);                                                                          \
   template std::string Peridynamics<dim>::begin_path(const Beginning &, const StepContext &);
 INSTANTIATE(2)
 INSTANTIATE(3)

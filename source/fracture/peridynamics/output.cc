@@ -48,7 +48,8 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
                     softening.dissipated(softening_bonds[n].trial)) /
                    scene.rock.main().energy_release_rate;
     result.length = paths.length() + half_process_zones();
-    result.broken_length = 2. * elastic - result.length - length_that_holds();
+    // Of a young path that is less than nothing: a long process zone, and little energy yet.
+    result.broken_length = std::max(0., 2. * elastic - result.length - length_that_holds());
   }
   result.dissipated_energy = dissipated;
   result.stored_energy =

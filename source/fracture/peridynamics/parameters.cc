@@ -279,6 +279,9 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   const bool explicit_fluid = p.explicit_steps && scene.crack_pressure != 0.;
   if (p.explicit_steps && p.tracked)
     throw bad("Tracking", "none with 'Time/Scheme = explicit'");
+  if (p.tracked && scene.cracks.empty())
+    throw bad("Tracking",
+              "none without a crack in 'Cracks' (path, if a short one is given, far away)");
   // By implicit steps as by explicit ones.
   const bool moves_by_given_pressure = entry_of_time(prm, "Inertia") == "on" && !p.tracked &&
                                        !std::isnan(scene.crack_pressure) &&

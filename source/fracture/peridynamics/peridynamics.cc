@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace stockwork::peridynamics
 {
@@ -123,8 +124,10 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
              parameters.explicit_steps, scene.moves_side, parameters.free_boundaries, mesh_view,
              collectives);
   // Where elements lie between, they pull with all of the stress at sites that have lost a part of
-  // their bonds, beyond the side.
-  if (!is_all_bonds() && parameters.free_boundaries && !zone.is_divided())
+  // their bonds, beyond the side. And the matrix of bonds has no columns of what is prescribed:
+  // only explicit steps, which have none, feel bonds to nodes that the deck moves.
+  if ((!is_all_bonds() || !parameters.explicit_steps) && parameters.free_boundaries &&
+      !zone.is_divided())
     if (const auto side =
           zone.moved_side_within((parameters.horizon - same_place) * zone.spacing()))
       throw unsuitable_mesh(
@@ -133,7 +136,12 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
         "the deck moves at the " + ((*side)[1] == 0 ? "lower" : "upper") + " end of " +
         "xyz"[(*side)[0]] +
         ": bonds would be missing there, and the force with them. Keep it away by a larger box, "
-        "smaller cells or less of 'Margin' and 'Zone', or let 'Zone' hold all of the rock.");
+        "smaller cells or less of 'Margin' and 'Zone', or, with 'Time/Scheme = explicit', let "
+        "'Zone' hold all of the rock.");
+  for (const auto &box : parameters.boxes)
+    if (box.get_neighbor_type(zone.all_rock()) == dealii::NeighborType::not_neighbors)
+      throw EntryError("Fracture/peridynamics/Zone", to_string(box),
+                       "boxes that hold some of the rock");
   unbreakable.clear();
   if (!parameters.unbreakable.empty())
     for (const Site<dim> &site : zone.sites())
@@ -191,6 +199,17 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
         paths.reinit(scene.cracks, zone.spacing(),
                      [&](const Point<dim> &end)
                      { return zone.is_inside(end, same_place * zone.spacing()); });
+        if (const auto place = paths.overlap())
+        {
+          std::ostringstream where;
+          where.precision(4);
+          where << *place;
+          throw InputError("Cracks: at (" + where.str() +
+                           ") m two of them, or two legs of one, lie upon one another, or cross in "
+                           "the middle of a cell's length of both. With "
+                           "'Fracture/peridynamics/Tracking = path' there must be one crack at a "
+                           "place: leave one out, or move one by a part of a cell.");
+        }
         committed_paths = paths;
         committed_way_energy.assign(scene.cracks.size(), {{0., 0.}});
       }
@@ -202,7 +221,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
           committed_correction[zone.sites()[i].place] = gone;
   }
   row_versions.restart(zone.sites().size());
-  paths_crossed = TrackedPaths(); // by other sites
+  paths_crossed.reset(); // by other sites
   refresh_segments();
   if (!started && parameters.tracked && parameters.growth)
     refuse_in_situ_tension();

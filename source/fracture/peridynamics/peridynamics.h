@@ -409,7 +409,8 @@ private:
   };
 
   /// Why bonds hold that are stretched too far, once each: bits of told_off_paths.
-  static constexpr unsigned int held_at_side = 1, held_in_box = 2, held_at_rim = 4;
+  static constexpr unsigned int held_at_side = 1, held_in_box = 2, held_at_rim = 4,
+                                held_without_stress = 8;
 
   /// Sites that may have bonds so far from all paths.
   void find_sites_off_paths();
@@ -427,12 +428,26 @@ private:
   Beginning
   beginning_at(const Overstretched &bond, const State &state, const OfCells &of_cells) const;
 
+  /// Of its mean stress, what opens cracks [Pa].
+  dealii::SymmetricTensor<2, dim> effective_stress(const Beginning &path) const;
+
+  /// Whether the mean stress there is enough for what the bonds say.
+  bool is_in_tension(const Beginning &path) const;
+
   /// Whether the place or the first pieces are in a box of 'Unbreakable'.
   bool begins_in_unbreakable(const Beginning &path) const;
 
   /// Paths begin where bonds far from all others are stretched too far.
   /// @return why the run cannot go on; empty: it can
   std::string begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
+
+  /// The same where bonds are stretched most.
+  /// @return places at which none begins, as the stress there is too small
+  std::vector<dealii::Point<dim>> begin_worst_paths(const std::vector<Overstretched> &all,
+                                                    const StepContext &context,
+                                                    const State &state,
+                                                    const OfCells &of_cells,
+                                                    std::string &reason);
 
   /// One of them.
   /// @return see begin_paths()
@@ -721,7 +736,7 @@ private:
   std::vector<CellShares> softening_shares;                          ///< of the softening bonds
   TrackedPaths paths, committed_paths;
   std::vector<BondAcross> crossing_bonds; ///< of `paths_crossed`, sorted by view
-  TrackedPaths paths_crossed;
+  std::optional<TrackedPaths> paths_crossed;
   std::vector<unsigned int> sites_off_paths;                    ///< of `paths_crossed`
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
   std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()

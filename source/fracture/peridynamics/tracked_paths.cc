@@ -497,6 +497,34 @@ std::pair<TrackedPaths::Joint, double> TrackedPaths::nearest(const Point<2> &to,
 }
 
 
+std::optional<Point<2>> TrackedPaths::overlap() const
+{
+  constexpr double same_middle = 1e-3, along_one_another = 0.17; // pieces; sine of an angle
+  const auto overlaps =
+    [&](const Path &path, const unsigned int i, const Path &other, const unsigned int j)
+  {
+    const Point<2> from = path.point(i),
+                   middle = other.point(j) + 0.5 * (other.point(j + 1) - other.point(j));
+    const Tensor<1, 2> along = (path.point(i + 1) - from) / path.length(i),
+                       along_other = (other.point(j + 1) - other.point(j)) / other.length(j);
+    if (middle.distance(from + 0.5 * path.length(i) * along) < same_middle * h)
+      return true;
+    const Tensor<1, 2> away = middle - from;
+    const double place = away * along;
+    return std::abs(along[0] * along_other[1] - along[1] * along_other[0]) < along_one_another &&
+           place > 0. && place < path.length(i) &&
+           (away - place * along).norm() < same_place_as * h;
+  };
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (unsigned int q = p; q < paths.size(); ++q)
+      for (unsigned int i = 0; i < paths[p].n_pieces(); ++i)
+        for (unsigned int j = p == q ? i + 1 : 0; j < paths[q].n_pieces(); ++j)
+          if (overlaps(paths[p], i, paths[q], j))
+            return paths[q].point(j);
+  return {};
+}
+
+
 double TrackedPaths::distance(const Point<2> &point) const
 {
   return nearest(point, paths.size()).second;

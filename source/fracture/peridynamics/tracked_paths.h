@@ -196,6 +196,10 @@ public:
   /// [m].
   std::pair<Joint, double> nearest(const dealii::Point<2> &point, unsigned int but) const;
 
+  /// A place where two pieces would be one segment: they lie upon one another, or cross in the
+  /// middle of both.
+  std::optional<dealii::Point<2>> overlap() const;
+
   /// Of a point from the nearest piece of any path or way [m].
   double distance(const dealii::Point<2> &point) const;
 

@@ -61,7 +61,7 @@ void Peridynamics<dim>::find_crossing_bonds()
 {
   if constexpr (dim == 2)
   {
-    if (paths.run_as(paths_crossed))
+    if (paths_crossed && paths.run_as(*paths_crossed))
       return;
     paths_crossed = paths;
     crossing_bonds.clear();
