@@ -20,7 +20,6 @@ constexpr unsigned int sweeps = 3;
 /// The most that a lattice makes a piece read too much or too little by. What is off by more lacks
 /// bonds, as the ends of paths do, and stays as it is.
 constexpr double most_of_lattice = 0.1;
-
 } // namespace
 
 
