@@ -20,8 +20,9 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int max_refinements = 4;
-/// Right-hand sides solved for at once: a dense solution each.
-constexpr unsigned int batch = 32;
+/// Right-hand sides solved for at once, as the memory of their dense solutions permits [numbers]:
+/// a factor is read once for all of them.
+constexpr std::size_t least_batch = 32, greatest_batch = 256, memory_of_batch = 1 << 22;
 /// Rows of a changed bulk matrix, above which it is factorised anew.
 constexpr unsigned int most_changes = 256;
 /// Entries by which a row differs, over its diagonal entry, that are rounding errors.
@@ -252,6 +253,7 @@ std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &le
       wanted.push_back(j);
     else if (is_root)
       multiply_one(j, known->second.data());
+  const std::size_t batch = std::clamp(memory_of_batch / n, least_batch, greatest_batch);
   for (std::size_t begin = 0; begin < wanted.size(); begin += batch)
   {
     const std::size_t n_now = std::min<std::size_t>(batch, wanted.size() - begin);
@@ -284,6 +286,34 @@ void BorderedSolver::solve_bulk(const LinearSystem &system,
   transfer.from_root(x.data(), factor_scaling.bulk, solution);
 }
 
+bool BorderedSolver::subtract_answer(const SystemOperator &op,
+                                     const std::vector<double> &z,
+                                     dealii::TrilinosWrappers::MPI::BlockVector &solution) const
+{
+  if (!keeps_values)
+    return false;
+  std::vector<std::pair<const std::vector<double> *, double>> terms;
+  const auto columns = schur.columns();
+  for (unsigned int i = 0; i < columns.size(); ++i)
+    if (const auto &[column, factor_of_known] = columns[i]; column != nullptr && z[i] != 0.)
+    {
+      const auto found = solutions.find(*column);
+      if (found == solutions.end())
+        return false;
+      terms.emplace_back(&found->second, factor_of_known * z[i]);
+    }
+  std::vector<double> sum(is_root ? factor->size() : 0, 0.);
+  if (is_root)
+    for (const auto &[one, weight] : terms)
+      for (std::size_t k = 0; k < sum.size(); ++k)
+        sum[k] += weight * (*one)[k];
+  SystemVector answer = op.make_vector();
+  BulkTransfer(op.system().residual_bulk, communicator)
+    .from_root(sum.data(), factor_scaling.bulk, answer.bulk);
+  solution -= answer.bulk;
+  return true;
+}
+
 void BorderedSolver::eliminate(const SystemOperator &op,
                                const SystemOperator::Border &border,
                                const SystemVector &r,
@@ -310,6 +340,11 @@ void BorderedSolver::eliminate(const SystemOperator &op,
     schur.solve(z);
     for (unsigned int i = 0; i < op.n_extra(); ++i)
       dx.extra[i] -= z[i];
+    if (subtract_answer(op, z, y.bulk))
+    {
+      dx.bulk -= y.bulk;
+      return;
+    }
     for (const auto &e : border.bulk_extra)
     {
       const auto [block, local] = op.locate(e.row);

@@ -71,6 +71,12 @@ private:
   std::vector<double> multiply(const ExtraSchur::SparseVectors &left,
                                const ExtraSchur::SparseVectors &right);
 
+  /// solution -= A^-1 B z, by the solutions that are kept.
+  /// @return false: not all of them are, and nothing was done
+  bool subtract_answer(const SystemOperator &op,
+                       const std::vector<double> &z,
+                       dealii::TrilinosWrappers::MPI::BlockVector &solution) const;
+
   /// dx -= J^-1 r by block elimination.
   void eliminate(const SystemOperator &op,
                  const SystemOperator::Border &border,

@@ -192,6 +192,17 @@ void ExtraSchur::update_products(const std::vector<Border> &borders, const bool 
     forget_unused();
 }
 
+std::vector<std::pair<const ExtraSchur::SparseVector *, double>> ExtraSchur::columns() const
+{
+  std::vector<std::pair<const SparseVector *, double>> result;
+  for (const Known &one : found)
+    if (one.place == no_place || known[one.place].column.empty())
+      result.emplace_back(nullptr, 0.);
+    else
+      result.emplace_back(&known[one.place].column, one.column);
+  return result;
+}
+
 dealii::FullMatrix<double> ExtraSchur::product() const
 {
   const unsigned int n = found.size();

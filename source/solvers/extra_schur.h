@@ -61,6 +61,10 @@ public:
   /// x <- S^-1 x
   void solve(std::vector<double> &x) const;
 
+  /// Of each extra unknown of the last update its column of B, as one that products have been asked
+  /// for times a factor. Null: it has none.
+  std::vector<std::pair<const SparseVector *, double>> columns() const;
+
   /// SolveError with the usual causes.
   [[noreturn]] static void throw_singular();
 

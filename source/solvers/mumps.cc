@@ -144,6 +144,7 @@ void Mumps::solve_sparse(std::vector<int> &column_starts,
   int n_columns = static_cast<int>(column_starts.size()) - 1;
   MPI_Bcast(&n_columns, 1, MPI_INT, 0, instance->communicator);
   data.nrhs = n_columns;
+  instance->icntl(27) = n_columns; // all at once
   data.lrhs = data.n;
   if (instance->is_root)
     data.nz_rhs = rows.size();

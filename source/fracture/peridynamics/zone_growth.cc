@@ -47,6 +47,11 @@ bool Peridynamics<dim>::enlarge_zone()
 
   const auto is_in_zone = [&](const BoundingBox<dim> &box)
   {
+    const auto &[lower, upper] = box.get_boundary_points();
+    if (std::any_of(shape.boxes.begin(), shape.boxes.end(),
+                    [&](const BoundingBox<dim> &one)
+                    { return one.point_inside(lower) && one.point_inside(upper); }))
+      return true;
     std::array<unsigned int, dim> n;
     unsigned int n_points = 1;
     for (unsigned int d = 0; d < dim; ++d)
