@@ -91,7 +91,7 @@ stockwork_order_test(NAME convergence/order/Newmark DECK prm/bar_wave/none.prm
       "Verification/Compare=at the end" "Output/Fields=false"
   SERIES "Time/Initial step=2e-3" "Time/Initial step=1e-3" "Time/Initial step=5e-4"
   ORDER "errors/displacement/final=2")
-stockwork_order_test(NAME convergence/order/cryer DECK prm/cryer/none.prm
+stockwork_order_test(NAME convergence/order/cryer DECK prm/cryer/none.prm LABELS nightly
   SET "Time/End time=1 s" "Time/Error tolerance=1e-3" "Output/Fields=false"
   SERIES "Resolution=coarse" "Resolution=medium" ORDER "errors/peak_pore_pressure/final=2")
 

@@ -99,7 +99,7 @@ stockwork_case_test(NAME convergence/kgd/sun/permeable/damage DECK prm/kgd/sun/p
   EXPECT "final/equivalent_length = 1.6 within 0.065" "final/inlet_pressure = 9.51e5 within 0.03"
          "final/inlet_aperture = 2.38e-4 within 0.02" "fluid_balance/relative_error < 1e-8" "rejected_steps == 0")
 # The permeability tensor, on cells of a sixth of sqrt(c t), beside the network on half of them (4.4 m, 0.388 mm, 0.829 MPa).
-stockwork_case_test(NAME convergence/kgd/sun/permeable/damage/tensor DECK prm/kgd/sun/permeable/damage.prm
+stockwork_case_test(NAME convergence/kgd/sun/permeable/damage/tensor DECK prm/kgd/sun/permeable/damage.prm LABELS nightly
   SET "Resolution=coarse" "Output/Fields=false" "Fracture/damage/Fluid=permeability tensor"
   EXPECT "final/fracture_length = 4.4 within 0.03" "final/inlet_pressure = 8.29e5 within 0.04" # 0.0285
          "final/inlet_aperture = 3.88e-4 within 0.025" "fluid_balance/relative_error < 1e-8" # 0.0154
@@ -160,7 +160,7 @@ foreach(slot 0:142.70 15:140.18 30:140.72 45:141.27)
 endforeach()
 # A fracture of constant height, tight and with Carter leak-off, and a disc with it. At these times the first two are
 # less than twice as long as high, which is where most of the difference in pressure comes from.
-stockwork_case_test(NAME convergence/pkn/damage DECK prm/pkn/damage.prm NEGATIVE
+stockwork_case_test(NAME convergence/pkn/damage DECK prm/pkn/damage.prm NEGATIVE LABELS nightly
   SET "Resolution=coarse" "Time/End time=40 s" "Output/Fields=false"
   EXPECT "errors/equivalent_length/final < 0.03" "errors/inlet_aperture/final < 0.07" # 0.011, 0.053
          "errors/net_inlet_pressure/final < 0.14" # 0.103
@@ -170,7 +170,7 @@ stockwork_case_test(NAME convergence/pkn/carter/damage DECK prm/pkn/carter/damag
   EXPECT "errors/equivalent_length/final < 0.08" "errors/inlet_aperture/final < 0.07" # 0.042, 0.060
          "errors/leaked_volume/final < 0.02" # 0.003
          "fluid_balance/relative_error < 1e-8" "final/extent_y = 10 within 1e-6")
-stockwork_case_test(NAME convergence/radial/carter/damage DECK prm/radial/carter/damage.prm NEGATIVE
+stockwork_case_test(NAME convergence/radial/carter/damage DECK prm/radial/carter/damage.prm NEGATIVE LABELS nightly
   SET "Resolution=coarse" "Time/End time=30 s" "Output/Fields=false"
   EXPECT "errors/equivalent_length/final < 0.06" "errors/inlet_aperture/final < 0.12" # 0.004 to 0.04, 0.078
          "errors/leaked_volume/final < 0.09" # 0.059

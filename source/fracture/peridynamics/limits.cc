@@ -270,6 +270,19 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
 template <int dim>
 void Peridynamics<dim>::foresee_pressure(const double spacing)
 {
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    for (const auto &[middle, normal] : flat_parts(crack))
+      if (const double net =
+            scene.crack_pressure + normal * (scene.in_situ_stress(middle) * normal);
+          net > strength())
+        throw EntryError("Cracks/Fluid pressure", megapascals(scene.crack_pressure),
+                         "less: in the crack '" + crack.text + "' the net pressure is " +
+                           megapascals(net) + ", and bonds of cells of " + text(spacing) +
+                           " m hold " + megapascals(strength()) +
+                           "; beyond that they break over an area where a crack should be. Cells "
+                           "of less than " +
+                           text(std::pow(strength() / net, 2) * spacing) +
+                           " m hold it ('Fracture/peridynamics/Cell size')");
   if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
     return;
   const RockProperties &rock = scene.rock.main();

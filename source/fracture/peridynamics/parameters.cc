@@ -20,7 +20,9 @@ namespace Patterns = dealii::Patterns;
 namespace
 {
 constexpr char default_zone_growth[] = "8", default_bonds_per_pass[] = "20";
-}
+constexpr double least_stretch_factor = 0.1, greatest_stretch_factor = 10.,
+                 greatest_softening = 100.;
+} // namespace
 
 template <int dim>
 void Parameters<dim>::declare(dealii::ParameterHandler &prm)
@@ -72,7 +74,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "on the lattice grows at that rate: of bond-based bonds 0.986 for those that soften, and for "
     "brittle ones 0.823 with a horizon of 3, 0.851 with 4; of state-based ones by the dilatation's "
     "share of their energy.");
-  prm.declare_entry("Softening", "4", Patterns::Double(1.),
+  prm.declare_entry("Softening", "4", Patterns::Double(1., greatest_softening),
                     "The stretch at which a bond is broken over the one at which it begins to "
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
@@ -227,8 +229,10 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
 {
   const auto number = [&](const char *entry, const double otherwise)
   {
-    const std::string text = prm.get(entry);
-    return text.empty() ? otherwise : parse_finite_quantity(text, dimension::number);
+    return interpret_entry(
+      prm, "Fracture/peridynamics", entry, "a number, or nothing (an empty entry)",
+      [&](const std::string &text)
+      { return text.empty() ? otherwise : parse_finite_quantity(text, dimension::number); });
   };
   const auto bad = [&](const char *entry, const std::string &allowed)
   { return EntryError(std::string("Fracture/peridynamics/") + entry, prm.get(entry), allowed); };
@@ -260,12 +264,15 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   p.zone_growth = p.cell_size > 0. ? prm.get_integer("Zone growth") : 0;
   p.cell_growth = prm.get_double("Cell growth");
   p.stretch_factor = number("Critical stretch factor", std::numeric_limits<double>::quiet_NaN());
-  if (p.stretch_factor <= 0.)
-    throw bad("Critical stretch factor", "a number > 0");
+  if (p.stretch_factor < least_stretch_factor || p.stretch_factor > greatest_stretch_factor)
+    throw bad("Critical stretch factor",
+              "a number from 0.1 to 10, or nothing (an empty entry): fractures take its square "
+              "times the energy release rate");
   p.surface_correction = prm.get_bool("Surface correction");
   p.softening = prm.get_double("Softening");
-  if (p.softening > 1. && p.softening < 3.)
-    throw bad("Softening", "1, or 3 and more: between, fractures jump and soften");
+  if ((p.softening > 1. && p.softening < 3.) || p.softening > greatest_softening)
+    throw bad("Softening", "1, or a number from 3 to 100: between, fractures jump and soften, and "
+                           "beyond, all of the fracture is a process zone");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";
   p.tensor_fluid = permeability_tensor::is_chosen(prm);
   if (prm.get("Tracking") == "auto")
@@ -300,6 +307,9 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.explicit_steps && p.in_bonds != explicit_fluid)
     throw bad("Closure", explicit_fluid ? "auto or in bonds with 'Time/Scheme = explicit'"
                                         : "auto or conserving where explicit steps move dry rock");
+  if (p.in_bonds && !p.effective_stretch)
+    throw bad("Critical stretch", "reduced by fluid with 'Closure = in bonds', where the pressure "
+                                  "is part of what breaks a bond");
   if (p.explicit_steps)
     p.in_bonds = false; // their pressure is ExplicitBonds' affair, and has no unknowns
   if (prm.get("Bond volumes") == "auto")
