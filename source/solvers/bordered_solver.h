@@ -17,7 +17,9 @@ namespace stockwork
 ///
 /// with a sparse factor of A, Cholesky's where A is definite, that outlives Newton iterations,
 /// steps and growth of the fracture, and a small dense Schur complement (ExtraSchur). A Newton
-/// iteration then takes two back-substitutions and one dense factorisation. Where few rows of A
+/// iteration then takes two back-substitutions and one dense factorisation; where A is not
+/// symmetric, the solutions for the columns of B are kept, and take the place of the second, or of
+/// both if the bulk is in balance. Where few rows of A
 /// have changed since it was factorised (bonds broke), the factor is kept as well (Woodbury):
 /// A + E dA is A with one more extra unknown f = dA u per changed row. In porous rock A changes
 /// with the time step. Of rock that yields, the change is taken along by iterations between the
