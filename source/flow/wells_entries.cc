@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "mesh/box_list.h"
 #include "stockwork/base/error.h"
 
 namespace stockwork
@@ -27,22 +28,6 @@ constexpr Dimension volume_dimension = dim == 2 ? dimension::area : dimension::v
 std::string section(const unsigned int number)
 {
   return "Well " + std::to_string(number);
-}
-
-template <int dim>
-dealii::Point<dim> parse_point(const std::string &text)
-{
-  dealii::Point<dim> point;
-  std::size_t begin = 0;
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    const std::size_t comma = d + 1 < dim ? text.find(',', begin) : text.size();
-    if (comma == std::string::npos)
-      throw InputError("too few coordinates");
-    point[d] = parse_finite_quantity(text.substr(begin, comma - begin), dimension::length);
-    begin = comma + 1;
-  }
-  return point;
 }
 } // namespace
 
