@@ -94,11 +94,13 @@ set_flow_scales(ParameterHandler &prm, Case<dim> &the_case, std::vector<std::str
   prm.enter_subsection("Fracture flow");
   const double minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
   prm.leave_subsection();
-  if (minimum_aperture > scales.aperture && std::isnan(the_case.scene.crack_pressure))
+  constexpr double much_more = 10.;
+  if (minimum_aperture > much_more * scales.aperture && std::isnan(the_case.scene.crack_pressure))
     warnings.push_back(
       "Fracture flow/Minimum aperture, " + to_string(minimum_aperture, dimension::length) +
-      ", is more than " + to_string(scales.pressure, dimension::pressure) + " (" + scales.source +
-      ") open the first crack by, " + to_string(scales.aperture, dimension::length) +
+      ", is more than ten times what " + to_string(scales.pressure, dimension::pressure) + " (" +
+      scales.source + ") open the first crack by, " +
+      to_string(scales.aperture, dimension::length) +
       ": fluid moves as in a slot of that width, hardly held up. An empty entry "
       "takes a hundredth of what the crack opens by.");
   the_case.network.set_scales(minimum_aperture, scales.pressure, scales.aperture, scales.length);

@@ -265,24 +265,40 @@ void Peridynamics<dim>::foresee_stress(const double spacing)
 }
 
 
+/// At rest no step converges with it; in motion the rock beside the crack comes to pieces, and the
+/// run goes on.
+template <int dim>
+void Peridynamics<dim>::foresee_given_pressure(const double spacing)
+{
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    for (const auto &[middle, normal] : flat_parts(crack))
+    {
+      const double across = normal * (scene.in_situ_stress(middle) * normal),
+                   net = scene.crack_pressure + across;
+      if (net < strength() || across >= strength()) // the latter is refuse_in_situ_tension()'s
+        continue;
+      const std::string what =
+        "in the crack '" + crack.text + "' the net pressure is " + megapascals(net) +
+        ", and bonds of cells of " + text(spacing) + " m hold " + megapascals(strength()) +
+        "; beyond that they break over an area where a crack should be. Cells of less than " +
+        text(std::pow(strength() / net, 2) * spacing) +
+        " m hold it ('Fracture/peridynamics/Cell size')";
+      if (!parameters.has_inertia)
+        throw EntryError("Cracks/Fluid pressure", megapascals(scene.crack_pressure),
+                         "less: " + what);
+      messages.push_back("'Cracks/Fluid pressure': " + what + ".");
+      return;
+    }
+}
+
+
 /// The pressure of a fracture in an infinite body is greatest when it is short. It is taken when
 /// each wing has the length of the crack, or of a horizon.
 template <int dim>
 void Peridynamics<dim>::foresee_pressure(const double spacing)
 {
-  for (const InitialCrack<dim> &crack : scene.cracks)
-    for (const auto &[middle, normal] : flat_parts(crack))
-      if (const double net =
-            scene.crack_pressure + normal * (scene.in_situ_stress(middle) * normal);
-          net > strength())
-        throw EntryError("Cracks/Fluid pressure", megapascals(scene.crack_pressure),
-                         "less: in the crack '" + crack.text + "' the net pressure is " +
-                           megapascals(net) + ", and bonds of cells of " + text(spacing) +
-                           " m hold " + megapascals(strength()) +
-                           "; beyond that they break over an area where a crack should be. Cells "
-                           "of less than " +
-                           text(std::pow(strength() / net, 2) * spacing) +
-                           " m hold it ('Fracture/peridynamics/Cell size')");
+  if (scene.crack_pressure > 0.)
+    foresee_given_pressure(spacing);
   if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
     return;
   const RockProperties &rock = scene.rock.main();
@@ -506,6 +522,7 @@ std::string Peridynamics<dim>::what_bonds_carry() const
   template SymmetricTensor<2, dim> Peridynamics<dim>::effective_stress(const Beginning &) const;   \
   template std::string Peridynamics<dim>::stress_and_strength(const Beginning &) const;            \
   template std::string Peridynamics<dim>::why_none_begins(const Beginning &, const StepContext &); \
+  template void Peridynamics<dim>::foresee_given_pressure(double);                                 \
   template void Peridynamics<dim>::foresee_pressure(double);                                       \
   template std::string Peridynamics<dim>::why_sliding_crack_holds() const;                         \
   template void Peridynamics<dim>::warn_of_pressure(const State &);                                \

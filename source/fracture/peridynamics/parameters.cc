@@ -289,10 +289,10 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.tracked && scene.cracks.empty())
     throw bad("Tracking",
               "none without a crack in 'Cracks' (path, if a short one is given, far away)");
+  p.has_inertia = entry_of_time(prm, "Inertia") == "on";
   // By implicit steps as by explicit ones.
-  const bool moves_by_given_pressure = entry_of_time(prm, "Inertia") == "on" && !p.tracked &&
-                                       !std::isnan(scene.crack_pressure) &&
-                                       scene.crack_pressure != 0.;
+  const bool moves_by_given_pressure =
+    p.has_inertia && !p.tracked && !std::isnan(scene.crack_pressure) && scene.crack_pressure != 0.;
   if (prm.get("Closure") == "auto")
   {
     const bool given = explicit_fluid || (moves_by_given_pressure && !p.state_based &&

@@ -36,6 +36,7 @@ struct Parameters
   double friction = 0.;         ///< coefficient, of faces that touch
   double cohesive_energy = 1.;  ///< of bonds across cohesive cracks, over that of the rock
   bool explicit_steps;          ///< 'Time/Scheme = explicit'
+  bool has_inertia;             ///< 'Time/Inertia = on'
   bool free_boundaries;         ///< the zone may reach to the boundary of the domain, which is dry
   bool growth;
   bool tracked;                               ///< bonds soften across the ways of cracks only

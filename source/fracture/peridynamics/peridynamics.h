@@ -615,6 +615,7 @@ private:
   void refuse_in_situ_tension();
 
   void foresee_stress(double spacing);
+  void foresee_given_pressure(double spacing);
   void foresee_pressure(double spacing);
 
   /// Where what is given opens a crack on a path and slides it as well: bonds across it that are
