@@ -39,8 +39,7 @@ build() { # build DIRECTORY TYPE WITH_TESTS [TARGET...]
   begin "configuring $1 ($2)" "If deal.II was not found: cmake -S . -B $1 -DDEAL_II_DIR=/path/to/deal.II.
 After a change of compiler or deal.II, remove $1 first."
   cmake -S . -B "$1" -G Ninja -DCMAKE_BUILD_TYPE="$2" -DBUILD_TESTING="$3" -DSTOCKWORK_PCH=ON \
-    -DSTOCKWORK_FILES_PER_UNIT=15 \
-    >"$1.log" 2>&1 || { cat "$1.log"; false; }
+    -DSTOCKWORK_FILES_PER_UNIT=15 >"$1.log" 2>&1 || { cat "$1.log"; false; }
   # One compiler needs up to 1.8 GB.
   local memory jobs=${JOBS:-$cores}
   memory=$(awk '/MemAvailable/ {print int($2 / 1800000)}' /proc/meminfo)

@@ -86,23 +86,13 @@ double maximum_rate(const Network<dim> &network, const StepControl &control)
 
 /// The scales of the case, handed to the flow in fractures, and the entries that follow from them.
 template <int dim>
-std::vector<ChosenValue>
-set_flow_scales(ParameterHandler &prm, Case<dim> &the_case, std::vector<std::string> &warnings)
+std::vector<ChosenValue> set_flow_scales(ParameterHandler &prm, Case<dim> &the_case)
 {
   const Scales scales = scales_of(the_case.scene, the_case.network, the_case.boundary_conditions);
   const std::vector<ChosenValue> chosen = fill_in_flow(prm, scales);
   prm.enter_subsection("Fracture flow");
   const double minimum_aperture = get_quantity(prm, "Minimum aperture", dimension::length);
   prm.leave_subsection();
-  constexpr double much_more = 10.;
-  if (minimum_aperture > much_more * scales.aperture && std::isnan(the_case.scene.crack_pressure))
-    warnings.push_back(
-      "Fracture flow/Minimum aperture, " + to_string(minimum_aperture, dimension::length) +
-      ", is more than ten times what " + to_string(scales.pressure, dimension::pressure) + " (" +
-      scales.source + ") open the first crack by, " +
-      to_string(scales.aperture, dimension::length) +
-      ": fluid moves as in a slot of that width, hardly held up. An empty entry "
-      "takes a hundredth of what the crack opens by.");
   the_case.network.set_scales(minimum_aperture, scales.pressure, scales.aperture, scales.length);
   return chosen;
 }
@@ -390,7 +380,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   prm.enter_subsection("Fracture");
   model_name = prm.get("Model");
   prm.leave_subsection();
-  const std::vector<ChosenValue> chosen_for_flow = set_flow_scales(prm, *this, warnings);
+  const std::vector<ChosenValue> chosen_for_flow = set_flow_scales(prm, *this);
   const std::vector<std::string> automatic = automatic_entries(prm, model_name);
   model = make_model<dim>(prm, plug_ins, scene);
   const std::map<std::string, std::string> reasons = model->reasons();
@@ -403,7 +393,10 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   const bool has_fracture = model->requirements().has_fracture;
   const bool solves_for_flow = has_fracture && std::isnan(scene.crack_pressure);
   if (solves_for_flow)
+  {
     chosen.insert(chosen.begin(), chosen_for_flow.begin(), chosen_for_flow.end());
+    check_minimum_aperture(*this, warnings);
+  }
   refuse_regions(prm, rock, model_name, model->requirements().regional_rock);
   refuse_absent_regions(prm, geometry);
   for (const std::string &region : regions_without_rock(prm, geometry))

@@ -396,6 +396,24 @@ void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings)
 
 
 template <int dim>
+void check_minimum_aperture(const Case<dim> &the_case, std::vector<std::string> &warnings)
+{
+  // A fracture may open by several times what its crack opens by when it sets out.
+  constexpr double much_more = 10.;
+  const Scales scales = scales_of(the_case.scene, the_case.network, the_case.boundary_conditions);
+  const double given = the_case.network.smallest_hydraulic_aperture();
+  if (given > much_more * scales.aperture)
+    warnings.push_back(
+      "Fracture flow/Minimum aperture, " + to_string(given, dimension::length) +
+      ", is more than ten times what " + to_string(scales.pressure, dimension::pressure) + " (" +
+      scales.source + ") open the first crack by, " +
+      to_string(scales.aperture, dimension::length) +
+      ": fluid moves as in a slot of that width, and hardly loses pressure. An empty entry takes a "
+      "hundredth of what the crack opens by.");
+}
+
+
+template <int dim>
 void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case)
 {
   if (the_case.scheme.is_explicit() && the_case.elements.has_pore_pressure)
@@ -479,6 +497,8 @@ void check_restarts(ParameterHandler &prm, const Case<dim> &the_case)
   template void check_reference(ParameterHandler &prm, const Case<dim> &the_case,                  \
                                 std::vector<std::string> &warnings);                               \
   template void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings);       \
+  template void check_minimum_aperture(const Case<dim> &the_case,                                  \
+                                       std::vector<std::string> &warnings);                        \
   template void check_restarts(ParameterHandler &prm, const Case<dim> &the_case);                  \
   template void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case);
 INSTANTIATE(2)

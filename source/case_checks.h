@@ -65,6 +65,10 @@ void require_for_flow(dealii::ParameterHandler &prm, bool in_pores, bool in_frac
 template <int dim>
 void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings);
 
+/// A fracture that conducts as a slot much wider than its crack opens.
+template <int dim>
+void check_minimum_aperture(const Case<dim> &the_case, std::vector<std::string> &warnings);
+
 /// What a scheme in time needs, and what it cannot be with.
 template <int dim>
 void check_scheme(const Deck &deck, dealii::ParameterHandler &prm, const Case<dim> &the_case);

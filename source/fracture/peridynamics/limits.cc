@@ -275,8 +275,10 @@ void Peridynamics<dim>::foresee_given_pressure(const double spacing)
     {
       const double across = normal * (scene.in_situ_stress(middle) * normal),
                    net = scene.crack_pressure + across;
-      if (net < strength() || across >= strength()) // the latter is refuse_in_situ_tension()'s
+      if (net < strength())
         continue;
+      if (parameters.tracked && across >= strength())
+        return; // refuse_in_situ_tension() says it better
       const std::string what =
         "in the crack '" + crack.text + "' the net pressure is " + megapascals(net) +
         ", and bonds of cells of " + text(spacing) + " m hold " + megapascals(strength()) +

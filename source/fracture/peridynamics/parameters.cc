@@ -83,7 +83,8 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Critical stretch", "reduced by fluid", Patterns::Selection("reduced by fluid|of dry rock"),
     "reduced by fluid: by the work that the fluid does on the opening which a cell has when it is "
     "wetted, of which the rock has nothing. of dry rock: not reduced; pressurised fractures are "
-    "tougher then, by a share that falls with the root of the cells' size.");
+    "tougher then, by a share that falls with the root of the cells' size. Not with 'Closure = in "
+    "bonds', where the pressure is part of what breaks a bond.");
   prm.declare_alias("Critical stretch", "Stretch", true);
   prm.declare_entry(
     "Surface correction", "true", Patterns::Bool(),
@@ -270,9 +271,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
               "times the energy release rate");
   p.surface_correction = prm.get_bool("Surface correction");
   p.softening = prm.get_double("Softening");
-  if ((p.softening > 1. && p.softening < 3.) || p.softening > greatest_softening)
-    throw bad("Softening", "1, or a number from 3 to 100: between, fractures jump and soften, and "
-                           "beyond, all of the fracture is a process zone");
+  if (p.softening > 1. && p.softening < 3.)
+    throw bad("Softening", "1, or a number from 3 to 100: between, fractures jump and soften");
   p.effective_stretch = prm.get("Critical stretch") == "reduced by fluid";
   p.tensor_fluid = permeability_tensor::is_chosen(prm);
   if (prm.get("Tracking") == "auto")

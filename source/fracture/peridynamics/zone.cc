@@ -47,12 +47,7 @@ bool ZoneShape<dim>::contains(const Point<dim> &point,
                               const double spacing,
                               const double enlarged_by) const
 {
-  const double reach = (enlarged_by + same_place) * spacing;
-  return std::any_of(boxes.begin(), boxes.end(),
-                     [&](const auto &box) { return distance_from_box(point, box) <= reach; }) ||
-         std::any_of(cracks.begin(), cracks.end(),
-                     [&](const auto &crack)
-                     { return crack.distance(point) - margin * spacing <= reach; });
+  return distance(point, spacing) <= (enlarged_by + same_place) * spacing;
 }
 
 
