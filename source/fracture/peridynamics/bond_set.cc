@@ -42,6 +42,18 @@ unsigned int BondSet<dim>::reflected(const unsigned int b, const unsigned int mi
 
 
 template <int dim>
+std::vector<BondView> BondSet<dim>::views_of(const unsigned int site, const unsigned int bond) const
+{
+  std::vector<BondView> views;
+  for_each_view(site, bond,
+                [&](const unsigned int s, const unsigned int b) { views.emplace_back(s, b); });
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  return views;
+}
+
+
+template <int dim>
 void BondSet<dim>::set_broken(const unsigned int site, const unsigned int bond)
 {
   for_each_view(site, bond,
@@ -113,8 +125,7 @@ BondPlaces<dim> BondSet<dim>::places(const unsigned int site, const unsigned int
 
 
 template <int dim>
-std::optional<std::pair<unsigned int, unsigned int>>
-BondSet<dim>::find(const BondPlaces<dim> &places) const
+std::optional<BondView> BondSet<dim>::find(const BondPlaces<dim> &places) const
 {
   const auto [first, second] = places;
   for (const auto &[from, to] : {std::make_pair(first, second), std::make_pair(second, first)})

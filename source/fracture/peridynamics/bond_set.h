@@ -14,6 +14,9 @@ namespace stockwork::peridynamics
 template <int dim>
 using BondPlaces = std::pair<Place<dim>, Place<dim>>;
 
+/// A site and its bond: a bond as one of its ends sees it, see BondSet::for_each_view().
+using BondView = std::pair<unsigned int, unsigned int>;
+
 /// Which bonds of the lattice are broken. A bond is seen from each of its ends that has bonds, and
 /// from both sides of a plane of symmetry; breaking it breaks all of these.
 template <int dim>
@@ -52,6 +55,9 @@ public:
   template <class Function>
   void for_each_view(unsigned int site, unsigned int bond, const Function &use) const;
 
+  /// The views of a bond, each once, sorted.
+  std::vector<BondView> views_of(unsigned int site, unsigned int bond) const;
+
   void set_broken(unsigned int site, unsigned int bond);
 
   unsigned int n_broken(unsigned int site) const;
@@ -76,7 +82,7 @@ public:
   BondPlaces<dim> places(unsigned int site, unsigned int bond) const;
 
   /// Site and bond, as one of the ends that has bonds sees it; nothing of a bond that is not known.
-  std::optional<std::pair<unsigned int, unsigned int>> find(const BondPlaces<dim> &places) const;
+  std::optional<BondView> find(const BondPlaces<dim> &places) const;
 
   /// Break bonds by the places of their ends; those that are not known are ignored.
   void set_broken(const std::vector<BondPlaces<dim>> &places);

@@ -29,17 +29,17 @@ void Peridynamics<dim>::cut_initial_cracks()
                       {
                         // As at a tip: a bond right at the edge holds.
                         return crossing.distance(crack.disc->centre) <
-                               crack.disc->radius - same_place * zone.spacing();
+                               crack.disc->radius - same_place * lattice.zone.spacing();
                       });
     if constexpr (dim == 2)
     {
       const auto at_wall = [&](const Point<dim> &x)
-      { return !zone.is_inside(x, same_place * zone.spacing()); };
+      { return !lattice.zone.is_inside(x, same_place * lattice.zone.spacing()); };
       for (unsigned int c = 0; c + 1 < crack.points.size(); ++c)
       {
         const Point<dim> &start = crack.points[c];
         const Tensor<1, dim> along = crack.points[c + 1] - start;
-        const double length = along.norm(), reach = same_place * zone.spacing();
+        const double length = along.norm(), reach = same_place * lattice.zone.spacing();
         // A bond right at a tip holds, or the crack would be longer by half a cell.
         const double first = c == 0 && !at_wall(start) ? reach : -reach;
         const double last =
@@ -66,19 +66,20 @@ void Peridynamics<dim>::cut_along_plane(
   const bool is_open,
   const std::function<bool(const Point<dim> &crossing)> &is_on_crack)
 {
-  const double reach = same_place * zone.spacing();
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
+  const double reach = same_place * lattice.zone.spacing();
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
     {
-      const Point<dim> from = zone.position(zone.sites()[i].place);
-      const Tensor<1, dim> xi = zone.spacing() * stencil[b].length() * stencil[b].direction();
+      const Point<dim> from = lattice.zone.position(lattice.zone.sites()[i].place);
+      const Tensor<1, dim> xi =
+        lattice.zone.spacing() * lattice.stencil[b].length() * lattice.stencil[b].direction();
       // A node on the crack belongs to the side that the normal points to.
       const double s = (from - origin) * normal, t = (from + xi - origin) * normal;
-      if ((s >= -reach) != (t >= -reach) && bonds.can_break(i, b) &&
+      if ((s >= -reach) != (t >= -reach) && lattice.bonds.can_break(i, b) &&
           is_on_crack(from + s / (s - t) * xi))
       {
         if (is_open)
-          bonds.set_broken(i, b);
+          lattice.bonds.set_broken(i, b);
         cracked.set_broken(i, b);
       }
     }
@@ -90,12 +91,12 @@ void Peridynamics<dim>::soften_cohesive_cracks()
 {
   if (!parameters.in_bonds || !std::isnan(scene.crack_pressure))
     return;
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
-      if (cracked.is_broken(i, b) && !bonds.is_broken(i, b) &&
-          views_of(i, b).front() == BondView(i, b))
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+      if (cracked.is_broken(i, b) && !lattice.bonds.is_broken(i, b) &&
+          lattice.bonds.views_of(i, b).front() == BondView(i, b))
         committed_softening.push_back(
-          {bonds.places(i, b), {{softening.stretch_of(little_damage), 0.}}});
+          {lattice.bonds.places(i, b), {{lattice.softening.stretch_of(little_damage), 0.}}});
   restore_softening();
 }
 
@@ -105,9 +106,9 @@ void Peridynamics<dim>::set_initial_normals()
 {
   for (const FractureCell<dim> &cell : fracture_cells())
   {
-    Point<dim> centre = zone.position(cell.place);
+    Point<dim> centre = lattice.zone.position(cell.place);
     for (unsigned int d = 0; d < dim; ++d)
-      centre[d] += 0.5 * zone.spacing();
+      centre[d] += 0.5 * lattice.zone.spacing();
     double nearest = std::numeric_limits<double>::infinity();
     const auto consider = [&](const InitialCrack<dim> &piece, const Tensor<1, dim> &normal)
     {

@@ -47,30 +47,31 @@ void Peridynamics<dim>::make_explicit_bonds()
     refuse_explicit(
       "Newmark, or a 'Fracture/peridynamics/Zone' that holds all of the domain: explicit "
       "steps move bonds and no elements, and of " +
-      std::to_string(n_nodes) + " vertices " + std::to_string(zone.n_peridynamic_sites()) +
+      std::to_string(n_nodes) + " vertices " + std::to_string(lattice.zone.n_peridynamic_sites()) +
       " are in the zone");
-  SofteningLaw law_of_bonds = softening;
+  SofteningLaw law_of_bonds = lattice.softening;
   if (!parameters.growth)
     law_of_bonds.first = law_of_bonds.last = std::numeric_limits<double>::max();
   energy_before_explicit = committed_energy;
   explicit_bonds = std::make_unique<ExplicitBonds<dim>>(
-    zone, stencil, law, law_of_bonds, stretch_of_given_pressure(),
+    lattice.zone, lattice.stencil, lattice.law, law_of_bonds, stretch_of_given_pressure(),
     [this](const unsigned int site, const unsigned int bond)
     {
-      typename ExplicitBonds<dim>::Bond result{stiffness(site, bond), 1.};
+      typename ExplicitBonds<dim>::Bond result{lattice.stiffness(site, bond), 1.};
       // Of the lattice's stress; what the surface correction adds does not push.
-      result.by_fluid =
-        stretch_of_given_pressure() / rock_of_bonds.modulus(site, bond) / correction(site, bond);
-      if (result.by_fluid != 0. && bonds.is_broken(site, bond))
+      result.by_fluid = stretch_of_given_pressure() / lattice.rock_of_bonds.modulus(site, bond) /
+                        lattice.correction(site, bond);
+      if (result.by_fluid != 0. && lattice.bonds.is_broken(site, bond))
       {
-        result.stiffness = correction(site, bond) * uncorrected_stiffness(site, bond);
+        result.stiffness =
+          lattice.correction(site, bond) * lattice.uncorrected_stiffness(site, bond);
         result.greatest = std::numeric_limits<double>::infinity();
         return result;
       }
-      if (never_breaks(site, bond))
+      if (lattice.never_breaks(site, bond))
         result.amplification = 0.;
       else if (result.stiffness > 0.)
-        result.amplification = equivalent_stretch(site, bond, coefficients[bond].length);
+        result.amplification = equivalent_stretch(site, bond, lattice.coefficients[bond].length);
       if (const SofteningBond *softened = softening_bond(site, bond))
         result.greatest = softened->committed;
       return result;
@@ -82,7 +83,7 @@ void Peridynamics<dim>::make_explicit_bonds()
 template <int dim>
 double Peridynamics<dim>::stretch_of_given_pressure() const
 {
-  return scene.crack_pressure * strain_of_pressure;
+  return scene.crack_pressure * lattice.strain_of_pressure;
 }
 
 
@@ -90,21 +91,24 @@ template <int dim>
 void Peridynamics<dim>::open_explicit_bonds(const Collectives &collectives)
 {
   std::vector<double> volumes(cells.size(), 0.);
-  for (const unsigned int i : bonds.damaged_sites())
-    if (zone.sites()[i].owner == rank)
-      bonds.for_each_broken(
-        i,
-        [&](const unsigned int b)
-        {
-          // Half of a bond belongs to each end.
-          const double length = coefficients[b].length, modulus = rock_of_bonds.modulus(i, b),
-                       effective = explicit_bonds->elongation(i, b) +
-                                   stretch_of_given_pressure() / modulus * length,
-                       volume = 0.5 * zone.sites()[i].share * uncorrected_stiffness(i, b) * length *
-                                effective * strain_of_pressure;
-          for (const auto &[cell, share] : crossed.of(i, b, true))
-            volumes[cell] += share * volume;
-        });
+  for (const unsigned int i : lattice.bonds.damaged_sites())
+    if (lattice.zone.sites()[i].owner == rank)
+      lattice.bonds.for_each_broken(i,
+                                    [&](const unsigned int b)
+                                    {
+                                      // Half of a bond belongs to each end.
+                                      const double length = lattice.coefficients[b].length,
+                                                   modulus = lattice.rock_of_bonds.modulus(i, b),
+                                                   effective =
+                                                     explicit_bonds->elongation(i, b) +
+                                                     stretch_of_given_pressure() / modulus * length,
+                                                   volume = 0.5 * lattice.zone.sites()[i].share *
+                                                            lattice.uncorrected_stiffness(i, b) *
+                                                            length * effective *
+                                                            lattice.strain_of_pressure;
+                                      for (const auto &[cell, share] : crossed.of(i, b, true))
+                                        volumes[cell] += share * volume;
+                                    });
   collectives.sum(volumes);
   for (unsigned int k = 0; k < owned_segments.size(); ++k)
   {
@@ -123,10 +127,10 @@ bool Peridynamics<dim>::take_explicit_changes(const Collectives &collectives)
     return false;
   std::map<BondView, double> greatest;
   for (const auto &[place, bond, stretch] : changes)
-    if (const unsigned int site = zone.find(place);
-        site != dealii::numbers::invalid_unsigned_int && zone.sites()[site].has_bonds)
+    if (const unsigned int site = lattice.zone.find(place);
+        site != dealii::numbers::invalid_unsigned_int && lattice.zone.sites()[site].has_bonds)
     {
-      double &known = greatest[views_of(site, bond).front()];
+      double &known = greatest[lattice.bonds.views_of(site, bond).front()];
       known = std::max(known, stretch);
     }
   std::map<BondView, SofteningBond> softened;
@@ -136,11 +140,11 @@ bool Peridynamics<dim>::take_explicit_changes(const Collectives &collectives)
   for (const auto &[view, stretch] : greatest)
   {
     const auto &[site, bond] = view;
-    if (stretch >= softening.last)
+    if (stretch >= lattice.softening.last)
     {
       softened.erase(view);
-      changed = changed || !bonds.is_broken(site, bond);
-      bonds.set_broken(site, bond);
+      changed = changed || !lattice.bonds.is_broken(site, bond);
+      lattice.bonds.set_broken(site, bond);
       cracked.set_broken(site, bond);
       continue;
     }
@@ -173,7 +177,7 @@ bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collecti
   if (stretch_of_given_pressure() == 0.)
     return changed;
   if (changed)
-    crossed.reinit(zone, stencil, cells, parameters.horizon);
+    crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
   open_explicit_bonds(collectives);
   warn_of_pressure(state);
   return true;

@@ -12,26 +12,12 @@ namespace stockwork::peridynamics
 using dealii::Point;
 using dealii::Tensor;
 
-namespace
-{
-/// Stiffness that broken bonds keep where a site has lost nearly all of them.
-constexpr double remaining_share = 1e-6;
-/// Of the bonds' stiffness at a free face, where about half of them are gone.
-constexpr double most_correction = 2.;
-
-double share_left(const double damage)
-{
-  return std::max(1. - damage, 1. / most_correction);
-}
-} // namespace
-
-
 template <int dim>
 CellRole<dim> Peridynamics<dim>::role(const CellIterator &cell) const
 {
   const auto normal = normals.find(cell->active_cell_index());
   CellRole<dim> role;
-  role.skip_stiffness = zone.skipped_rows(cell->active_cell_index());
+  role.skip_stiffness = lattice.zone.skipped_rows(cell->active_cell_index());
   role.fracture_normal = normal != normals.end() ? &normal->second : nullptr;
   role.lumps_mass = is_all_bonds();
   return role;
@@ -42,20 +28,20 @@ template <int dim>
 void Peridynamics<dim>::add_couplings(const Coupling &couple) const
 {
   std::vector<dealii::types::global_dof_index> dofs(2 * dim);
-  for (const unsigned int i : zone.peridynamic_sites())
-    if (zone.sites()[i].owner == rank)
-      for (unsigned int b = 0; b < stencil.size(); ++b)
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    if (lattice.zone.sites()[i].owner == rank)
+      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       {
-        const Site<dim> &far = zone.sites()[zone.far_end(i, b).site];
+        const Site<dim> &far = lattice.zone.sites()[lattice.zone.far_end(i, b).site];
         for (unsigned int d = 0; d < dim; ++d)
         {
-          dofs[d] = zone.sites()[i].dofs[d];
+          dofs[d] = lattice.zone.sites()[i].dofs[d];
           dofs[dim + d] = far.dofs[d];
         }
         if (parameters.tensor_fluid && parameters.as_published)
         {
           dofs.resize(2 * dim);
-          dofs.push_back(zone.sites()[i].pressure_dof);
+          dofs.push_back(lattice.zone.sites()[i].pressure_dof);
           dofs.push_back(far.pressure_dof);
         }
         couple(dofs);
@@ -63,7 +49,7 @@ void Peridynamics<dim>::add_couplings(const Coupling &couple) const
   if (parameters.in_bonds)
     for (const unsigned int i : sites_of_crossing_bonds())
     {
-      const Site<dim> &site = zone.sites()[i];
+      const Site<dim> &site = lattice.zone.sites()[i];
       dofs.assign(site.dofs.begin(), site.dofs.end());
       if (site.pressure_dof != dealii::numbers::invalid_dof_index)
         dofs.push_back(site.pressure_dof);
@@ -74,22 +60,10 @@ void Peridynamics<dim>::add_couplings(const Coupling &couple) const
     {
       dofs.clear();
       for (const unsigned int site : family)
-        dofs.insert(dofs.end(), zone.sites()[site].dofs.begin(), zone.sites()[site].dofs.end());
+        dofs.insert(dofs.end(), lattice.zone.sites()[site].dofs.begin(),
+                    lattice.zone.sites()[site].dofs.end());
       couple(dofs);
     });
-}
-
-
-template <int dim>
-double Peridynamics<dim>::dilatation_factor(const unsigned int site) const
-{
-  if (!parameters.surface_correction || corrected_damage[site] == 0.)
-    return 1.;
-  double left = 0.; // of the dilatation of a uniform expansion, which is dim
-  for (unsigned int b = 0; b < stencil.size(); ++b)
-    if (!bonds.is_broken(site, b))
-      left += coefficients[b].dilatation * coefficients[b].length;
-  return left > 0. ? std::min(dim / left, most_correction) : most_correction;
 }
 
 
@@ -103,63 +77,17 @@ void Peridynamics<dim>::for_each_dilatation(
     return;
   std::vector<unsigned int> family;
   std::vector<Tensor<1, dim>> functional;
-  for (const auto *sites : {&zone.peridynamic_sites(), &zone.rim_sites()})
+  for (const auto *sites : {&lattice.zone.peridynamic_sites(), &lattice.zone.rim_sites()})
     for (const unsigned int i : *sites)
     {
       bool acts_here = has_rows(i);
-      for (unsigned int b = 0; b < stencil.size(); ++b)
-        acts_here = acts_here || has_rows(zone.far_end(i, b).site);
+      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+        acts_here = acts_here || has_rows(lattice.zone.far_end(i, b).site);
       if (!acts_here)
         continue;
-      const double modulus = find_dilatation(i, family, functional);
+      const double modulus = lattice.find_dilatation(i, family, functional);
       use(family, functional, modulus);
     }
-}
-
-
-template <int dim>
-double Peridynamics<dim>::find_dilatation(const unsigned int i,
-                                          std::vector<unsigned int> &family,
-                                          std::vector<Tensor<1, dim>> &functional) const
-{
-  const Site<dim> &site = zone.sites()[i];
-  family.resize(stencil.size() + 1);
-  family.back() = i;
-  for (unsigned int b = 0; b < stencil.size(); ++b)
-    family[b] = zone.far_end(i, b).site;
-  // Bonds that lead out of the zone hold.
-  dilatation_functional(
-    coefficients, [&](const unsigned int b) { return site.peridynamic && bonds.is_broken(i, b); },
-    functional);
-  for (unsigned int b = 0; b < stencil.size(); ++b)
-    for (unsigned int d = 0; d < dim; ++d)
-      if (zone.far_end(i, b).mirrored >> d & 1)
-        functional[b][d] = -functional[b][d];
-  const double factor = dilatation_factor(i);
-  return dilatation_modulus(i) * dealii::Utilities::fixed_power<dim>(zone.spacing()) * site.share *
-         factor * factor;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::stiffness(const unsigned int site, const unsigned int bond) const
-{
-  if (!bonds.is_broken(site, bond))
-    return correction(site, bond) * uncorrected_stiffness(site, bond);
-  const unsigned int far = zone.far_end(site, bond).site;
-  return is_nearly_detached(std::max(damage[site], damage[far]))
-           ? remaining_share * uncorrected_stiffness(site, bond)
-           : 0.;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::correction(const unsigned int site, const unsigned int bond) const
-{
-  if (!parameters.surface_correction)
-    return 1.;
-  const unsigned int far = zone.far_end(site, bond).site;
-  return 2. / (share_left(corrected_damage[site]) + share_left(corrected_damage[far]));
 }
 
 
@@ -168,27 +96,29 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
 {
   const auto half_bond = [&](const unsigned int i, const unsigned int b)
   {
-    const double stretched = elongation(i, b, u);
-    return 0.25 * zone.sites()[i].share * stiffness(i, b) * stretched * stretched;
+    const double stretched = lattice.elongation(i, b, u);
+    return 0.25 * lattice.zone.sites()[i].share * lattice.stiffness(i, b) * stretched * stretched;
   };
   double energy = 0.;
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       energy += half_bond(i, b);
   if (parameters.state_based)
-    for (const unsigned int i : zone.peridynamic_sites())
+    for (const unsigned int i : lattice.zone.peridynamic_sites())
     {
       double theta = 0.;
-      for (unsigned int b = 0; b < stencil.size(); ++b)
-        if (!bonds.is_broken(i, b))
-          theta += (1. - bond_damage(i, b)) * coefficients[b].dilatation * elongation(i, b, u);
-      theta *= dilatation_factor(i);
-      energy += 0.5 * dilatation_modulus(i) * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
-                zone.sites()[i].share * theta * theta;
+      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+        if (!lattice.bonds.is_broken(i, b))
+          theta += (1. - bond_damage(i, b)) * lattice.coefficients[b].dilatation *
+                   lattice.elongation(i, b, u);
+      theta *= lattice.dilatation_factor(i);
+      energy += 0.5 * lattice.dilatation_modulus(i) *
+                dealii::Utilities::fixed_power<dim>(lattice.zone.spacing()) *
+                lattice.zone.sites()[i].share * theta * theta;
     }
   for (const SofteningBond &bond : softening_bonds)
-    for (const auto &[i, b] : views_of(bond.view.first, bond.view.second))
-      energy -= softening.damage(bond.trial) * half_bond(i, b);
+    for (const auto &[i, b] : lattice.bonds.views_of(bond.view.first, bond.view.second))
+      energy -= lattice.softening.damage(bond.trial) * half_bond(i, b);
   return energy;
 }
 
@@ -205,24 +135,24 @@ void Peridynamics<dim>::assemble(const StepContext &,
   };
   LocalSystem local;
   local.bulk.resize(2 * dim);
-  for (const unsigned int i : zone.peridynamic_sites())
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
   {
-    const Site<dim> &site = zone.sites()[i];
+    const Site<dim> &site = lattice.zone.sites()[i];
     if (site.owner != rank || !are_wanted(site))
       continue;
-    for (unsigned int b = 0; b < stencil.size(); ++b)
+    for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
     {
-      const double k = site.share * stiffness(i, b);
+      const double k = site.share * lattice.stiffness(i, b);
       if (k == 0.)
         continue;
       // The force on this end; that on the other is in its own row.
-      const FarEnd end = zone.far_end(i, b);
-      const Tensor<1, dim> &e = coefficients[b].direction;
+      const FarEnd end = lattice.zone.far_end(i, b);
+      const Tensor<1, dim> &e = lattice.coefficients[b].direction;
       local.reinit();
       for (unsigned int d = 0; d < dim; ++d)
       {
         local.bulk[d] = site.dofs[d];
-        local.bulk[dim + d] = zone.sites()[end.site].dofs[d];
+        local.bulk[dim + d] = lattice.zone.sites()[end.site].dofs[d];
         for (unsigned int c = 0; c < dim; ++c)
         {
           local.matrix(d, c) = k * e[d] * e[c];
@@ -240,14 +170,14 @@ void Peridynamics<dim>::assemble(const StepContext &,
     {
       if (std::none_of(family.begin(), family.end(),
                        [&](const unsigned int i)
-                       { return has_rows(i) && are_wanted(zone.sites()[i]); }))
+                       { return has_rows(i) && are_wanted(lattice.zone.sites()[i]); }))
         return;
       local.bulk.resize(family.size() * dim);
       local.reinit();
       for (unsigned int k = 0; k < family.size(); ++k)
         for (unsigned int d = 0; d < dim; ++d)
         {
-          local.bulk[k * dim + d] = zone.sites()[family[k]].dofs[d];
+          local.bulk[k * dim + d] = lattice.zone.sites()[family[k]].dofs[d];
           if (functional[k][d] == 0. || !has_rows(family[k]))
             continue;
           for (unsigned int l = 0; l < family.size(); ++l)
@@ -274,14 +204,14 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
     assemble_published_closure(context, state, sink);
   for (const Faces &own : faces)
     own.assemble(state, sink);
-  if (in_situ_is_zero || parameters.in_bonds)
+  if (lattice.in_situ_is_zero || parameters.in_bonds)
     return;
   LocalSystem local;
   for (const unsigned int i : owned_cells)
   {
     local.bulk = all_segments[i].opening.bulk;
     local.reinit();
-    const std::vector<Tensor<1, dim>> of_corners = jumps(zone, cells[i]);
+    const std::vector<Tensor<1, dim>> of_corners = jumps(lattice.zone, cells[i]);
     add_released_traction<dim>(scene, all_segments[i].centre, cells[i].normal, all_segments[i].area,
                                of_corners, local.residual);
     sink.add(local);
@@ -291,12 +221,7 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
 #define INSTANTIATE(dim)                                                                           \
   template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;                      \
   template void Peridynamics<dim>::add_couplings(const Coupling &) const;                          \
-  template double Peridynamics<dim>::stiffness(unsigned int, unsigned int) const;                  \
-  template double Peridynamics<dim>::correction(unsigned int, unsigned int) const;                 \
   template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;             \
-  template double Peridynamics<dim>::dilatation_factor(unsigned int) const;                        \
-  template double Peridynamics<dim>::find_dilatation(unsigned int, std::vector<unsigned int> &,    \
-                                                     std::vector<Tensor<1, dim>> &) const;         \
   template void Peridynamics<dim>::for_each_dilatation(                                            \
     const std::function<void(const std::vector<unsigned int> &,                                    \
                              const std::vector<Tensor<1, dim>> &, double)> &) const;               \

@@ -26,53 +26,6 @@ constexpr unsigned int attempts_for_length = 6;
 
 
 template <int dim>
-double Peridynamics<dim>::elongation(const unsigned int site,
-                                     const unsigned int bond,
-                                     const std::vector<double> &u) const
-{
-  const FarEnd end = zone.far_end(site, bond);
-  double sum = 0.;
-  for (unsigned int d = 0; d < dim; ++d)
-    sum += coefficients[bond].direction[d] *
-           ((end.mirrored >> d & 1 ? -1. : 1.) * u[end.site * dim + d] - u[site * dim + d]);
-  return sum;
-}
-
-
-template <int dim>
-SymmetricTensor<2, dim> Peridynamics<dim>::effective_in_situ_stress(const unsigned int site,
-                                                                    const unsigned int bond,
-                                                                    const Point<dim> &place) const
-{
-  SymmetricTensor<2, dim> effective = scene.in_situ_stress(place);
-  if (scene.has_pore_pressure)
-    effective += (rock_of_bonds.is_uniform() ? scene.rock.main().biot_coefficient
-                                             : rock_of_bonds.biot_coefficient(site, bond)) *
-                 scene.in_situ_pore_pressure(place) * dealii::unit_symmetric_tensor<dim>();
-  return effective;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::in_situ_stretch(const unsigned int site, const unsigned int bond) const
-{
-  if (in_situ_is_zero)
-    return 0.;
-  const Point<dim> middle = zone.position(zone.sites()[site].place) +
-                            0.5 * coefficients[bond].length * coefficients[bond].direction;
-  const RockProperties &rock = scene.rock.main();
-  const double lambda = rock.lame_lambda(), mu = rock.shear_modulus();
-  const SymmetricTensor<2, dim> effective = effective_in_situ_stress(site, bond, middle);
-  const SymmetricTensor<2, dim> strain =
-    (effective -
-     lambda / (dim * lambda + 2. * mu) * trace(effective) * dealii::unit_symmetric_tensor<dim>()) /
-    (2. * mu);
-  const Tensor<1, dim> &e = coefficients[bond].direction;
-  return e * (strain * e) / rock_of_bonds.modulus(site, bond);
-}
-
-
-template <int dim>
 typename Peridynamics<dim>::OfCells
 Peridynamics<dim>::pressure_stretch(const State &state, const Collectives &collectives) const
 {
@@ -81,7 +34,7 @@ Peridynamics<dim>::pressure_stretch(const State &state, const Collectives &colle
   std::vector<double> result(cells.size(), 0.);
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
-  const double by_fluid = state.segment_pressure ? relief_by_fluid : 0.;
+  const double by_fluid = state.segment_pressure ? lattice.relief_by_fluid : 0.;
   if (by_fluid > 0. && scene.has_pore_pressure)
   {
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
@@ -109,8 +62,8 @@ double Peridynamics<dim>::relief_at(const unsigned int site,
   Tensor<1, dim> half, middle; // in spacings
   for (unsigned int d = 0; d < dim; ++d)
   {
-    half[d] = 0.5 * stencil[bond].offset[d];
-    middle[d] = zone.sites()[site].place[d] + half[d];
+    half[d] = 0.5 * lattice.stencil[bond].offset[d];
+    middle[d] = lattice.zone.sites()[site].place[d] + half[d];
   }
   double nearest = parameters.horizon + 1., result = 0.;
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -139,8 +92,8 @@ double Peridynamics<dim>::added_stretch(const unsigned int site,
 {
   return parameters.in_bonds
            ? fractured_stretch(site, bond, shares_of(site, bond, false), of_cells.strain)
-           : in_situ_stretch(site, bond) +
-               relief_at(site, bond, of_cells.relief) / rock_of_bonds.modulus(site, bond);
+           : lattice.in_situ_stretch(site, bond) +
+               relief_at(site, bond, of_cells.relief) / lattice.rock_of_bonds.modulus(site, bond);
 }
 
 
@@ -148,29 +101,29 @@ template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
   const std::vector<double> &u, const OfCells &of_cells, Rim &rim) const
 {
-  const double least = softening.brittle() ? 1. : soon_to_soften;
+  const double least = lattice.softening.brittle() ? 1. : soon_to_soften;
   double most_of_cells = 0.;
   for (const double relief : of_cells.relief)
     most_of_cells = std::max(most_of_cells, relief);
   for (const SymmetricTensor<2, dim> &strain : of_cells.strain)
     most_of_cells = std::max(most_of_cells, strain.norm());
   std::vector<Candidate> candidates;
-  const unsigned int half = stencil.size() / 2;
+  const unsigned int half = lattice.stencil.size() / 2;
   const auto consider = [&](const unsigned int i, const unsigned int b)
   {
-    if (bonds.is_broken(i, b) || never_breaks(i, b))
+    if (lattice.bonds.is_broken(i, b) || lattice.never_breaks(i, b))
       return;
-    const bool breakable = bonds.can_break(i, b);
-    if (b >= half && breakable && zone.far_end(i, b).mirrored == 0)
+    const bool breakable = lattice.bonds.can_break(i, b);
+    if (b >= half && breakable && lattice.zone.far_end(i, b).mirrored == 0)
       return; // seen from the other end
-    const double stretch = elongation(i, b, u) / coefficients[b].length;
+    const double stretch = lattice.elongation(i, b, u) / lattice.coefficients[b].length;
     const auto ratio_with = [&](const double more)
     {
-      return rounded(equivalent_stretch(i, b, (stretch + more) * coefficients[b].length) /
-                     softening.first);
+      return rounded(equivalent_stretch(i, b, (stretch + more) * lattice.coefficients[b].length) /
+                     lattice.softening.first);
     };
-    const double most = most_of_cells / rock_of_bonds.modulus(i, b) +
-                        (parameters.in_bonds ? 0. : in_situ_stretch(i, b));
+    const double most = most_of_cells / lattice.rock_of_bonds.modulus(i, b) +
+                        (parameters.in_bonds ? 0. : lattice.in_situ_stretch(i, b));
     if (ratio_with(most) < least || softening_bond(i, b) != nullptr)
       return;
     const double ratio = ratio_with(added_stretch(i, b, of_cells));
@@ -187,8 +140,8 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
     for (const BondAcross &bond : crossing_bonds)
       consider(bond.view.first, bond.view.second);
   else
-    for (const unsigned int i : zone.peridynamic_sites())
-      for (unsigned int b = 0; b < stencil.size(); ++b)
+    for (const unsigned int i : lattice.zone.peridynamic_sites())
+      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
         consider(i, b);
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate &a, const Candidate &b)
@@ -211,11 +164,11 @@ void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
           candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * same_stretch)
       break;
     const auto [stretch, site, bond] = candidates[k];
-    if (bonds.is_broken(site, bond))
+    if (lattice.bonds.is_broken(site, bond))
       continue; // the image of another
-    dissipated += relative_energy(site, bond) * energy_at_unit_stretch({site, bond}) *
-                  std::pow(stretch * critical_stretch, 2);
-    bonds.set_broken(site, bond);
+    dissipated += relative_energy(site, bond) * lattice.energy_at_unit_stretch({site, bond}) *
+                  std::pow(stretch * lattice.critical_stretch, 2);
+    lattice.bonds.set_broken(site, bond);
     cracked.set_broken(site, bond);
   }
 }
@@ -235,7 +188,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     return verdict;
   }
   if (parameters.growth || parameters.written != Parameters<dim>::Bonds::none)
-    displacement = zone.displacement(state.current.bulk, collectives);
+    displacement = lattice.zone.displacement(state.current.bulk, collectives);
   if (!parameters.growth)
     return verdict_on(context, state, collectives);
   Rim rim = Rim::away;
@@ -288,8 +241,9 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
 
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);
   const unsigned int n_new = cells.size() - n_segments_before;
-  const bool changed =
-    softening.brittle() ? !candidates.empty() : soften_bonds(displacement, of_cells, candidates);
+  const bool changed = lattice.softening.brittle()
+                         ? !candidates.empty()
+                         : soften_bonds(displacement, of_cells, candidates);
   if (!changed)
   {
     if (const std::string reason = why_sliding_crack_holds(); !reason.empty())
@@ -324,7 +278,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     return verdict;
   }
 
-  if (softening.brittle())
+  if (lattice.softening.brittle())
     break_bonds(candidates);
 
   refresh_segments();
@@ -334,9 +288,6 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
 }
 
 #define INSTANTIATE(dim)                                                                        \
-  template double Peridynamics<dim>::elongation(unsigned int, unsigned int,                     \
-                                                const std::vector<double> &) const;             \
-  template double Peridynamics<dim>::in_situ_stretch(unsigned int, unsigned int) const;         \
   template Peridynamics<dim>::OfCells Peridynamics<dim>::pressure_stretch(                      \
     const State &, const Collectives &) const;                                                  \
   template double Peridynamics<dim>::relief_at(unsigned int, unsigned int,                      \

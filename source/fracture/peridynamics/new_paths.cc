@@ -1,5 +1,8 @@
 // `Tracking = path`: where bonds are stretched too far and no path is near, one begins.
-#include "fracture/peridynamics/peridynamics.h"
+#include "fracture/peridynamics/new_paths.h"
+
+#include "fracture/peridynamics/wording.h"
+#include "stockwork/base/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,55 +27,69 @@ constexpr double nearly_most = 0.02;
 
 
 template <int dim>
-void Peridynamics<dim>::find_sites_off_paths()
+NewPaths<dim>::NewPaths(const Lattice<dim> &lattice)
+  : lattice(lattice)
 {
-  sites_off_paths.clear();
+}
+
+
+template <int dim>
+void NewPaths<dim>::look_beside(const TrackedPaths &paths)
+{
+  sites.clear();
   if constexpr (dim == 2)
   {
     double longest = 0.;
-    for (const BondCoefficients<dim> &bond : coefficients)
+    for (const BondCoefficients<dim> &bond : lattice.coefficients)
       longest = std::max(longest, bond.length);
-    const double least = least_distance * parameters.horizon * zone.spacing() - 0.5 * longest;
-    for (const unsigned int i : zone.peridynamic_sites())
-      if (paths.distance(zone.position(zone.sites()[i].place)) >= least)
-        sites_off_paths.push_back(i);
+    const double least =
+      least_distance * lattice.parameters.horizon * lattice.zone.spacing() - 0.5 * longest;
+    for (const unsigned int i : lattice.zone.peridynamic_sites())
+      if (paths.distance(lattice.zone.position(lattice.zone.sites()[i].place)) >= least)
+        sites.push_back(i);
   }
 }
 
 
 template <int dim>
-std::vector<typename Peridynamics<dim>::Overstretched>
-Peridynamics<dim>::overstretched_off_paths() const
+std::vector<typename NewPaths<dim>::Overstretched>
+NewPaths<dim>::overstretched(const std::vector<double> &displacement,
+                             const TrackedPaths &paths) const
 {
   std::vector<Overstretched> result;
   if constexpr (dim == 2)
-    for (const unsigned int i : sites_off_paths)
+    for (const unsigned int i : sites)
     {
       // Bonds that the stress in situ presses together in all directions are looked at by their
       // elongation first, which tells nearly always.
-      const bool pressed =
-        in_situ_is_zero ||
-        eigenvalues(effective_in_situ_stress(i, 0, zone.position(zone.sites()[i].place)))[0] <= 0.;
-      for (unsigned int b = 0; b < stencil.size(); ++b)
+      const bool pressed = lattice.in_situ_is_zero ||
+                           eigenvalues(lattice.effective_in_situ_stress(
+                             i, 0, lattice.zone.position(lattice.zone.sites()[i].place)))[0] <= 0.;
+      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       {
-        double longer = elongation(i, b, displacement);
-        if ((pressed && longer <= 0.) || bonds.is_broken(i, b) || !bonds.can_break(i, b) ||
-            never_breaks(i, b) || volume_share(i, b) == 0.)
+        const auto stretch_by = [&](const double elongation) {
+          return lattice.equivalent_stretch(i, b, elongation, lattice.rock_of_bonds.energy(i, b));
+        };
+        double longer = lattice.elongation(i, b, displacement);
+        if ((pressed && longer <= 0.) || lattice.bonds.is_broken(i, b) ||
+            !lattice.bonds.can_break(i, b) || lattice.never_breaks(i, b) ||
+            lattice.volume_share(i, b) == 0.)
           continue;
-        if (pressed && equivalent_stretch(i, b, longer) < (1. - 2. * nearly_most) * softening.first)
+        if (pressed && stretch_by(longer) < (1. - 2. * nearly_most) * lattice.softening.first)
           continue;
-        const Tensor<1, dim> &e = coefficients[b].direction;
-        const Point<dim> middle =
-          zone.position(zone.sites()[i].place) + 0.5 * coefficients[b].length * e;
+        const Tensor<1, dim> &e = lattice.coefficients[b].direction;
+        const Point<dim> middle = lattice.zone.position(lattice.zone.sites()[i].place) +
+                                  0.5 * lattice.coefficients[b].length * e;
         // As across a crack, by the traction across the bond, for compression along it opens none;
         // but no more than the strain, which sides that take the stress away take from the bond.
-        if (!in_situ_is_zero)
-          longer +=
-            coefficients[b].length * std::min(dry_stretch(i, b, middle, e), in_situ_stretch(i, b));
-        const double stretch = rounded(equivalent_stretch(i, b, longer) / softening.first);
+        if (!lattice.in_situ_is_zero)
+          longer += lattice.coefficients[b].length *
+                    std::min(lattice.dry_stretch(i, b, middle, e), lattice.in_situ_stretch(i, b));
+        const double stretch = rounded(stretch_by(longer) / lattice.softening.first);
         if (stretch < 1. - nearly_most ||
-            !zone.all_rock().point_inside(middle, same_place * zone.spacing()) ||
-            paths.distance(middle) < least_distance * parameters.horizon * zone.spacing())
+            !lattice.zone.all_rock().point_inside(middle, same_place * lattice.zone.spacing()) ||
+            paths.distance(middle) <
+              least_distance * lattice.parameters.horizon * lattice.zone.spacing())
           continue;
         result.push_back({stretch, i, b, middle});
       }
@@ -82,20 +99,21 @@ Peridynamics<dim>::overstretched_off_paths() const
 
 
 template <int dim>
-bool Peridynamics<dim>::is_in_zone(const Point<dim> &point) const
+bool NewPaths<dim>::is_in_zone(const Point<dim> &point) const
 {
-  if (!zone.is_inside(point, same_place * zone.spacing()) ||
-      (parameters.zone_growth > 0 && zone.room().point_inside(point)))
+  if (!lattice.zone.is_inside(point, same_place * lattice.zone.spacing()) ||
+      (lattice.parameters.zone_growth > 0 && lattice.zone.room().point_inside(point)))
     return true;
   for (unsigned int v = 0; v < 1u << dim; ++v)
   {
     Place<dim> corner;
     for (unsigned int d = 0; d < dim; ++d)
-      corner[d] = static_cast<int>(std::floor(
-                    (point[d] - zone.position(Place<dim>{})[d]) / zone.spacing() + same_place)) +
+      corner[d] = static_cast<int>(std::floor((point[d] - lattice.zone.position(Place<dim>{})[d]) /
+                                                lattice.zone.spacing() +
+                                              same_place)) +
                   static_cast<int>(v >> d & 1);
-    const unsigned int site = zone.find(corner);
-    if (site == dealii::numbers::invalid_unsigned_int || !zone.sites()[site].peridynamic)
+    const unsigned int site = lattice.zone.find(corner);
+    if (site == dealii::numbers::invalid_unsigned_int || !lattice.zone.sites()[site].peridynamic)
       return false;
   }
   return true;
@@ -105,13 +123,13 @@ bool Peridynamics<dim>::is_in_zone(const Point<dim> &point) const
 /// Bonds that lead out of the zone do not break. Where it cuts off those around the most stretched
 /// ones, these are the zone's choice and not the rock's.
 template <int dim>
-bool Peridynamics<dim>::is_near_rim(const Overstretched &bond) const
+bool NewPaths<dim>::is_near_rim(const Overstretched &bond) const
 {
   for (unsigned int d = 0; d < dim; ++d)
     for (const double side : {-1., 1.})
     {
       Point<dim> beside = bond.middle;
-      beside[d] += side * (0.5 * parameters.horizon + 1.) * zone.spacing();
+      beside[d] += side * (0.5 * lattice.parameters.horizon + 1.) * lattice.zone.spacing();
       if (!is_in_zone(beside))
         return true;
     }
@@ -122,19 +140,17 @@ bool Peridynamics<dim>::is_near_rim(const Overstretched &bond) const
 /// Of a crack that nothing has led here either end may be the first. One along an axis, or in a
 /// diagonal, shall not have another first end by a rounding error.
 template <int dim>
-typename Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(const Overstretched &bond,
-                                                                      const State &state,
-                                                                      const OfCells &of_cells) const
+typename NewPaths<dim>::Beginning NewPaths<dim>::beginning_at(const Overstretched &bond,
+                                                              const MeanStress &mean_stress) const
 {
   Beginning result{bond, {}, {}};
   if constexpr (dim == 2)
   {
-    const double horizon = parameters.horizon * zone.spacing();
-    result.stress = mean_stress(
-      bond.middle, 2. * horizon,
-      [&](const Tensor<1, dim> &away)
-      { return std::pow(1. - away.norm_square() / (4. * horizon * horizon), 2); },
-      state, of_cells);
+    const double horizon = lattice.parameters.horizon * lattice.zone.spacing();
+    result.stress =
+      mean_stress(bond.middle, 2. * horizon,
+                  [&](const Tensor<1, dim> &away)
+                  { return std::pow(1. - away.norm_square() / (4. * horizon * horizon), 2); });
     result.direction = across_greatest(result.stress, Tensor<1, dim>({0.9, 0.44}));
   }
   return result;
@@ -146,45 +162,46 @@ typename Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(const Over
 /// beside a loaded side a few may be stretched by what others lack. The mean stress knows better:
 /// by the strain that it gives in its direction, over that at which bonds soften.
 template <int dim>
-bool Peridynamics<dim>::is_in_tension(const Beginning &path) const
+bool NewPaths<dim>::is_in_tension(const Beginning &path) const
 {
   constexpr double least = 2. / 3.;
   const auto principal = eigenvalues(effective_stress(path));
-  const double ratio = scene.rock.main().poisson_ratio;
+  const double ratio = lattice.scene.rock.main().poisson_ratio;
   const double strain =
     ((1. - ratio) * principal[0] - ratio * std::max(0., principal[dim - 1])) / (1. - 2. * ratio);
-  return strain >= least * strength_of(path.bond.site, path.bond.bond);
+  return strain >= least * lattice.strength(path.bond.site, path.bond.bond);
 }
 
 
 /// What a path crosses in a box holds, so none begins there; nor with a piece that leads into one,
 /// for the crack would have come from nowhere.
 template <int dim>
-bool Peridynamics<dim>::begins_in_unbreakable(const Beginning &path) const
+bool NewPaths<dim>::begins_in_unbreakable(const Beginning &path) const
 {
-  for (const auto &box : parameters.unbreakable)
+  for (const auto &box : lattice.parameters.unbreakable)
     for (const double along : {-1., -0.5, 0., 0.5, 1.})
-      if (box.point_inside(path.bond.middle + along * zone.spacing() * path.direction,
-                           same_place * zone.spacing()))
+      if (box.point_inside(path.bond.middle + along * lattice.zone.spacing() * path.direction,
+                           same_place * lattice.zone.spacing()))
         return true;
   return false;
 }
 
 
 template <int dim>
-std::string Peridynamics<dim>::begin_paths(const StepContext &context,
-                                           const State &state,
-                                           const OfCells &of_cells)
+std::string NewPaths<dim>::begin(const StepContext &context,
+                                 const std::vector<double> &displacement,
+                                 const MeanStress &mean_stress,
+                                 TrackedPaths &paths)
 {
-  std::vector<Overstretched> all = overstretched_off_paths();
+  std::vector<Overstretched> all = overstretched(displacement, paths);
   std::string reason;
   while (reason.empty())
   {
-    const std::vector<Point<dim>> held = begin_worst_paths(all, context, state, of_cells, reason);
+    const std::vector<Point<dim>> held = begin_worst(all, context, mean_stress, paths, reason);
     if (held.empty())
       break;
     // What holds for good shall not hide what is stretched less.
-    const double near = least_distance * parameters.horizon * zone.spacing();
+    const double near = least_distance * lattice.parameters.horizon * lattice.zone.spacing();
     all.erase(std::remove_if(all.begin(), all.end(),
                              [&](const Overstretched &bond)
                              {
@@ -199,11 +216,11 @@ std::string Peridynamics<dim>::begin_paths(const StepContext &context,
 
 
 template <int dim>
-std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(const std::vector<Overstretched> &all,
-                                                             const StepContext &context,
-                                                             const State &state,
-                                                             const OfCells &of_cells,
-                                                             std::string &reason)
+std::vector<Point<dim>> NewPaths<dim>::begin_worst(const std::vector<Overstretched> &all,
+                                                   const StepContext &context,
+                                                   const MeanStress &mean_stress,
+                                                   TrackedPaths &paths,
+                                                   std::string &reason)
 {
   std::vector<Point<dim>> held;
   double most = 0.;
@@ -229,8 +246,8 @@ std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(const std::vector<O
         continue;
       group.insert(group.end(), found->second.begin(), found->second.end());
       by_site.erase(found);
-      for (unsigned int b = 0; b < stencil.size(); ++b)
-        sites.push_back(zone.far_end(sites[k], b).site);
+      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+        sites.push_back(lattice.zone.far_end(sites[k], b).site);
     }
     // Of several places only the worst, and those that are as bad.
     if (std::none_of(group.begin(), group.end(),
@@ -250,26 +267,26 @@ std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(const std::vector<O
       **std::min_element(group.begin(), group.end(),
                          [&](const Overstretched *a, const Overstretched *b)
                          { return a->middle.distance(centre) < b->middle.distance(centre); });
-    if (place.middle.distance(centre) <= zone.spacing())
+    if (place.middle.distance(centre) <= lattice.zone.spacing())
       place.middle = centre;
-    Beginning path = beginning_at(place, state, of_cells);
+    Beginning path = beginning_at(place, mean_stress);
     if (!is_in_tension(path))
     {
-      if ((told_off_paths & held_without_stress) == 0)
+      if ((told & held_without_stress) == 0)
         messages.push_back("Bonds are stretched too far at " +
                            place_and_time(path.bond.middle, context) +
                            ", but around them the rock bears too little tension for a crack to "
                            "begin: they hold. Look at loads on sides, and at a stress in situ that "
                            "sides take away. " +
                            stress_and_strength(path));
-      told_off_paths |= held_without_stress;
+      told |= held_without_stress;
       held.push_back(path.bond.middle);
       continue;
     }
     for (const Overstretched *bond : group)
       if (is_near_rim(*bond))
       {
-        reason = why_none_begins(beginning_at(*bond, state, of_cells), context);
+        reason = why_none_begins(beginning_at(*bond, mean_stress), context);
         return held;
       }
     if (begins_in_unbreakable(path))
@@ -286,9 +303,9 @@ std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(const std::vector<O
                        return !begins_in_unbreakable({*bond, path.direction, path.stress});
                      });
       if (free != group.end())
-        path = beginning_at(**free, state, of_cells);
+        path = beginning_at(**free, mean_stress);
     }
-    reason = begin_path(path, context);
+    reason = begin_one(path, context, paths);
     if (!reason.empty())
       break;
   }
@@ -297,11 +314,12 @@ std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(const std::vector<O
 
 
 template <int dim>
-std::string Peridynamics<dim>::begin_path(const Beginning &path, const StepContext &context)
+std::string
+NewPaths<dim>::begin_one(const Beginning &path, const StepContext &context, TrackedPaths &paths)
 {
   if constexpr (dim == 2)
   {
-    const double h = zone.spacing(), horizon = parameters.horizon * h;
+    const double h = lattice.zone.spacing(), horizon = lattice.parameters.horizon * h;
     const Point<dim> &middle = path.bond.middle;
     Point<dim> place = middle;
     Tensor<1, dim> direction = path.direction;
@@ -313,8 +331,8 @@ std::string Peridynamics<dim>::begin_path(const Beginning &path, const StepConte
     for (unsigned int d = 0; d < dim; ++d)
       for (const unsigned int side : {0u, 1u})
       {
-        const double bound =
-          side == 0 ? zone.all_rock().lower_bound(d) : zone.all_rock().upper_bound(d);
+        const double bound = side == 0 ? lattice.zone.all_rock().lower_bound(d)
+                                       : lattice.zone.all_rock().upper_bound(d);
         if (std::abs(middle[d] - bound) > nearest - same_place * h)
           continue;
         nearest = std::abs(middle[d] - bound);
@@ -326,11 +344,11 @@ std::string Peridynamics<dim>::begin_path(const Beginning &path, const StepConte
     const auto hold =
       [&](const unsigned int reason, const std::string &where, const std::string &what_to_do)
     {
-      if ((told_off_paths & reason) == 0)
+      if ((told & reason) == 0)
         messages.push_back("Bonds are stretched too far at " + place_and_time(place, context) +
                            ", " + where + " lets no crack begin: they hold. " + what_to_do +
                            stress_and_strength(path));
-      told_off_paths |= reason;
+      told |= reason;
       return std::string();
     };
     if (inwards.norm() > 0. && std::abs(direction * inwards) < std::sqrt(0.5))
@@ -345,8 +363,8 @@ std::string Peridynamics<dim>::begin_path(const Beginning &path, const StepConte
     for (const double ahead : {inwards.norm() > 0. ? 0. : -1., 1.})
       if (!is_in_zone(place + ahead * (h + horizon) * direction))
         return why_none_begins(path, context);
-    // What the deck presses in all cracks is nothing in a dry scene.
-    const bool dry = scene.crack_pressure != 0.;
+    // What the deck presses in all cracks is nothing in a dry lattice.scene.
+    const bool dry = lattice.scene.crack_pressure != 0.;
     if (inwards.norm() > 0.)
       paths.begin_at_side(place, direction, dry);
     else
@@ -363,23 +381,100 @@ std::string Peridynamics<dim>::begin_path(const Beginning &path, const StepConte
   return "";
 }
 
-#define INSTANTIATE(dim)                                                                     \
-  template void Peridynamics<dim>::find_sites_off_paths();                                   \
-  template std::vector<Peridynamics<dim>::Overstretched>                                     \
-  Peridynamics<dim>::overstretched_off_paths() const;                                        \
-  template bool Peridynamics<dim>::is_near_rim(const Overstretched &) const;                 \
-  template bool Peridynamics<dim>::is_in_zone(const Point<dim> &) const;                     \
-  template Peridynamics<dim>::Beginning Peridynamics<dim>::beginning_at(                     \
-    const Overstretched &, const State &, const OfCells &) const;                            \
-  template bool Peridynamics<dim>::is_in_tension(const Beginning &) const;                   \
-  template bool Peridynamics<dim>::begins_in_unbreakable(const Beginning &) const;           \
-  template std::string Peridynamics<dim>::begin_paths(const StepContext &, const State &,    \
-                                                      const OfCells &);                      \
-  template std::vector<Point<dim>> Peridynamics<dim>::begin_worst_paths(                     \
-    const std::vector<Overstretched> &, const StepContext &, const State &, const OfCells &, \
-    std::string &);                                                                          \
-  template std::string Peridynamics<dim>::begin_path(const Beginning &, const StepContext &);
-INSTANTIATE(2)
-INSTANTIATE(3)
-#undef INSTANTIATE
+template <int dim>
+void NewPaths<dim>::refuse_in_situ_tension(const TrackedPaths &paths) const
+{
+  if (lattice.in_situ_is_zero)
+    return;
+  const std::vector<double> displacement(lattice.zone.sites().size() * dim, 0.);
+  const std::vector<Overstretched> all = overstretched(displacement, paths);
+  const auto worst = std::max_element(all.begin(), all.end(),
+                                      [](const Overstretched &a, const Overstretched &b)
+                                      { return a.stretch < b.stretch; });
+  if (worst == all.end() || worst->stretch < 1.)
+    return;
+  const double tension = eigenvalues(
+                 lattice.effective_in_situ_stress(worst->site, worst->bond, worst->middle))[0],
+               strength = lattice.strength(worst->site, worst->bond);
+  throw InputError("In situ/Stress: at " + in_metres(worst->middle) + " it is " +
+                   (lattice.scene.has_pore_pressure
+                      ? "an effective tension, with the pore pressure, of "
+                      : "a tension of ") +
+                   megapascals(tension) + ", and bonds there hold " + megapascals(strength) +
+                   " with cells of " + text(lattice.zone.spacing()) +
+                   " m: with 'Fracture/peridynamics/Tracking = path' cracks would begin all over "
+                   "the rock before anything has moved. Compression is negative. Use less tension, "
+                   "or cells of less than " +
+                   text(std::pow(strength / tension, 2) * lattice.zone.spacing()) +
+                   " m ('Fracture/peridynamics/Cell size'), which hold more.");
+}
+
+
+template <int dim>
+std::string NewPaths<dim>::place_and_time(const Point<dim> &place, const StepContext &context) const
+{
+  std::ostringstream time;
+  time.precision(4);
+  time << context.time;
+  return in_metres(place) + ", at " + time.str() + " s";
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim> NewPaths<dim>::effective_stress(const Beginning &path) const
+{
+  SymmetricTensor<2, dim> stress = path.stress;
+  if (lattice.scene.has_pore_pressure)
+    stress += lattice.effective_in_situ_stress(path.bond.site, path.bond.bond, path.bond.middle) -
+              lattice.scene.in_situ_stress(path.bond.middle);
+  return stress;
+}
+
+
+template <int dim>
+std::string NewPaths<dim>::stress_and_strength(const Beginning &path) const
+{
+  const auto principal = eigenvalues(effective_stress(path));
+  return std::string("The mean ") + (lattice.scene.has_pore_pressure ? "effective " : "") +
+         "stress there is " + megapascals(principal[0]) + " across it and " +
+         megapascals(principal[dim - 1]) + " along it; bonds with a horizon of " +
+         text(lattice.parameters.horizon * lattice.zone.spacing()) + " m hold " +
+         megapascals(lattice.strength(path.bond.site, path.bond.bond)) +
+         " of a stress that is the same in all directions. That follows from the energy release "
+         "rate, the stiffness and the horizon (with half of it, 1.41 times as much): with other "
+         "cells cracks begin at another load.";
+}
+
+
+template <int dim>
+std::string NewPaths<dim>::why_none_begins(const Beginning &path, const StepContext &context)
+{
+  const std::string what =
+    "bonds are stretched too far at " + place_and_time(path.bond.middle, context) +
+    ", and all around up to the rim of the peridynamic zone, far from all cracks; so near to the "
+    "rim none can begin. " +
+    stress_and_strength(path) +
+    " If only a part of the rock is stretched so, let 'Fracture/peridynamics/Zone' reach two "
+    "horizons beyond it; if all of it is, use smaller loads, less tension in 'In situ/Stress', or "
+    "smaller cells; or name in 'Fracture/peridynamics/Unbreakable' what shall hold.";
+  if (!(context.acceleration > 0. && !std::isnan(lattice.scene.crack_pressure)))
+    return what;
+  // Waves come to the rim, as they do where a crack has reached it.
+  if ((told & held_at_rim) == 0)
+    messages.push_back("They hold: " + what);
+  told |= held_at_rim;
+  return "";
+}
+
+
+template <int dim>
+std::vector<std::string> NewPaths<dim>::take_messages()
+{
+  std::vector<std::string> taken;
+  taken.swap(messages);
+  return taken;
+}
+
+template class NewPaths<2>;
+template class NewPaths<3>;
 } // namespace stockwork::peridynamics

@@ -21,7 +21,7 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   std::vector<double> sums(3, 0.); // length, broken length, tips
   for (const unsigned int i : owned_cells)
   {
-    const double broken = broken_share<dim>(zone, stencil, cells[i],
+    const double broken = broken_share<dim>(lattice.zone, lattice.stencil, cells[i],
                                             [this](const unsigned int site, const unsigned int bond)
                                             { return bond_damage(site, bond); });
     if (broken < 0.5 && is_beside(cells, apertures, parameters.horizon + 1., i))
@@ -43,9 +43,9 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
     double elastic = paths.length();
     for (unsigned int n = 0; n < softening_ends.size(); ++n)
       if (softening_ends[n])
-        elastic += energy_at_unit_stretch(softening_bonds[n].view) *
-                   (softening.separation(softening_bonds[n].trial) -
-                    softening.dissipated(softening_bonds[n].trial)) /
+        elastic += lattice.energy_at_unit_stretch(softening_bonds[n].view) *
+                   (lattice.softening.separation(softening_bonds[n].trial) -
+                    lattice.softening.dissipated(softening_bonds[n].trial)) /
                    scene.rock.main().energy_release_rate;
     result.length = paths.length() + half_process_zones();
     // Of a young path that is less than nothing: a long process zone, and little energy yet.
@@ -54,7 +54,7 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   result.dissipated_energy = dissipated;
   result.stored_energy =
     explicit_bonds ? collectives.sum(explicit_bonds->stored() + explicit_bonds->stored_by_fluid())
-                   : strain_energy(zone.displacement(state.current.bulk, collectives));
+                   : strain_energy(lattice.zone.displacement(state.current.bulk, collectives));
   result.cost = cost();
   return result;
 }
@@ -67,14 +67,14 @@ double Peridynamics<dim>::length_that_holds() const
   if constexpr (dim == 2)
     for (const BondAcross &bond : crossing_bonds)
       if (const auto &[site, b] = bond.view;
-          !bonds.is_broken(site, b) && !paths.end_at(bond.crossing) &&
+          !lattice.bonds.is_broken(site, b) && !paths.end_at(bond.crossing) &&
           scene.cracks[bond.crossing.path].kind != InitialCrack<dim>::Kind::open &&
-          views_of(site, b).front() == bond.view)
+          lattice.bonds.views_of(site, b).front() == bond.view)
       {
         const SofteningBond *softened = softening_bond(site, b);
-        energy += energy_at_unit_stretch(bond.view) *
-                  (softening.first * softening.last -
-                   (softened != nullptr ? softening.separation(softened->trial) : 0.));
+        energy += lattice.energy_at_unit_stretch(bond.view) *
+                  (lattice.softening.first * lattice.softening.last -
+                   (softened != nullptr ? lattice.softening.separation(softened->trial) : 0.));
       }
   return energy / scene.rock.main().energy_release_rate;
 }
@@ -85,11 +85,11 @@ std::string Peridynamics<dim>::cost() const
 {
   // Displacements that the row of a node has entries for, itself included.
   std::set<Place<dim>> reach{Place<dim>()};
-  for (const StencilBond<dim> &bond : stencil)
+  for (const StencilBond<dim> &bond : lattice.stencil)
     reach.insert(bond.offset);
   if (parameters.state_based)
     for (const Place<dim> &first : std::set<Place<dim>>(reach))
-      for (const StencilBond<dim> &bond : stencil)
+      for (const StencilBond<dim> &bond : lattice.stencil)
       {
         Place<dim> place = first;
         for (unsigned int d = 0; d < dim; ++d)
@@ -97,10 +97,10 @@ std::string Peridynamics<dim>::cost() const
         reach.insert(place);
       }
   const double of_elements = std::pow(3., dim), longer = reach.size() / of_elements;
-  const double share = static_cast<double>(zone.n_peridynamic_sites()) / n_nodes;
+  const double share = static_cast<double>(lattice.zone.n_peridynamic_sites()) / n_nodes;
   std::ostringstream text;
   text.precision(3);
-  text << "Peridynamic zone: " << zone.n_peridynamic_sites() << " nodes, " << 100. * share
+  text << "Peridynamic zone: " << lattice.zone.n_peridynamic_sites() << " nodes, " << 100. * share
        << " % of all; their momentum rows have " << longer << " times the entries of elements', "
        << "which makes the matrix of the rock " << 1. + share * (longer - 1.) << " times as large";
   return text.str();
@@ -110,9 +110,9 @@ std::string Peridynamics<dim>::cost() const
 template <int dim>
 void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) const
 {
-  std::vector<double> mean_damage(zone.n_active_cells(), 0.);
-  for (const Place<dim> &cell : zone.cells())
-    if (zone.owns(cell))
+  std::vector<double> mean_damage(lattice.zone.n_active_cells(), 0.);
+  for (const Place<dim> &cell : lattice.zone.cells())
+    if (lattice.zone.owns(cell))
     {
       double sum = 0.;
       for (unsigned int v = 0; v < 1u << dim; ++v)
@@ -120,9 +120,9 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
         Place<dim> place = cell;
         for (unsigned int d = 0; d < dim; ++d)
           place[d] += v >> d & 1;
-        sum += damage[zone.find(place)];
+        sum += lattice.damage[lattice.zone.find(place)];
       }
-      mean_damage[zone.active_cell_index(cell)] = sum / (1 << dim);
+      mean_damage[lattice.zone.active_cell_index(cell)] = sum / (1 << dim);
     }
   sink.add_cell_field("damage", mean_damage);
 
@@ -149,21 +149,23 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
 template <int dim>
 void Peridynamics<dim>::write_bonds(FieldSink<dim> &sink) const
 {
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size() && zone.sites()[i].owner == rank; ++b)
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    for (unsigned int b = 0; b < lattice.stencil.size() && lattice.zone.sites()[i].owner == rank;
+         ++b)
     {
-      const bool broken = bonds.is_broken(i, b), mirrored = zone.far_end(i, b).mirrored != 0;
-      if (mirrored || (bonds.can_break(i, b) && b >= stencil.size() / 2) ||
+      const bool broken = lattice.bonds.is_broken(i, b),
+                 mirrored = lattice.zone.far_end(i, b).mirrored != 0;
+      if (mirrored || (lattice.bonds.can_break(i, b) && b >= lattice.stencil.size() / 2) ||
           (parameters.written == Parameters<dim>::Bonds::broken && !broken))
         continue; // seen from the other end
-      const Point<dim> from = zone.position(zone.sites()[i].place);
+      const Point<dim> from = lattice.zone.position(lattice.zone.sites()[i].place);
       const double longer = explicit_bonds ? explicit_bonds->elongation(i, b)
-                            : displacement.size() == dim * zone.sites().size()
-                              ? elongation(i, b, displacement)
+                            : displacement.size() == dim * lattice.zone.sites().size()
+                              ? lattice.elongation(i, b, displacement)
                               : 0.;
       const double stretch =
-        longer / coefficients[b].length / critical_stretch / relative_stretch(i, b);
-      sink.add_bond(from, from + coefficients[b].length * coefficients[b].direction,
+        longer / lattice.coefficients[b].length / lattice.critical_stretch / relative_stretch(i, b);
+      sink.add_bond(from, from + lattice.coefficients[b].length * lattice.coefficients[b].direction,
                     {{"broken", broken ? 1. : 0.}, {"stretch", stretch}});
     }
 }

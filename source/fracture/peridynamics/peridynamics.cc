@@ -1,9 +1,8 @@
 #include "fracture/peridynamics/peridynamics.h"
 
 #include "flow/permeability_tensor.h"
-#include "fracture/peridynamics/lattice_moduli.h"
-#include "fracture/peridynamics/separation.h"
-#include "fracture/peridynamics/state_based.h"
+#include "fracture/peridynamics/foresight.h"
+#include "fracture/peridynamics/wording.h"
 #include "mesh/box_list.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
@@ -36,7 +35,8 @@ template <int dim>
 Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<dim> &scene)
   : parameters(parameters)
   , scene(scene)
-  , stencil(horizon_stencil<dim>(parameters.horizon, parameters.volumes))
+  , lattice(this->parameters, scene)
+  , new_paths(lattice)
 {
   if (parameters.growth)
     needs::energy_release_rate(scene.rock, "peridynamics", "or 'Growth = false'");
@@ -47,13 +47,16 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
                      "tensor'");
   if (parameters.boxes.empty())
     needs::initial_crack(scene, "peridynamics", "or the box of its 'Zone'");
-  refuse_what_bonds_do_not_know();
+  refuse_what_bonds_do_not_know(parameters, scene);
   check_explicit_steps();
   shape.cracks = scene.cracks;
   shape.boxes = parameters.boxes;
   shape.margin = parameters.margin;
   if (parameters.cell_size > 0.)
-    foresee(parameters.cell_size);
+  {
+    lattice.set_law(parameters.cell_size);
+    messages = foresee(lattice, parameters.cell_size);
+  }
 }
 
 
@@ -80,112 +83,54 @@ Requirements Peridynamics<dim>::requirements() const
 
 
 template <int dim>
-void Peridynamics<dim>::set_law(const double spacing)
-{
-  const RockProperties &rock = scene.rock.main();
-  const double horizon = parameters.horizon * spacing;
-  law = parameters.state_based ? state_based_law<dim>(rock, stencil, spacing)
-                               : bond_based_law<dim>(rock, stencil, spacing);
-  coefficients = bond_coefficients<dim>(stencil, law, spacing);
-  strain_of_pressure = 1. / (dim * lattice_moduli<dim>(stencil, law, spacing).bulk());
-  softening.first = 1. / std::sqrt(parameters.softening);
-  softening.last = std::sqrt(parameters.softening);
-  BondLaw springs = law;
-  springs.dilatation_modulus = 0.;
-  // What bonds across a plane take that break at a stretch: as springs, and by their dilatation.
-  const double at_one = separation_energy<dim>(stencil, law, spacing, softening);
-  energy_over_spring = at_one / crossing_energy<dim>(stencil, springs, spacing, 1.);
-  const double of_continuum =
-    continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
-  // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
-  critical_stretch =
-    !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor * of_continuum
-    : parameters.softening > 1.
-      ? std::sqrt(rock.energy_release_rate / at_one)
-      : of_continuum *
-          trapping_factor(parameters.horizon, law.dilatation_modulus / rock.shear_modulus());
-  softening.first = critical_stretch / std::sqrt(parameters.softening);
-  softening.last = critical_stretch * std::sqrt(parameters.softening);
-  // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
-  if (parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
-    relief_by_fluid = spacing * softening.when_wet() / softening.first / (2. * at_one);
-}
-
-
-template <int dim>
 void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives &collectives)
 {
   ranks = collectives;
   rank = collectives.rank();
-  if (parameters.explicit_steps && !zone.sites().empty())
+  if (parameters.explicit_steps && !lattice.zone.sites().empty())
     keep_bonds();
   n_nodes = mesh_view.dof_handler.n_dofs() / mesh_view.dof_handler.get_fe().dofs_per_vertex;
-  zone.setup(shape, parameters.cell_size, stencil, parameters.state_based,
-             parameters.explicit_steps, scene.moves_side, parameters.free_boundaries, mesh_view,
-             collectives);
+  lattice.setup(shape, mesh_view, collectives);
   // Where elements lie between, they pull with all of the stress at sites that have lost a part of
   // their bonds, beyond the side. And the matrix of bonds has no columns of what is prescribed:
   // only explicit steps, which have none, feel bonds to nodes that the deck moves.
   if ((!is_all_bonds() || !parameters.explicit_steps) && parameters.free_boundaries &&
-      !zone.is_divided())
-    if (const auto side =
-          zone.moved_side_within((parameters.horizon - same_place) * zone.spacing()))
+      !lattice.zone.is_divided())
+    if (const auto side = lattice.zone.moved_side_within((parameters.horizon - same_place) *
+                                                         lattice.zone.spacing()))
       throw unsuitable_mesh(
         std::string("The peridynamic zone comes nearer than a horizon, ") +
-        to_string(parameters.horizon * zone.spacing(), dimension::length) + ", to the side that " +
-        "the deck moves at the " + ((*side)[1] == 0 ? "lower" : "upper") + " end of " +
-        "xyz"[(*side)[0]] +
+        to_string(parameters.horizon * lattice.zone.spacing(), dimension::length) +
+        ", to the side that " + "the deck moves at the " + ((*side)[1] == 0 ? "lower" : "upper") +
+        " end of " + "xyz"[(*side)[0]] +
         ": bonds would be missing there, and the force with them. Keep it away by a larger box, "
         "smaller cells or less of 'Margin' and 'Zone', or, with 'Time/Scheme = explicit', let "
         "'Zone' hold all of the rock.");
   for (const auto &box : parameters.boxes)
-    if (box.get_neighbor_type(zone.all_rock()) == dealii::NeighborType::not_neighbors)
+    if (box.get_neighbor_type(lattice.zone.all_rock()) == dealii::NeighborType::not_neighbors)
       throw EntryError("Fracture/peridynamics/Zone", to_string(box),
                        "boxes that hold some of the rock");
-  unbreakable.clear();
-  if (!parameters.unbreakable.empty())
-    for (const Site<dim> &site : zone.sites())
-      unbreakable.push_back(std::any_of(
-        parameters.unbreakable.begin(), parameters.unbreakable.end(),
-        [&](const auto &box)
-        { return box.point_inside(zone.position(site.place), same_place * zone.spacing()); }));
   for (const auto &box : parameters.unbreakable)
   {
-    const bool holds_some = std::any_of(
-      zone.peridynamic_sites().begin(), zone.peridynamic_sites().end(),
-      [&](const unsigned int i) {
-        return box.point_inside(zone.position(zone.sites()[i].place), same_place * zone.spacing());
-      });
+    const bool holds_some =
+      std::any_of(lattice.zone.peridynamic_sites().begin(), lattice.zone.peridynamic_sites().end(),
+                  [&](const unsigned int i)
+                  {
+                    return box.point_inside(lattice.zone.position(lattice.zone.sites()[i].place),
+                                            same_place * lattice.zone.spacing());
+                  });
     if (collectives.max(holds_some ? 1. : 0.) == 0. && parameters.zone_growth == 0)
       throw EntryError("Fracture/peridynamics/Unbreakable", to_string(box),
                        "boxes that hold nodes of the peridynamic zone");
   }
-  regions.clear();
-  for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
-    regions.push_back(cell->material_id());
-  rock_of_bonds.reinit(
-    zone, stencil, scene.rock, parameters.state_based,
-    [&](const unsigned int cell, const Point<dim> &centre)
-    { return scene.rock.at(regions[cell], centre); },
-    collectives);
-  bonds.reinit(zone, stencil);
-  cracked.reinit(zone, stencil);
-
-  set_law(zone.spacing());
+  cracked.reinit(lattice.zone, lattice.stencil);
   if (!started && parameters.cell_size == 0.)
-    foresee(zone.spacing());
-  in_situ_is_zero = true;
-  for (const unsigned int i : zone.peridynamic_sites())
-  {
-    const Point<dim> place = zone.position(zone.sites()[i].place);
-    in_situ_is_zero = in_situ_is_zero && scene.in_situ_stress(place).norm() == 0. &&
-                      (!scene.has_pore_pressure || scene.in_situ_pore_pressure(place) == 0.);
-  }
-  in_situ_is_zero = collectives.max(in_situ_is_zero ? 0. : 1.) == 0.;
+    for (std::string &message : foresee(lattice, lattice.zone.spacing()))
+      messages.push_back(std::move(message));
 
   if (started)
   {
-    bonds.set_broken(committed_bonds);
+    lattice.bonds.set_broken(committed_bonds);
     restore_softening();
   }
   else
@@ -196,16 +141,13 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     if constexpr (dim == 2)
       if (parameters.tracked)
       {
-        paths.reinit(scene.cracks, zone.spacing(),
+        paths.reinit(scene.cracks, lattice.zone.spacing(),
                      [&](const Point<dim> &end)
-                     { return zone.is_inside(end, same_place * zone.spacing()); });
+                     { return lattice.zone.is_inside(end, same_place * lattice.zone.spacing()); });
         if (const auto place = paths.overlap())
         {
-          std::ostringstream where;
-          where.precision(4);
-          where << *place;
-          throw InputError("Cracks: at (" + where.str() +
-                           ") m two of them, or two legs of one, lie upon one another, or cross in "
+          throw InputError("Cracks: at " + in_metres(*place) +
+                           " two of them, or two legs of one, lie upon one another, or cross in "
                            "the middle of a cell's length of both. With "
                            "'Fracture/peridynamics/Tracking = path' there must be one crack at a "
                            "place: leave one out, or move one by a part of a cell.");
@@ -216,21 +158,23 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     if (!parameters.tracked)
       set_initial_normals();
     if (parameters.surface_correction)
-      for (const unsigned int i : zone.peridynamic_sites())
-        if (const double gone = bonds.damage(i) + zone.absent_share(i, stencil); gone > 0.)
-          committed_correction[zone.sites()[i].place] = gone;
+      for (const unsigned int i : lattice.zone.peridynamic_sites())
+        if (const double gone =
+              lattice.bonds.damage(i) + lattice.zone.absent_share(i, lattice.stencil);
+            gone > 0.)
+          committed_correction[lattice.zone.sites()[i].place] = gone;
   }
-  row_versions.restart(zone.sites().size());
+  row_versions.restart(lattice.zone.sites().size());
   paths_crossed.reset(); // by other sites
   refresh_segments();
   if (!started && parameters.tracked && parameters.growth)
-    refuse_in_situ_tension();
+    new_paths.refuse_in_situ_tension(paths);
   started = true;
   if (parameters.explicit_steps)
     make_explicit_bonds();
   if (explicit_bonds && stretch_of_given_pressure() != 0.)
   {
-    crossed.reinit(zone, stencil, cells, parameters.horizon);
+    crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
     open_explicit_bonds(collectives);
   }
 }
@@ -239,7 +183,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
 template <int dim>
 void Peridynamics<dim>::keep_bonds()
 {
-  committed_bonds = of_all_ranks(bonds.places());
+  committed_bonds = of_all_ranks(lattice.bonds.places());
   committed_cracked = of_all_ranks(cracked.places());
 }
 
@@ -248,7 +192,7 @@ template <int dim>
 template <class T>
 std::vector<T> Peridynamics<dim>::of_all_ranks(std::vector<T> mine) const
 {
-  if (!zone.is_divided())
+  if (!lattice.zone.is_divided())
     return mine;
   mine = ranks->gather(mine);
   std::sort(mine.begin(), mine.end());
@@ -260,8 +204,8 @@ std::vector<T> Peridynamics<dim>::of_all_ranks(std::vector<T> mine) const
 template <int dim>
 std::vector<FractureCell<dim>> Peridynamics<dim>::fracture_cells() const
 {
-  std::vector<FractureCell<dim>> found = find_fracture_cells(zone, cracked);
-  if (!zone.is_divided())
+  std::vector<FractureCell<dim>> found = find_fracture_cells(lattice.zone, cracked);
+  if (!lattice.zone.is_divided())
     return found;
   found = ranks->gather(found); // each knows its own
   std::sort(found.begin(), found.end(),
@@ -273,16 +217,16 @@ std::vector<FractureCell<dim>> Peridynamics<dim>::fracture_cells() const
 template <int dim>
 void Peridynamics<dim>::refresh_segments()
 {
-  const std::vector<double> damage_before = damage, corrected_before = corrected_damage;
-  damage.assign(zone.sites().size(), 0.);
-  for (const unsigned int i : bonds.damaged_sites())
-    damage[i] = bonds.damage(i);
+  const std::vector<double> damage_before = lattice.damage,
+                            corrected_before = lattice.corrected_damage;
+  lattice.find_damage();
   if (parameters.surface_correction)
   {
-    corrected_damage.assign(zone.sites().size(), 0.);
+    lattice.corrected_damage.assign(lattice.zone.sites().size(), 0.);
     for (const auto &[place, corrected] : committed_correction)
-      if (const unsigned int i = zone.find(place); i != dealii::numbers::invalid_unsigned_int)
-        corrected_damage[i] = corrected;
+      if (const unsigned int i = lattice.zone.find(place);
+          i != dealii::numbers::invalid_unsigned_int)
+        lattice.corrected_damage[i] = corrected;
   }
   const std::vector<FractureCell<dim>> cells_before = cells;
   if (parameters.tracked)
@@ -299,7 +243,7 @@ void Peridynamics<dim>::refresh_segments()
           cell.normal[d] = old->second[d];
     if (parameters.in_bonds)
       keep_committed_cells();
-    all_segments = make_segments(zone, cells);
+    all_segments = make_segments(lattice.zone, cells);
   }
   at_front.clear();
   published.clear();
@@ -307,9 +251,10 @@ void Peridynamics<dim>::refresh_segments()
   {
     const RockProperties &rock = scene.rock.main();
     const double stretch_of_pressure = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
-    const auto loads = published_loads(zone, bonds, coefficients, stretch_of_pressure, cells);
+    const auto loads = published_loads(lattice.zone, lattice.bonds, lattice.coefficients,
+                                       stretch_of_pressure, cells);
     for (unsigned int i = 0; i < cells.size(); ++i)
-      if (zone.owns(cells[i].place))
+      if (lattice.zone.owns(cells[i].place))
         published.emplace_back(all_segments[i], loads[i]);
   }
   owned_segments.clear();
@@ -318,19 +263,20 @@ void Peridynamics<dim>::refresh_segments()
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     Segment<dim> &segment = all_segments[i];
-    at_front.push_back(parameters.tracked ? segment.at_tip : is_at_front(zone, cells[i], segment));
-    if (scene.has_pore_pressure && zone.owns(cells[i].place))
+    at_front.push_back(parameters.tracked ? segment.at_tip
+                                          : is_at_front(lattice.zone, cells[i], segment));
+    if (scene.has_pore_pressure && lattice.zone.owns(cells[i].place))
     {
-      segment.region = regions[zone.active_cell_index(cells[i].place)];
+      segment.region = lattice.regions[lattice.zone.active_cell_index(cells[i].place)];
       segment.share_of_pores = biot_coefficient(i);
     }
     // Unknowns are measured from the in-situ pressure.
     segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
-    if (zone.owns(cells[i].place))
+    if (lattice.zone.owns(cells[i].place))
     {
       owned_cells.push_back(i);
       if (scene.has_pore_pressure && !parameters.as_published && !parameters.in_bonds)
-        normals[zone.active_cell_index(cells[i].place)] = cells[i].normal;
+        normals[lattice.zone.active_cell_index(cells[i].place)] = cells[i].normal;
       owned_segments.push_back(segment);
       if (parameters.tensor_fluid)
       {
@@ -354,7 +300,8 @@ void Peridynamics<dim>::refresh_segments()
 template <int dim>
 double Peridynamics<dim>::biot_coefficient(const unsigned int cell) const
 {
-  return scene.rock(regions[zone.active_cell_index(cells[cell].place)]).biot_coefficient;
+  return scene.rock(lattice.regions[lattice.zone.active_cell_index(cells[cell].place)])
+    .biot_coefficient;
 }
 
 
@@ -379,7 +326,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   n_messages_before = messages.size();
   told_of_rim_before = told_of_rim;
   told_of_pressure_before = told_of_pressure;
-  told_off_paths_before = told_off_paths;
+  told_of_new_paths_before = new_paths.told;
   n_segments_before = cells.size();
   extent_before = extent();
   n_tips_before = 0;
@@ -401,12 +348,13 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
   committed_softening.clear();
   for (SofteningBond &bond : softening_bonds)
   {
-    dissipated += relative_energy(bond.view.first, bond.view.second) *
-                  energy_at_unit_stretch(bond.view) *
-                  (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
+    dissipated +=
+      relative_energy(bond.view.first, bond.view.second) *
+      lattice.energy_at_unit_stretch(bond.view) *
+      (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
     bond.committed = bond.trial;
     committed_softening.push_back(
-      {bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
+      {lattice.bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
   }
   if (parameters.in_bonds)
   {
@@ -419,7 +367,7 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
   }
   committed_energy = dissipated;
   committed_damage_relaxation = damage_relaxation;
-  const double settled = (parameters.horizon + 1.5) * zone.spacing();
+  const double settled = (parameters.horizon + 1.5) * lattice.zone.spacing();
   std::vector<Point<dim>> front;
   for (unsigned int i = 0; i < cells.size(); ++i)
     if (at_front[i])
@@ -446,20 +394,22 @@ void Peridynamics<dim>::correct_faces()
     return;
   const auto is_relaxed = [&](const unsigned int site)
   {
-    for (unsigned int b = 0; b < stencil.size(); ++b)
-      if (!bonds.is_broken(site, b) &&
-          (1. - bond_damage(site, b)) * elongation(site, b, displacement) >
-            relaxed * softening.first * relative_stretch(site, b) * coefficients[b].length)
+    for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+      if (!lattice.bonds.is_broken(site, b) &&
+          (1. - bond_damage(site, b)) * lattice.elongation(site, b, displacement) >
+            relaxed * lattice.softening.first * relative_stretch(site, b) *
+              lattice.coefficients[b].length)
         return false;
     return true;
   };
   std::vector<unsigned int> changed;
-  for (const unsigned int i : zone.peridynamic_sites())
-    if (damage[i] > corrected_damage[i] && is_relaxed(i))
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    if (lattice.damage[i] > lattice.corrected_damage[i] && is_relaxed(i))
     {
-      corrected_damage[i] = committed_correction[zone.sites()[i].place] = damage[i];
+      lattice.corrected_damage[i] = committed_correction[lattice.zone.sites()[i].place] =
+        lattice.damage[i];
       changed.push_back(i);
-      append_family(i, changed);
+      lattice.append_family(i, changed);
     }
   row_versions.change(changed);
 }
@@ -471,15 +421,15 @@ void Peridynamics<dim>::rollback()
   messages.resize(n_messages_before);
   told_of_rim = told_of_rim_before;
   told_of_pressure = told_of_pressure_before;
-  told_off_paths = told_off_paths_before;
+  new_paths.told = told_of_new_paths_before;
   dissipated = committed_energy;
   paths = committed_paths;
   find_crossing_bonds();
   if (passes == 0)
     return;
   passes = 0;
-  bonds.reinit(zone, stencil);
-  bonds.set_broken(committed_bonds);
+  lattice.bonds.reinit(lattice.zone, lattice.stencil);
+  lattice.bonds.set_broken(committed_bonds);
   restore_softening();
   refresh_segments();
 }
@@ -522,11 +472,12 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
 {
   std::array<double, dim> origin;
   for (unsigned int d = 0; d < dim; ++d)
-    origin[d] = zone.origin()[d];
+    origin[d] = lattice.zone.origin()[d];
   std::vector<std::array<Point<dim>, 2>> grown;
   for (auto box = shape.boxes.begin() + parameters.boxes.size(); box != shape.boxes.end(); ++box)
     grown.push_back({{box->get_boundary_points().first, box->get_boundary_points().second}});
-  const auto broken = parameters.explicit_steps ? of_all_ranks(bonds.places()) : committed_bonds,
+  const auto broken =
+               parameters.explicit_steps ? of_all_ranks(lattice.bonds.places()) : committed_bonds,
              open = parameters.explicit_steps ? of_all_ranks(cracked.places()) : committed_cracked;
   const auto softened = of_all_ranks(committed_softening);
   std::map<Place<dim>, double> correction;
@@ -535,7 +486,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
     correction[place] = corrected;
   archive << origin << grown << broken << open << softened << committed_normals << correction
           << committed_energy << committed_damage_relaxation << told_of_pressure << committed_paths
-          << committed_way_energy << told_off_paths << committed_cells << told_of_contact
+          << committed_way_energy << new_paths.told << committed_cells << told_of_contact
           << told_of_rim;
 }
 
@@ -547,7 +498,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   std::vector<std::array<Point<dim>, 2>> grown;
   archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
     committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_pressure >> committed_paths >> committed_way_energy >> told_off_paths >>
+    told_of_pressure >> committed_paths >> committed_way_energy >> new_paths.told >>
     committed_cells >> told_of_contact >> told_of_rim;
   paths = committed_paths;
   Point<dim> corner;
@@ -558,15 +509,15 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
     shape.boxes.emplace_back(std::make_pair(lower, upper));
   started = true;
   dissipated = committed_energy;
-  const bool known_mesh = !zone.sites().empty();
+  const bool known_mesh = !lattice.zone.sites().empty();
   if (!known_mesh)
-    zone.set_origin(corner);
+    lattice.zone.set_origin(corner);
   else
   {
-    bonds.reinit(zone, stencil);
-    bonds.set_broken(committed_bonds);
+    lattice.bonds.reinit(lattice.zone, lattice.stencil);
+    lattice.bonds.set_broken(committed_bonds);
     restore_softening();
-    row_versions.restart(zone.sites().size());
+    row_versions.restart(lattice.zone.sites().size());
     refresh_segments();
   }
 }

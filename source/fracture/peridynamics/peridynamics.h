@@ -1,15 +1,13 @@
 #pragma once
 
-#include "fracture/peridynamics/bond_set.h"
 #include "fracture/peridynamics/crossed_cells.h"
 #include "fracture/peridynamics/explicit_bonds.h"
 #include "fracture/peridynamics/faces.h"
 #include "fracture/peridynamics/fracture_cells.h"
-#include "fracture/peridynamics/parameters.h"
+#include "fracture/peridynamics/lattice.h"
+#include "fracture/peridynamics/new_paths.h"
 #include "fracture/peridynamics/published_load.h"
-#include "fracture/peridynamics/rock_of_bonds.h"
 #include "fracture/peridynamics/row_versions.h"
-#include "fracture/peridynamics/softening.h"
 #include "fracture/peridynamics/tracked_paths.h"
 #include "stockwork/fracture/model.h"
 
@@ -97,14 +95,7 @@ private:
   /// two meet: lumped masses make short ones slow (tests/unit/peridynamics_seam_test.cc).
   bool is_all_bonds() const
   {
-    return zone.n_peridynamic_sites() == n_nodes;
-  }
-
-  /// A bond of a site in 'Unbreakable'.
-  bool never_breaks(unsigned int site, unsigned int bond) const
-  {
-    return !unbreakable.empty() &&
-           (unbreakable[site] || unbreakable[zone.far_end(site, bond).site]);
+    return lattice.zone.n_peridynamic_sites() == n_nodes;
   }
 
   /// Break the bonds that the initial open cracks pass through. Those across cohesive ones hold,
@@ -158,25 +149,8 @@ private:
                          const std::vector<double> &corrected_before,
                          const std::vector<FractureCell<dim>> &cells_before);
 
-  /// A site with hardly any bond left: a little of the broken ones holds it, see stiffness().
-  static bool is_nearly_detached(const double damage)
-  {
-    return damage > 0.9;
-  }
-
-  /// Append the sites that a site's bonds lead to.
-  void append_family(unsigned int site, std::vector<unsigned int> &sites) const;
-
   /// In the cell of a segment that this rank owns.
   double biot_coefficient(unsigned int cell) const;
-
-  /// At a place on a bond, with its Biot coefficient [Pa].
-  dealii::SymmetricTensor<2, dim> effective_in_situ_stress(unsigned int site,
-                                                           unsigned int bond,
-                                                           const dealii::Point<dim> &place) const;
-
-  /// Stretch that a bond has in the intact rock, by the effective in-situ stress.
-  double in_situ_stretch(unsigned int site, unsigned int bond) const;
 
   /// What cells do to the bonds around them besides elongating them.
   struct OfCells
@@ -192,12 +166,6 @@ private:
     double stretch; ///< an intact one of the same energy has it, over the critical one, rounded
     unsigned int site, bond;
   };
-
-  /// A bond as the first of its views, see BondSet::for_each_view().
-  using BondView = std::pair<unsigned int, unsigned int>;
-
-  /// The views of a bond, each once, sorted.
-  std::vector<BondView> views_of(unsigned int site, unsigned int bond) const;
 
   /// A bond that leads from one face to the other, as seen from one of its ends.
   struct BondAcross
@@ -247,7 +215,7 @@ private:
   /// Whether all bonds take the same energy and are as stiff as others.
   bool is_alike() const
   {
-    return rock_of_bonds.is_uniform() && parameters.cohesive_energy == 1.;
+    return lattice.rock_of_bonds.is_uniform() && parameters.cohesive_energy == 1.;
   }
 
   /// Energy that a bond takes, over that of one in the rock outside of regions: of the rock where
@@ -257,10 +225,6 @@ private:
   /// By this much a bond's critical stretch differs from that of one in the rock outside of
   /// regions.
   double relative_stretch(unsigned int site, unsigned int bond) const;
-
-  /// Elastic energy of a bond in the rock outside of regions, all of its views, at stretch one
-  /// [J/m].
-  double energy_at_unit_stretch(const BondView &view) const;
 
   /// Stretch, of a bond of the lattice's stiffness in the rock outside of regions that has as much
   /// of the energy that it takes.
@@ -289,20 +253,9 @@ private:
     return softening_bonds.size() + bond;
   }
 
-  /// The functional of a site's dilatation, see for_each_dilatation().
-  /// @return the modulus
-  double find_dilatation(unsigned int site,
-                         std::vector<unsigned int> &family,
-                         std::vector<dealii::Tensor<1, dim>> &functional) const;
-
   // With the pressure in the bonds (pressure_in_bonds.cc).
 
-  /// Strain of the lattice under a stress that has this traction on a plane of this normal, and is
-  /// the same in all directions along this plane and across it, but for shear.
-  dealii::SymmetricTensor<2, dim> strain_of_traction(const dealii::Tensor<1, dim> &normal,
-                                                     const dealii::Tensor<1, dim> &traction) const;
-
-  /// The same by the in-situ stress.
+  /// Strain that the lattice has by the in-situ stress on a cell's plane.
   dealii::SymmetricTensor<2, dim> released_strain(unsigned int cell) const;
 
   /// Of all cells, the same of unit tractions of the modes [1/Pa]: across the fracture and along
@@ -348,7 +301,7 @@ private:
   /// as it does to count bonds across the plane ahead of its tip only.
   bool is_wet_bond(const unsigned int site, const unsigned int bond) const
   {
-    return damage[site] > 0. || damage[zone.far_end(site, bond).site] > 0.;
+    return lattice.damage[site] > 0. || lattice.damage[lattice.zone.far_end(site, bond).site] > 0.;
   }
 
   /// The same for what a cell's faces have moved by: bonds ahead of the fluid belong to its last
@@ -367,12 +320,6 @@ private:
   /// which the fracture would release.
   double dry_stretch(unsigned int site, unsigned int bond) const;
 
-  /// The same of a bond across a plane.
-  double dry_stretch(unsigned int site,
-                     unsigned int bond,
-                     const dealii::Point<dim> &place,
-                     const dealii::Tensor<1, dim> &normal) const;
-
   /// A place itself, if it is that of a cell, or the nearest cell of the zone.
   Place<dim> cell_of_zone(const Place<dim> &place) const;
 
@@ -383,91 +330,16 @@ private:
   /// cells that it crosses, and their pressure acts on that, not the one on the line.
   LinearFunctional pores_across(const Segment<dim> &piece) const;
 
+  /// Paths begin where bonds far from all others are stretched too far.
+  /// @return why the run cannot go on; empty: it can
+  std::string begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
+
   /// Paths go on ahead of tips that have come near to their ends.
   void track(const State &state, const OfCells &of_cells);
 
   /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
   /// porous rock in all of the process zone, with candidates.
   std::vector<std::array<double, 2>> fluid_ahead(const std::vector<Candidate> &candidates) const;
-
-  // Paths that begin where there is none (new_paths.cc).
-
-  /// A bond that would soften if a path crossed it at right angles.
-  struct Overstretched
-  {
-    double stretch; ///< over the one at which it softens, rounded
-    unsigned int site, bond;
-    dealii::Point<dim> middle;
-  };
-
-  /// Where a path begins, or would.
-  struct Beginning
-  {
-    Overstretched bond; ///< with the place in its middle
-    dealii::Tensor<1, dim> direction;
-    dealii::SymmetricTensor<2, dim> stress; ///< in the mean around [Pa]
-  };
-
-  /// Why bonds hold that are stretched too far, once each: bits of told_off_paths.
-  static constexpr unsigned int held_at_side = 1, held_in_box = 2, held_at_rim = 4,
-                                held_without_stress = 8;
-
-  /// Sites that may have bonds so far from all paths.
-  void find_sites_off_paths();
-
-  /// Those far from all paths, by site, and others that nearly would.
-  std::vector<Overstretched> overstretched_off_paths() const;
-
-  /// Whether a point is in a cell of the zone, or of what may become one, or beyond all rock.
-  bool is_in_zone(const dealii::Point<dim> &point) const;
-
-  /// Whether others with the same middle would lead out of it.
-  bool is_near_rim(const Overstretched &bond) const;
-
-  /// At right angles to the greatest principal stress in the mean around.
-  Beginning
-  beginning_at(const Overstretched &bond, const State &state, const OfCells &of_cells) const;
-
-  /// Of its mean stress, what opens cracks [Pa].
-  dealii::SymmetricTensor<2, dim> effective_stress(const Beginning &path) const;
-
-  /// Whether the mean stress there is enough for what the bonds say.
-  bool is_in_tension(const Beginning &path) const;
-
-  /// Whether the place or the first pieces are in a box of 'Unbreakable'.
-  bool begins_in_unbreakable(const Beginning &path) const;
-
-  /// Paths begin where bonds far from all others are stretched too far.
-  /// @return why the run cannot go on; empty: it can
-  std::string begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
-
-  /// The same where bonds are stretched most.
-  /// @return places at which none begins, as the stress there is too small
-  std::vector<dealii::Point<dim>> begin_worst_paths(const std::vector<Overstretched> &all,
-                                                    const StepContext &context,
-                                                    const State &state,
-                                                    const OfCells &of_cells,
-                                                    std::string &reason);
-
-  /// One of them.
-  /// @return see begin_paths()
-  std::string begin_path(const Beginning &path, const StepContext &context);
-
-  /// Bonds are stretched too far at the rim of the zone.
-  /// @return why the run cannot go on; empty: it can, and it is said
-  std::string why_none_begins(const Beginning &path, const StepContext &context);
-
-  /// Part of a sentence.
-  std::string place_and_time(const dealii::Point<dim> &place, const StepContext &context) const;
-
-  /// A sentence: what acts at a place where bonds are stretched too far, and what they hold.
-  std::string stress_and_strength(const Beginning &path) const;
-
-  /// At a bond [Pa], see strength().
-  double strength_of(unsigned int site, unsigned int bond) const
-  {
-    return strength() * relative_stretch(site, bond) * rock_of_bonds.modulus(site, bond);
-  }
 
   /// How far tips have come by the energy that softening bonds have dissipated, and fluid with
   /// them.
@@ -504,10 +376,6 @@ private:
               const std::function<double(const dealii::Tensor<1, dim> &away)> &weight,
               const State &state,
               const OfCells &of_cells) const;
-
-  /// The direction at right angles to the greatest principal stress, nearest to another one.
-  static dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress,
-                                              const dealii::Tensor<1, 2> &ahead);
 
   /// The stress ahead of a tip, of sites on the side that @p ahead points to, weighted by their
   /// distance [Pa].
@@ -598,26 +466,6 @@ private:
   /// Apertures are what broken bonds enclose.
   void open_explicit_bonds(const Collectives &collectives);
 
-  /// The bonds of cells of this size [m].
-  void set_law(double spacing);
-
-  /// @throws InputError for entries of the deck that bonds would drop without a word
-  void refuse_what_bonds_do_not_know() const;
-
-  /// Isotropic effective stress at which bonds begin to break, or to soften [Pa].
-  double strength() const;
-
-  /// Before the run: what of the scene bonds of cells of this size [m] cannot carry.
-  void foresee(double spacing);
-
-  /// @throws InputError where it alone stretches bonds too far, so that paths would begin all over
-  /// the rock
-  void refuse_in_situ_tension();
-
-  void foresee_stress(double spacing);
-  void foresee_given_pressure(double spacing);
-  void foresee_pressure(double spacing);
-
   /// Where what is given opens a crack on a path and slides it as well: bonds across it that are
   /// pressed by that do not break, and hold what has parted. A sentence once that counts.
   std::string why_sliding_crack_holds() const;
@@ -641,48 +489,9 @@ private:
   /// The end of a sentence on bonds that break where they should not.
   std::string what_bonds_carry() const;
 
-  /// Elongation of a bond of a peridynamic site under displacements of all sites [m].
-  double elongation(unsigned int site, unsigned int bond, const std::vector<double> &u) const;
-
-  /// Of a bond, force per elongation [N/m], corrected. A site with hardly any bond left keeps a
-  /// little of the broken ones.
-  double stiffness(unsigned int site, unsigned int bond) const;
-
-  /// Where bonds are broken the others are stiffer by V over the mean of V_left of both ends, so
-  /// that a free face is not too soft (Le and Bobaru 2018, the volume method), once a tip has left
-  /// them behind: near it, bonds are stretched, and to make them stiffer then would add energy, 5 %
-  /// of G_c.
-  double correction(unsigned int site, unsigned int bond) const;
-
-  /// Of a bond that holds, by the rock there is to it [N/m].
-  double uncorrected_stiffness(const unsigned int site, const unsigned int bond) const
-  {
-    return volume_share(site, bond) * coefficients[bond].stiffness *
-           rock_of_bonds.modulus(site, bond);
-  }
-
-  /// By how much less there is to a bond where its ends have less than a cell of rock; zero: it is
-  /// absent.
-  double volume_share(const unsigned int site, const unsigned int bond) const
-  {
-    const FarEnd far = zone.far_end(site, bond);
-    return far.absent ? 0. : zone.sites()[site].volume * zone.sites()[far.site].volume;
-  }
-
   /// Of the bonds under displacements of all sites [J/m]: half of that of a bond belongs to each of
   /// its ends, and counts if the end is peridynamic.
   double strain_energy(const std::vector<double> &u) const;
-
-  /// Of a site: its energy per volume is half of it times the dilatation squared [Pa].
-  double dilatation_modulus(unsigned int site) const
-  {
-    return rock_of_bonds.is_uniform() ? law.dilatation_modulus
-                                      : rock_of_bonds.dilatation_modulus(site);
-  }
-
-  /// By `Surface correction`, of the dilatation of a site that has lost bonds: with it, a uniform
-  /// expansion has the same dilatation as everywhere.
-  double dilatation_factor(unsigned int site) const;
 
   /// Call use(family, functional, modulus) for each site whose dilatation theta acts on momentum
   /// rows of this rank: its energy is modulus/2 (sum functional_k . u_k)^2 over sites k of its
@@ -695,36 +504,20 @@ private:
   /// Whether this rank assembles the momentum rows of a site as bonds'.
   bool has_rows(unsigned int site) const
   {
-    return zone.sites()[site].peridynamic && zone.sites()[site].owner == rank;
+    return lattice.zone.sites()[site].peridynamic && lattice.zone.sites()[site].owner == rank;
   }
 
-  Parameters<dim> parameters;
+  const Parameters<dim> parameters;
   const Scene<dim> &scene;
   ZoneShape<dim> shape;
-  std::vector<StencilBond<dim>> stencil;
-
-  Zone<dim> zone;
-  RockOfBonds<dim> rock_of_bonds;
-  BondLaw law;
-  std::vector<BondCoefficients<dim>> coefficients;
-  double critical_stretch = 0.;
-  SofteningLaw softening;
-  double strain_of_pressure = 0.;   ///< of the lattice, in each direction [1/Pa]
-  double relief_by_fluid = 0.;      ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
-  double energy_over_spring = 1.;   ///< that a breaking bond sets free, over that of a mere spring
+  Lattice<dim> lattice;
   std::optional<Collectives> ranks; ///< null: before setup()
   unsigned int rank = 0;
-  unsigned int n_nodes = 0;                        ///< of the mesh
-  std::vector<dealii::types::material_id> regions; ///< of the rock, by active cell index
-  bool in_situ_is_zero = true;
+  unsigned int n_nodes = 0; ///< of the mesh
 
-  BondSet<dim> bonds;                         ///< broken ones
   BondSet<dim> cracked;                       ///< broken ones and those that have begun to soften
   std::vector<SofteningBond> softening_bonds; ///< sorted by view
-  std::vector<bool> unbreakable;              ///< sites; empty: none
-  std::vector<double> damage;                 ///< of all sites
   std::vector<unsigned int> n_broken;         ///< bonds of all sites
-  std::vector<double> corrected_damage;       ///< what the surface correction, if any, makes up for
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;    ///< of all ranks
   std::vector<bool> at_front;                ///< which of them the fracture ends at
@@ -736,9 +529,9 @@ private:
   std::vector<std::array<dealii::SymmetricTensor<2, dim>, 2>> modes; ///< see find_modes()
   std::vector<CellShares> softening_shares;                          ///< of the softening bonds
   TrackedPaths paths, committed_paths;
+  NewPaths<dim> new_paths;
   std::vector<BondAcross> crossing_bonds; ///< of `paths_crossed`, sorted by view
   std::optional<TrackedPaths> paths_crossed;
-  std::vector<unsigned int> sites_off_paths;                    ///< of `paths_crossed`
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
   std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
   std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here
@@ -759,7 +552,6 @@ private:
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
   bool told_of_rim = false, told_of_pressure = false, told_of_contact = false;
-  unsigned int told_off_paths = 0;
 
   // Of the current step.
   std::size_t n_messages_before = 0;
@@ -774,6 +566,6 @@ private:
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
   bool told_of_rim_before = false, told_of_pressure_before = false;
-  unsigned int told_off_paths_before = 0;
+  unsigned int told_of_new_paths_before = 0;
 };
 } // namespace stockwork::peridynamics

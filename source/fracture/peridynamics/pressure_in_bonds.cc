@@ -38,23 +38,6 @@ constexpr double share_when_bare = 0.25;
 
 
 template <int dim>
-SymmetricTensor<2, dim> Peridynamics<dim>::strain_of_traction(const Tensor<1, dim> &n,
-                                                              const Tensor<1, dim> &traction) const
-{
-  const LatticeModuli moduli = lattice_moduli<dim>(stencil, law, zone.spacing());
-  const double normal = traction * n;
-  const Tensor<1, dim> shear = traction - normal * n;
-  SymmetricTensor<2, dim> strain =
-    normal * strain_of_pressure * dealii::unit_symmetric_tensor<dim>();
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      strain[i][j] +=
-        (n[i] * shear[j] + n[j] * shear[i]) / (i == j ? moduli.c11 - moduli.c12 : 2. * moduli.c44);
-  return strain;
-}
-
-
-template <int dim>
 SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int cell) const
 {
   const Tensor<1, dim> &n = cells[cell].normal,
@@ -62,7 +45,7 @@ SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int ce
   if constexpr (dim == 2)
     return (traction * n) * modes[cell][0] + (traction * cross_product_2d(n)) * modes[cell][1];
   else
-    return strain_of_traction(n, traction);
+    return lattice.strain_of_traction(n, traction);
 }
 
 
@@ -70,10 +53,10 @@ template <int dim>
 std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const State &state) const
 {
   std::vector<SymmetricTensor<2, dim>> strain;
-  const double unit = 1. / (strain_of_pressure * zone.spacing());
+  const double unit = 1. / (lattice.strain_of_pressure * lattice.zone.spacing());
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    strain.push_back(in_situ_is_zero ? SymmetricTensor<2, dim>() : released[i]);
+    strain.push_back(lattice.in_situ_is_zero ? SymmetricTensor<2, dim>() : released[i]);
     for (unsigned int m = 0; m < n_modes(); ++m)
       strain.back() += unit * state.current.extra[unknown_of_faces(i, m) + 1] * modes[i][m];
   }
@@ -92,8 +75,9 @@ std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const
       const double closing =
         m == 0 ? -(segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal)) : 0.;
       unknowns.push_back({Key().add(segment.key).add(2 * m)});
-      unknowns.push_back({Key().add(segment.key).add(2 * m + 1),
-                          strain_of_pressure * zone.spacing() * std::max(0., closing)});
+      unknowns.push_back(
+        {Key().add(segment.key).add(2 * m + 1),
+         lattice.strain_of_pressure * lattice.zone.spacing() * std::max(0., closing)});
     }
   return unknowns;
 }
@@ -106,14 +90,14 @@ Peridynamics<dim>::fractured_stretch(const unsigned int site,
                                      const CellShares &shares,
                                      const std::vector<SymmetricTensor<2, dim>> &strain) const
 {
-  const Tensor<1, dim> &e = coefficients[bond].direction;
+  const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
   double stretch = 0.;
   if (parameters.tracked && shares.empty())
     return dry_stretch(site, bond);
   for (const auto &[cell, share] : shares)
     stretch += share * (e * (strain[cell] * e));
   // The stress is that of the intact lattice; bonds beside a crack, or of other rock, are stiffer.
-  return stretch * coefficients[bond].stiffness / stiffness(site, bond);
+  return stretch * lattice.coefficients[bond].stiffness / lattice.stiffness(site, bond);
 }
 
 
@@ -125,12 +109,12 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
   if (!parameters.tracked)
   {
     // What feels a given pressure is the same whatever the steps are.
-    if (softening.brittle() && !std::isnan(scene.crack_pressure) && !always)
+    if (lattice.softening.brittle() && !std::isnan(scene.crack_pressure) && !always)
       return is_wet_bond(site, bond) ? crossed.of(site, bond, true) : CellShares();
     return crossed.of(site, bond, always);
   }
   const auto crossing = crossing_of(site, bond);
-  return crossing ? paths.shares(*crossing, (parameters.horizon + 1.) * zone.spacing())
+  return crossing ? paths.shares(*crossing, (parameters.horizon + 1.) * lattice.zone.spacing())
                   : CellShares();
 }
 
@@ -138,7 +122,7 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
 template <int dim>
 CellShares Peridynamics<dim>::shares_of_jump(const BondAcross &bond) const
 {
-  return parameters.tracked ? paths.shares(bond.crossing, same_place * zone.spacing())
+  return parameters.tracked ? paths.shares(bond.crossing, same_place * lattice.zone.spacing())
                             : shares_of(bond.view.first, bond.view.second, true);
 }
 
@@ -149,10 +133,10 @@ std::vector<typename Peridynamics<dim>::BondAcross> Peridynamics<dim>::bonds_acr
   if (parameters.tracked)
     return crossing_bonds;
   std::vector<BondAcross> across;
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size(); ++b)
-      if (bonds.is_broken(i, b))
-        across.push_back({{i, b}, coefficients[b].direction, {}});
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+      if (lattice.bonds.is_broken(i, b))
+        across.push_back({{i, b}, lattice.coefficients[b].direction, {}});
   return across;
 }
 
@@ -171,9 +155,9 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
   modes.assign(cells.size(), {});
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
-    modes[i][0] = strain_of_traction(cells[i].normal, cells[i].normal);
+    modes[i][0] = lattice.strain_of_traction(cells[i].normal, cells[i].normal);
     if constexpr (dim == 2)
-      modes[i][1] = strain_of_traction(cells[i].normal, cross_product_2d(cells[i].normal));
+      modes[i][1] = lattice.strain_of_traction(cells[i].normal, cross_product_2d(cells[i].normal));
   }
   if constexpr (dim == 2)
   {
@@ -184,12 +168,12 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
     for (const BondAcross &bond : across)
     {
       const auto &[site, b] = bond.view;
-      if (!scene.has_pore_pressure && !bonds.is_broken(site, b))
+      if (!scene.has_pore_pressure && !lattice.bonds.is_broken(site, b))
         continue;
       const Tensor<1, dim> &e = bond.direction;
       // Half of a bond belongs to each end.
-      const double force =
-        0.5 * zone.sites()[site].share * coefficients[b].stiffness * coefficients[b].length;
+      const double force = 0.5 * lattice.zone.sites()[site].share *
+                           lattice.coefficients[b].stiffness * lattice.coefficients[b].length;
       for (const auto &[cell, share] : shares_of_jump(bond))
       {
         const Tensor<1, dim> &n = cells[cell].normal;
@@ -227,11 +211,11 @@ template <int dim>
 void Peridynamics<dim>::open_by_bonds()
 {
   if (!parameters.tracked)
-    crossed.reinit(zone, stencil, cells, parameters.horizon);
+    crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
   const std::vector<BondAcross> across = bonds_across();
   find_modes(across);
   released.clear();
-  if (!in_situ_is_zero)
+  if (!lattice.in_situ_is_zero)
     for (unsigned int i = 0; i < cells.size(); ++i)
       released.push_back(released_strain(i));
 
@@ -241,9 +225,9 @@ void Peridynamics<dim>::open_by_bonds()
   for (const BondAcross &bond : across)
     for (const auto &[cell, share] : shares_of_jump(bond))
     {
-      const double part = share * coefficients[bond.view.second].stiffness;
+      const double part = share * lattice.coefficients[bond.view.second].stiffness;
       all_bonds[cell] += part;
-      if (bonds.is_broken(bond.view.first, bond.view.second))
+      if (lattice.bonds.is_broken(bond.view.first, bond.view.second))
         broken_share[cell] += part;
     }
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -258,8 +242,8 @@ void Peridynamics<dim>::open_by_bonds()
     Segment<dim> &segment = owned_segments[k];
     Faces &own = faces[k];
     faces_of[i] = &own;
-    own.area = std::pow(zone.spacing(), dim - 1);
-    own.unit = 1. / (strain_of_pressure * zone.spacing());
+    own.area = std::pow(lattice.zone.spacing(), dim - 1);
+    own.unit = 1. / (lattice.strain_of_pressure * lattice.zone.spacing());
     own.segment = segment.key;
     own.friction = parameters.friction;
     own.rub = broken_share[i] > too_few_bonds;
@@ -289,25 +273,26 @@ void Peridynamics<dim>::open_by_bonds()
   const auto read = [&](const unsigned int cell, const unsigned int m, const Tensor<1, dim> &e)
   {
     const double strain = e * (modes[cell][m] * e);
-    return std::abs(strain) > same_place * strain_of_pressure ? strain : 0.;
+    return std::abs(strain) > same_place * lattice.strain_of_pressure ? strain : 0.;
   };
   for (const BondAcross &bond : across)
   {
     const auto &[i, b] = bond.view;
-    if (!bonds.is_broken(i, b))
+    if (!lattice.bonds.is_broken(i, b))
       continue;
     // Half of a bond belongs to each end.
-    const Tensor<1, dim> &e = coefficients[b].direction;
-    const double length = coefficients[b].length,
-                 force = 0.5 * zone.sites()[i].share * coefficients[b].stiffness * length;
-    const FarEnd end = zone.far_end(i, b);
+    const Tensor<1, dim> &e = lattice.coefficients[b].direction;
+    const double length = lattice.coefficients[b].length,
+                 force =
+                   0.5 * lattice.zone.sites()[i].share * lattice.coefficients[b].stiffness * length;
+    const FarEnd end = lattice.zone.far_end(i, b);
     for (const auto &[cell, share] : shares_of(i, b, true))
     {
       if (faces_of[cell] == nullptr)
         continue;
-      const double in_situ = in_situ_is_zero ? 0. : e * (released[cell] * e);
+      const double in_situ = lattice.in_situ_is_zero ? 0. : e * (released[cell] * e);
       // By a stress as much as in the lattice the bond is the longer the softer it is.
-      const double longer = length / rock_of_bonds.modulus(i, b);
+      const double longer = length / lattice.rock_of_bonds.modulus(i, b);
       std::array<double, 3> sums{{0., 0., share * force * in_situ}};
       for (unsigned int m = 0; m < n; ++m)
       {
@@ -325,8 +310,8 @@ void Peridynamics<dim>::open_by_bonds()
       };
       for (unsigned int d = 0; d < dim; ++d)
       {
-        add(zone.sites()[i].dofs[d], -e[d]);
-        add(zone.sites()[end.site].dofs[d], end.mirrored >> d & 1 ? -e[d] : e[d]);
+        add(lattice.zone.sites()[i].dofs[d], -e[d]);
+        add(lattice.zone.sites()[end.site].dofs[d], end.mirrored >> d & 1 ? -e[d] : e[d]);
       }
     }
   }
@@ -343,7 +328,7 @@ void Peridynamics<dim>::open_by_bonds()
   for (unsigned int number = 0; number < softening_bonds.size(); ++number)
   {
     const auto &[site, bond] = softening_bonds[number].view;
-    const Tensor<1, dim> &e = coefficients[bond].direction;
+    const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
     softening_shares.push_back(shares_of(site, bond, false));
     for (const auto &[cell, share] : softening_shares.back())
       if (Faces *own = faces_of[cell])
@@ -367,9 +352,10 @@ double Peridynamics<dim>::bare_aperture(const unsigned int cell) const
     {
       const TrackedPaths::Piece &piece = paths.wet_pieces()[cell];
       const RockProperties &main = scene.rock.main(),
-                           &here = scene.rock(regions[zone.active_cell_index(cells[cell].place)]);
+                           &here = scene.rock(
+                             lattice.regions[lattice.zone.active_cell_index(cells[cell].place)]);
       if (paths.end_at({piece.path, 0.5 * (piece.begin + piece.end)}))
-        return share_when_bare * 2. * main.energy_release_rate / strength() *
+        return share_when_bare * 2. * main.energy_release_rate / lattice.strength() *
                std::sqrt(here.energy_release_rate / main.energy_release_rate *
                          main.shear_modulus() / here.shear_modulus());
     }
@@ -381,8 +367,9 @@ template <int dim>
 double Peridynamics<dim>::push(const BondView &view) const
 {
   double sum = 0.;
-  for (const auto &[s, b] : views_of(view.first, view.second))
-    sum += 0.5 * zone.sites()[s].share * coefficients[b].stiffness * coefficients[b].length;
+  for (const auto &[s, b] : lattice.bonds.views_of(view.first, view.second))
+    sum += 0.5 * lattice.zone.sites()[s].share * lattice.coefficients[b].stiffness *
+           lattice.coefficients[b].length;
   return sum;
 }
 
@@ -390,8 +377,8 @@ double Peridynamics<dim>::push(const BondView &view) const
 template <int dim>
 void Peridynamics<dim>::commit_contact(const State &state)
 {
-  const double force =
-    std::pow(zone.spacing(), dim - 1) / (strain_of_pressure * zone.spacing()); // by y
+  const double force = std::pow(lattice.zone.spacing(), dim - 1) /
+                       (lattice.strain_of_pressure * lattice.zone.spacing()); // by y
   for (unsigned int i = 0; i < cells.size(); ++i)
   {
     if (state.current.extra[unknown_of_faces(i, 0)] < closed && !told_of_contact)
@@ -441,20 +428,20 @@ std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const
   Place<dim> lower, upper;
   lower.fill(std::numeric_limits<int>::max());
   upper.fill(std::numeric_limits<int>::min());
-  for (const Place<dim> &cell : zone.cells())
-    if (zone.owns(cell))
+  for (const Place<dim> &cell : lattice.zone.cells())
+    if (lattice.zone.owns(cell))
       for (unsigned int d = 0; d < dim; ++d)
       {
         lower[d] = std::min(lower[d], cell[d]);
         upper[d] = std::max(upper[d], cell[d]);
       }
   std::vector<unsigned int> sites;
-  for (unsigned int i = 0; i < zone.sites().size(); ++i)
+  for (unsigned int i = 0; i < lattice.zone.sites().size(); ++i)
   {
     bool is_near = true;
     for (unsigned int d = 0; d < dim; ++d)
-      is_near = is_near && zone.sites()[i].place[d] > lower[d] - reach &&
-                zone.sites()[i].place[d] < upper[d] + reach;
+      is_near = is_near && lattice.zone.sites()[i].place[d] > lower[d] - reach &&
+                lattice.zone.sites()[i].place[d] < upper[d] + reach;
     if (is_near)
       sites.push_back(i);
   }

@@ -21,22 +21,22 @@ typename Peridynamics<dim>::Softened
 Peridynamics<dim>::softened(const SofteningBond &softening_bond, const State &state) const
 {
   const auto &[site, bond] = softening_bond.view;
-  const FarEnd end = zone.far_end(site, bond);
+  const FarEnd end = lattice.zone.far_end(site, bond);
   double elongated = 0.;
   for (unsigned int d = 0; d < dim; ++d)
-    elongated +=
-      coefficients[bond].direction[d] *
-      ((end.mirrored >> d & 1 ? -1. : 1.) * state.current.bulk(zone.sites()[end.site].dofs[d]) -
-       state.current.bulk(zone.sites()[site].dofs[d]));
+    elongated += lattice.coefficients[bond].direction[d] *
+                 ((end.mirrored >> d & 1 ? -1. : 1.) *
+                    state.current.bulk(lattice.zone.sites()[end.site].dofs[d]) -
+                  state.current.bulk(lattice.zone.sites()[site].dofs[d]));
   const double by_elongation = equivalent_stretch(site, bond, 1.);
   const double stretch =
-    by_elongation * (elongated + softening_bond.offset * coefficients[bond].length);
+    by_elongation * (elongated + softening_bond.offset * lattice.coefficients[bond].length);
   const double kappa = maximum_stretch(softening_bond, stretch);
-  const double damage = softening.damage(kappa);
+  const double damage = lattice.softening.damage(kappa);
   const bool softens = stretch > softening_bond.committed;
-  return {damage, softens
-                    ? (softening.slope(kappa) - damage) / kappa * damage_relaxation * by_elongation
-                    : 0.};
+  return {damage, softens ? (lattice.softening.slope(kappa) - damage) / kappa * damage_relaxation *
+                              by_elongation
+                          : 0.};
 }
 
 
@@ -53,13 +53,13 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
   std::map<unsigned int, Dilatation> of_sites;
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
     for (const auto &[s, b] :
-         views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
-      of_sites[s].soft.emplace_back(n, coefficients[b].dilatation);
+         lattice.bonds.views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
+      of_sites[s].soft.emplace_back(n, lattice.coefficients[b].dilatation);
 
   LocalSystem local;
   for (auto &[site, of_site] : of_sites)
   {
-    of_site.modulus = find_dilatation(site, of_site.family, of_site.functional);
+    of_site.modulus = lattice.find_dilatation(site, of_site.family, of_site.functional);
     const bool acts_here = std::any_of(of_site.family.begin(), of_site.family.end(),
                                        [this](const unsigned int k) { return has_rows(k); });
     if (!acts_here)
@@ -74,7 +74,7 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
     // On the family, what does not count.
     for (unsigned int k = 0; k < of_site.family.size(); ++k)
     {
-      const auto &dofs = zone.sites()[of_site.family[k]].dofs;
+      const auto &dofs = lattice.zone.sites()[of_site.family[k]].dofs;
       for (unsigned int d = 0; d < dim; ++d)
         of_site.theta += of_site.functional[k][d] * state.current.bulk(dofs[d]);
       if (!has_rows(of_site.family[k]))
@@ -96,46 +96,48 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
     const auto &[site, bond] = softening_bonds[n].view;
-    const double k = stiffness(site, bond), y = state.current.extra[unknown_of_lost_force(n)];
-    for (const auto &[s, b] : views_of(site, bond))
+    const double k = lattice.stiffness(site, bond),
+                 y = state.current.extra[unknown_of_lost_force(n)];
+    for (const auto &[s, b] : lattice.bonds.views_of(site, bond))
       if (has_rows(s))
       {
-        local.bulk.assign(zone.sites()[s].dofs.begin(), zone.sites()[s].dofs.end());
+        local.bulk.assign(lattice.zone.sites()[s].dofs.begin(), lattice.zone.sites()[s].dofs.end());
         local.extra.assign(1, unknown_of_lost_force(n));
         local.reinit();
         for (unsigned int d = 0; d < dim; ++d)
         {
-          local.matrix(d, dim) = k * zone.sites()[s].share * coefficients[b].direction[d];
+          local.matrix(d, dim) =
+            k * lattice.zone.sites()[s].share * lattice.coefficients[b].direction[d];
           local.residual(d) = local.matrix(d, dim) * y;
         }
         sink.add(local);
       }
-    if (zone.sites()[site].owner != rank)
+    if (lattice.zone.sites()[site].owner != rank)
       continue;
 
     const Softened now = softened(softening_bonds[n], state);
-    const FarEnd end = zone.far_end(site, bond);
-    const double g = coefficients[bond].dilatation;
+    const FarEnd end = lattice.zone.far_end(site, bond);
+    const double g = lattice.coefficients[bond].dilatation;
     std::map<dealii::types::global_dof_index, double> by_dof;
     std::map<unsigned int, double> by_extra{{unknown_of_lost_force(n), k}};
     double force = 0.; // of the dilatations of both ends
     for (const unsigned int s : {site, end.site})
     {
       const Dilatation &of_site = of_sites.at(s);
-      const double factor = g * of_site.modulus / zone.sites()[s].share;
+      const double factor = g * of_site.modulus / lattice.zone.sites()[s].share;
       force += factor * of_site.theta;
       for (unsigned int i = 0; i < of_site.family.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          by_dof[zone.sites()[of_site.family[i]].dofs[d]] -=
+          by_dof[lattice.zone.sites()[of_site.family[i]].dofs[d]] -=
             now.damage * factor * of_site.functional[i][d];
       for (const auto &[m, of_other] : of_site.soft)
         by_extra[m] += now.damage * factor * of_other;
     }
     for (unsigned int d = 0; d < dim; ++d)
     {
-      const double e = coefficients[bond].direction[d] * force * now.by_elongation;
-      by_dof[zone.sites()[site].dofs[d]] += e;
-      by_dof[zone.sites()[end.site].dofs[d]] -= end.mirrored >> d & 1 ? -e : e;
+      const double e = lattice.coefficients[bond].direction[d] * force * now.by_elongation;
+      by_dof[lattice.zone.sites()[site].dofs[d]] += e;
+      by_dof[lattice.zone.sites()[end.site].dofs[d]] -= end.mirrored >> d & 1 ? -e : e;
     }
     local.bulk.clear();
     local.extra.clear();

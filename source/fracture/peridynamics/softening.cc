@@ -17,25 +17,12 @@ constexpr double wet_damage_beside = 0.5;
 
 
 template <int dim>
-std::vector<typename Peridynamics<dim>::BondView>
-Peridynamics<dim>::views_of(const unsigned int site, const unsigned int bond) const
-{
-  std::vector<BondView> views;
-  bonds.for_each_view(
-    site, bond, [&](const unsigned int s, const unsigned int b) { views.emplace_back(s, b); });
-  std::sort(views.begin(), views.end());
-  views.erase(std::unique(views.begin(), views.end()), views.end());
-  return views;
-}
-
-
-template <int dim>
 const typename Peridynamics<dim>::SofteningBond *
 Peridynamics<dim>::softening_bond(const unsigned int site, const unsigned int bond) const
 {
-  if (softening_bonds.empty() || !bonds.can_break(site, bond))
+  if (softening_bonds.empty() || !lattice.bonds.can_break(site, bond))
     return nullptr;
-  const BondView view = views_of(site, bond).front();
+  const BondView view = lattice.bonds.views_of(site, bond).front();
   const auto found =
     std::lower_bound(softening_bonds.begin(), softening_bonds.end(), view,
                      [](const SofteningBond &a, const BondView &b) { return a.view < b; });
@@ -46,21 +33,10 @@ Peridynamics<dim>::softening_bond(const unsigned int site, const unsigned int bo
 template <int dim>
 double Peridynamics<dim>::bond_damage(const unsigned int site, const unsigned int bond) const
 {
-  if (bonds.is_broken(site, bond))
+  if (lattice.bonds.is_broken(site, bond))
     return 1.;
   const SofteningBond *softened = softening_bond(site, bond);
-  return softened != nullptr ? softening.damage(softened->trial) : 0.;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::energy_at_unit_stretch(const BondView &view) const
-{
-  double energy = 0.;
-  for (const auto &[s, b] : views_of(view.first, view.second))
-    energy += 0.25 * zone.sites()[s].share * volume_share(s, b) * coefficients[b].stiffness *
-              coefficients[b].length * coefficients[b].length;
-  return energy_over_spring * energy;
+  return softened != nullptr ? lattice.softening.damage(softened->trial) : 0.;
 }
 
 
@@ -75,31 +51,27 @@ double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigne
           crossing->path < scene.cracks.size() && !paths.end_at(*crossing) &&
           scene.cracks[crossing->path].kind == InitialCrack<dim>::Kind::cohesive;
         return (cemented ? parameters.cohesive_energy : 1.) *
-               rock_of_bonds.energy(paths.point(*crossing));
+               lattice.rock_of_bonds.energy(paths.point(*crossing));
       }
-  return rock_of_bonds.energy(site, bond);
+  return lattice.rock_of_bonds.energy(site, bond);
 }
 
 
 template <int dim>
 double Peridynamics<dim>::relative_stretch(const unsigned int site, const unsigned int bond) const
 {
-  return is_alike() ? 1.
-                    : std::sqrt(relative_energy(site, bond) / rock_of_bonds.modulus(site, bond));
+  return is_alike()
+           ? 1.
+           : std::sqrt(relative_energy(site, bond) / lattice.rock_of_bonds.modulus(site, bond));
 }
 
 
-/// What breaks a bond is its energy; bonds beside a crack are stiffer.
 template <int dim>
 double Peridynamics<dim>::equivalent_stretch(const unsigned int site,
                                              const unsigned int bond,
                                              const double elongation) const
 {
-  const double whole =
-    volume_share(site, bond) * relative_energy(site, bond) * coefficients[bond].stiffness;
-  return whole > 0.
-           ? std::sqrt(stiffness(site, bond) / whole) * elongation / coefficients[bond].length
-           : 0.;
+  return lattice.equivalent_stretch(site, bond, elongation, relative_energy(site, bond));
 }
 
 
@@ -111,10 +83,10 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
     return unknowns;
   for (const SofteningBond &bond : softening_bonds)
   {
-    const auto [from, to] = bonds.places(bond.view.first, bond.view.second);
+    const auto [from, to] = lattice.bonds.places(bond.view.first, bond.view.second);
     unknowns.push_back({Key()
-                          .add(zone.position(from), 1e-4 * zone.spacing())
-                          .add(zone.position(to), 1e-4 * zone.spacing())});
+                          .add(lattice.zone.position(from), 1e-4 * lattice.zone.spacing())
+                          .add(lattice.zone.position(to), 1e-4 * lattice.zone.spacing())});
   }
   if (parameters.state_based)
     for (unsigned int n = 0; n < softening_bonds.size(); ++n)
@@ -149,53 +121,54 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
     const auto &[site, bond] = softening_bonds[n].view;
-    const double k = stiffness(site, bond), x = state.current.extra[n];
+    const double k = lattice.stiffness(site, bond), x = state.current.extra[n];
 
-    for (const auto &[s, b] : views_of(site, bond))
-      if (zone.sites()[s].owner == rank)
+    for (const auto &[s, b] : lattice.bonds.views_of(site, bond))
+      if (lattice.zone.sites()[s].owner == rank)
       {
         force.extra[0] = n;
         force.reinit();
         for (unsigned int d = 0; d < dim; ++d)
         {
-          force.bulk[d] = zone.sites()[s].dofs[d];
-          force.matrix(d, dim) = k * zone.sites()[s].share * coefficients[b].direction[d];
+          force.bulk[d] = lattice.zone.sites()[s].dofs[d];
+          force.matrix(d, dim) =
+            k * lattice.zone.sites()[s].share * lattice.coefficients[b].direction[d];
           force.residual(d) = force.matrix(d, dim) * x;
         }
         sink.add(force);
       }
 
-    if (zone.sites()[site].owner != rank)
+    if (lattice.zone.sites()[site].owner != rank)
       continue;
     law_of_bond.extra[0] = n;
-    const FarEnd end = zone.far_end(site, bond);
-    const Tensor<1, dim> &e = coefficients[bond].direction;
+    const FarEnd end = lattice.zone.far_end(site, bond);
+    const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
     Tensor<1, dim> at_far;
     double elongation = 0.;
     for (unsigned int d = 0; d < dim; ++d)
     {
       at_far[d] = end.mirrored >> d & 1 ? -e[d] : e[d];
-      law_of_bond.bulk[d] = zone.sites()[site].dofs[d];
-      law_of_bond.bulk[dim + d] = zone.sites()[end.site].dofs[d];
+      law_of_bond.bulk[d] = lattice.zone.sites()[site].dofs[d];
+      law_of_bond.bulk[dim + d] = lattice.zone.sites()[end.site].dofs[d];
       elongation += at_far[d] * state.current.bulk(law_of_bond.bulk[dim + d]) -
                     e[d] * state.current.bulk(law_of_bond.bulk[d]);
     }
-    double added = softening_bonds[n].offset * coefficients[bond].length;
+    double added = softening_bonds[n].offset * lattice.coefficients[bond].length;
     if (parameters.in_bonds)
-      added =
-        coefficients[bond].length * fractured_stretch(site, bond, softening_shares[n], strain);
+      added = lattice.coefficients[bond].length *
+              fractured_stretch(site, bond, softening_shares[n], strain);
     const double total = elongation + added;
     const double stretch = equivalent_stretch(site, bond, total);
     const double committed = softening_bonds[n].committed;
     const double kappa = maximum_stretch(softening_bonds[n], stretch);
-    const double damage = softening.damage(kappa);
+    const double damage = lattice.softening.damage(kappa);
     // What an in-situ stress adds to the stretch is not the bond's to carry, unless it is part of
     // its law.
     const double carried = parameters.in_bonds ? total : elongation;
     // Of damage times this elongation by the elongation.
     const double slope = stretch > committed && total != 0.
-                           ? damage + (softening.slope(kappa) - damage) * damage_relaxation *
-                                        stretch / kappa * carried / total
+                           ? damage + (lattice.softening.slope(kappa) - damage) *
+                                        damage_relaxation * stretch / kappa * carried / total
                            : damage;
     law_of_bond.extra.resize(1);
     if (parameters.in_bonds)
@@ -210,8 +183,9 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
       for (const auto &[cell, share] : softening_shares[n])
         for (unsigned int m = 0; m < n_modes(); ++m)
           law_of_bond.matrix(2 * dim, ++column) =
-            -slope * share * coefficients[bond].stiffness * coefficients[bond].length *
-            (e * (modes[cell][m] * e)) / (strain_of_pressure * zone.spacing());
+            -slope * share * lattice.coefficients[bond].stiffness *
+            lattice.coefficients[bond].length * (e * (modes[cell][m] * e)) /
+            (lattice.strain_of_pressure * lattice.zone.spacing());
     for (unsigned int d = 0; d < dim; ++d)
     {
       law_of_bond.matrix(2 * dim, d) = k * slope * e[d];
@@ -225,7 +199,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
 template <int dim>
 bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
 {
-  const double damage = rounded(softening.damage(bond.trial));
+  const double damage = rounded(lattice.softening.damage(bond.trial));
   if (damage <= SofteningLaw::wet_damage || damage > wet_damage_beside)
     return damage > SofteningLaw::wet_damage;
   const auto &[site, b] = bond.view;
@@ -233,7 +207,8 @@ bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
   {
     Tensor<1, dim> away; // from the cell's centre to the bond's middle, in spacings
     for (unsigned int d = 0; d < dim; ++d)
-      away[d] = zone.sites()[site].place[d] + 0.5 * stencil[b].offset[d] - cell.place[d] - 0.5;
+      away[d] = lattice.zone.sites()[site].place[d] + 0.5 * lattice.stencil[b].offset[d] -
+                cell.place[d] - 0.5;
     const double across = std::abs(away * cell.normal);
     if (across > 0.75 && across < parameters.horizon + 1. &&
         (away - (away * cell.normal) * cell.normal).norm() < parameters.horizon + 1.)
@@ -267,8 +242,9 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   const auto stretch_of = [&](const SofteningBond &bond)
   {
     const auto &[site, b] = bond.view;
-    return equivalent_stretch(
-      site, b, elongation(site, b, u) + added_stretch(bond, of_cells) * coefficients[b].length);
+    return equivalent_stretch(site, b,
+                              lattice.elongation(site, b, u) +
+                                added_stretch(bond, of_cells) * lattice.coefficients[b].length);
   };
   for (SofteningBond &bond : softening_bonds)
   {
@@ -279,7 +255,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   if (parameters.tracked)
     changed = advance_tips(candidates);
   else if (changed)
-    changed = find_fracture_cells(zone, cracked).size() != cells.size();
+    changed = find_fracture_cells(lattice.zone, cracked).size() != cells.size();
   for (const Candidate &candidate : candidates)
     changed = changed || candidate.stretch >= 1.;
   if (!changed)
@@ -289,14 +265,14 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   // in situ does between the faces of a dry path is theirs, for it has no segments.
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)
-    if (bond.committed >= softening.last &&
+    if (bond.committed >= lattice.softening.last &&
         !(parameters.tracked && dry_stretch(bond.view.first, bond.view.second) != 0.))
-      bonds.set_broken(bond.view.first, bond.view.second);
+      lattice.bonds.set_broken(bond.view.first, bond.view.second);
     else
       softening_now.push_back(bond);
   std::vector<BondView> views;
   for (const Candidate &candidate : candidates)
-    views.push_back(views_of(candidate.site, candidate.bond).front());
+    views.push_back(lattice.bonds.views_of(candidate.site, candidate.bond).front());
   std::sort(views.begin(), views.end());
   views.erase(std::unique(views.begin(), views.end()), views.end());
   for (const BondView &view : views)
@@ -320,27 +296,24 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
 template <int dim>
 void Peridynamics<dim>::restore_softening()
 {
-  cracked.reinit(zone, stencil);
+  cracked.reinit(lattice.zone, lattice.stencil);
   cracked.set_broken(committed_cracked);
   softening_bonds.clear();
   for (const auto &[places, values] : committed_softening)
-    if (const auto found = bonds.find(places))
-      softening_bonds.push_back(
-        {views_of(found->first, found->second).front(), values[0], values[0], values[1]});
+    if (const auto found = lattice.bonds.find(places))
+      softening_bonds.push_back({lattice.bonds.views_of(found->first, found->second).front(),
+                                 values[0], values[0], values[1]});
   std::sort(softening_bonds.begin(), softening_bonds.end(),
             [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
 }
 
 
 #define INSTANTIATE(dim)                                                                           \
-  template std::vector<Peridynamics<dim>::BondView> Peridynamics<dim>::views_of(                   \
-    unsigned int, unsigned int) const;                                                             \
   template const Peridynamics<dim>::SofteningBond *Peridynamics<dim>::softening_bond(              \
     unsigned int, unsigned int) const;                                                             \
   template double Peridynamics<dim>::bond_damage(unsigned int, unsigned int) const;                \
   template double Peridynamics<dim>::relative_energy(unsigned int, unsigned int) const;            \
   template double Peridynamics<dim>::relative_stretch(unsigned int, unsigned int) const;           \
-  template double Peridynamics<dim>::energy_at_unit_stretch(const BondView &) const;               \
   template double Peridynamics<dim>::equivalent_stretch(unsigned int, unsigned int, double) const; \
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \
   template double Peridynamics<dim>::maximum_stretch(const SofteningBond &, double) const;         \

@@ -40,7 +40,7 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
                                               const State &state,
                                               Sink &sink) const
 {
-  const auto cell = cell_of_size<dim>(zone.spacing());
+  const auto cell = cell_of_size<dim>(lattice.zone.spacing());
   for (const Segment<dim> &segment : owned_segments)
     permeability_tensor::add_flow(
       cell, segment,
@@ -66,14 +66,15 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
   const double stretch_of_pressure =
     rock.biot_coefficient / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
   local.bulk.resize(dim + 2);
-  for (const unsigned int i : zone.peridynamic_sites())
-    for (unsigned int b = 0; b < stencil.size() && has_rows(i); ++b)
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    for (unsigned int b = 0; b < lattice.stencil.size() && has_rows(i); ++b)
     {
-      const Site<dim> &site = zone.sites()[i], &far = zone.sites()[zone.far_end(i, b).site];
-      if (!bonds.is_broken(i, b))
+      const Site<dim> &site = lattice.zone.sites()[i],
+                      &far = lattice.zone.sites()[lattice.zone.far_end(i, b).site];
+      if (!lattice.bonds.is_broken(i, b))
         continue;
-      const double push =
-        0.5 * stretch_of_pressure * site.share * coefficients[b].stiffness * coefficients[b].length;
+      const double push = 0.5 * stretch_of_pressure * site.share *
+                          lattice.coefficients[b].stiffness * lattice.coefficients[b].length;
       local.bulk[dim] = site.pressure_dof;
       local.bulk[dim + 1] = far.pressure_dof;
       local.reinit();
@@ -82,7 +83,7 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
         local.bulk[d] = site.dofs[d];
         for (unsigned int end = 0; end < 2; ++end)
         {
-          local.matrix(d, dim + end) = -push * coefficients[b].direction[d];
+          local.matrix(d, dim + end) = -push * lattice.coefficients[b].direction[d];
           local.residual(d) +=
             local.matrix(d, dim + end) * state.current.bulk(local.bulk[dim + end]);
         }
@@ -90,11 +91,12 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
       sink.add(local);
     }
 
-  const auto shape = cell_of_size<dim>(zone.spacing());
+  const auto shape = cell_of_size<dim>(lattice.zone.spacing());
   for (unsigned int i = 0; i < owned_segments.size(); ++i)
   {
     const Segment<dim> &segment = owned_segments[i];
-    const auto region = regions[zone.active_cell_index(cells[owned_cells[i]].place)];
+    const auto region =
+      lattice.regions[lattice.zone.active_cell_index(cells[owned_cells[i]].place)];
     const double more_storage =
       (scene.rock.fluid().compressibility - scene.rock(region).inverse_biot_modulus) *
       context.pressure_rate / context.rate;

@@ -20,7 +20,20 @@ constexpr unsigned int sweeps = 3;
 /// The most that a lattice makes a piece read too much or too little by. What is off by more lacks
 /// bonds, as the ends of paths do, and stays as it is.
 constexpr double most_of_lattice = 0.1;
+/// Of the greater principal stress, less than which they do not differ.
+constexpr double same_stress = 1e-9;
 } // namespace
+
+
+Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress, const Tensor<1, 2> &ahead)
+{
+  const double half = 0.5 * (stress[0][0] - stress[1][1]), shear = stress[0][1];
+  if (std::hypot(half, shear) <= same_stress * stress.norm())
+    return ahead;
+  const double angle = 0.5 * std::atan2(shear, half) + 0.5 * M_PI;
+  const Tensor<1, 2> direction({std::cos(angle), std::sin(angle)});
+  return direction * ahead < 0. ? -direction : direction;
+}
 
 
 std::optional<std::array<double, 2>> TrackedPaths::meet(const Point<2> &a,

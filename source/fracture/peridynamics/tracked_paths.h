@@ -13,6 +13,10 @@
 
 namespace stockwork::peridynamics
 {
+/// The direction at right angles to the greatest principal stress, nearest to another one.
+dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress,
+                                     const dealii::Tensor<1, 2> &ahead);
+
 /// The ways of cracks in a plane, as lines of straight pieces about as long as cells: an initial
 /// crack, and ahead of each of its ends that is in rock the way that it will take. Bonds soften
 /// only where they cross one. How far a tip has come on its way is known from the energy that has

@@ -65,40 +65,41 @@ void Peridynamics<dim>::find_crossing_bonds()
       return;
     paths_crossed = paths;
     crossing_bonds.clear();
-    find_sites_off_paths();
-    std::vector<bool> is_near(zone.sites().size(), false);
+    new_paths.look_beside(paths);
+    std::vector<bool> is_near(lattice.zone.sites().size(), false);
     const int reach = parameters.horizon + 1;
     for (const auto &[lower, upper] : paths.boxes())
     {
       Place<dim> first, last;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double origin = zone.position(Place<dim>{})[d];
-        first[d] = static_cast<int>(std::floor((lower[d] - origin) / zone.spacing())) - reach;
-        last[d] = static_cast<int>(std::ceil((upper[d] - origin) / zone.spacing())) + reach;
+        const double origin = lattice.zone.position(Place<dim>{})[d];
+        first[d] =
+          static_cast<int>(std::floor((lower[d] - origin) / lattice.zone.spacing())) - reach;
+        last[d] = static_cast<int>(std::ceil((upper[d] - origin) / lattice.zone.spacing())) + reach;
       }
       for (int x = first[0]; x <= last[0]; ++x)
         for (int y = first[1]; y <= last[1]; ++y)
-          if (const unsigned int site = zone.find({{x, y}});
+          if (const unsigned int site = lattice.zone.find({{x, y}});
               site != dealii::numbers::invalid_unsigned_int)
             is_near[site] = true;
     }
-    for (const unsigned int i : zone.peridynamic_sites())
-      for (unsigned int b = 0; b < stencil.size() && is_near[i]; ++b)
+    for (const unsigned int i : lattice.zone.peridynamic_sites())
+      for (unsigned int b = 0; b < lattice.stencil.size() && is_near[i]; ++b)
       {
         // Beyond planes of symmetry paths go on as images.
-        const Place<dim> &from = zone.sites()[i].place;
-        const FarEnd end = zone.far_end(i, b);
-        const Place<dim> &image = zone.sites()[end.site].place;
+        const Place<dim> &from = lattice.zone.sites()[i].place;
+        const FarEnd end = lattice.zone.far_end(i, b);
+        const Place<dim> &image = lattice.zone.sites()[end.site].place;
         for (unsigned int mirrored = 0; mirrored <= end.mirrored; ++mirrored)
         {
           if ((mirrored & ~static_cast<unsigned int>(end.mirrored)) != 0)
             continue;
-          BondAcross bond{{i, b}, coefficients[b].direction, {}};
+          BondAcross bond{{i, b}, lattice.coefficients[b].direction, {}};
           Place<dim> first = from, last = from;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            last[d] += stencil[b].offset[d];
+            last[d] += lattice.stencil[b].offset[d];
             if (mirrored >> d & 1)
             {
               first[d] = image[d] + last[d] - from[d];
@@ -106,13 +107,14 @@ void Peridynamics<dim>::find_crossing_bonds()
               bond.direction[d] = -bond.direction[d];
             }
           }
-          if (const auto crossing = paths.crossing(zone.position(first), zone.position(last)))
+          if (const auto crossing =
+                paths.crossing(lattice.zone.position(first), lattice.zone.position(last)))
           {
             bond.crossing = *crossing;
             for (unsigned int c = 0; c < scene.cracks.size(); ++c)
-              bond.was_cut |= c != crossing->path &&
-                              scene.cracks[c].kind == InitialCrack<dim>::Kind::open &&
-                              paths.crosses_initial(c, zone.position(first), zone.position(last));
+              bond.was_cut |=
+                c != crossing->path && scene.cracks[c].kind == InitialCrack<dim>::Kind::open &&
+                paths.crosses_initial(c, lattice.zone.position(first), lattice.zone.position(last));
             crossing_bonds.push_back(bond);
             break;
           }
@@ -140,23 +142,10 @@ template <int dim>
 double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned int bond) const
 {
   if constexpr (dim == 2)
-    if (!in_situ_is_zero)
+    if (!lattice.in_situ_is_zero)
       if (const auto crossing = crossing_of(site, bond); crossing && !paths.is_wet(crossing->path))
-        return dry_stretch(site, bond, paths.point(*crossing), paths.left(*crossing));
+        return lattice.dry_stretch(site, bond, paths.point(*crossing), paths.left(*crossing));
   return 0.;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::dry_stretch(const unsigned int site,
-                                      const unsigned int bond,
-                                      const Point<dim> &place,
-                                      const Tensor<1, dim> &normal) const
-{
-  const Tensor<1, dim> &e = coefficients[bond].direction;
-  const SymmetricTensor<2, dim> strain =
-    strain_of_traction(normal, effective_in_situ_stress(site, bond, place) * normal);
-  return e * (strain * e) * coefficients[bond].stiffness / stiffness(site, bond);
 }
 
 
@@ -171,7 +160,7 @@ Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &place) const
     Place<dim> corner = place;
     for (unsigned int d = 0; d < dim; ++d)
       corner[d] += v >> d & 1;
-    is_cell = is_cell && zone.find(corner) != dealii::numbers::invalid_unsigned_int;
+    is_cell = is_cell && lattice.zone.find(corner) != dealii::numbers::invalid_unsigned_int;
   }
   if (is_cell)
     return place;
@@ -182,7 +171,7 @@ Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &place) const
       sum += (cell[d] - place[d]) * (cell[d] - place[d]);
     return sum;
   };
-  return *std::min_element(zone.cells().begin(), zone.cells().end(),
+  return *std::min_element(lattice.zone.cells().begin(), lattice.zone.cells().end(),
                            [&](const Place<dim> &a, const Place<dim> &b)
                            { return distance(a) < distance(b); });
 }
@@ -196,13 +185,14 @@ void Peridynamics<dim>::follow_paths()
   find_crossing_bonds();
   if constexpr (dim == 2)
   {
-    const double h = zone.spacing();
+    const double h = lattice.zone.spacing();
     TrackedPaths::Readings readings;
     for (const BondAcross &bond : crossing_bonds)
     {
       const auto &[site, b] = bond.view;
-      readings.emplace_back(bond.crossing, zone.sites()[site].share * coefficients[b].stiffness *
-                                             coefficients[b].length *
+      readings.emplace_back(bond.crossing, lattice.zone.sites()[site].share *
+                                             lattice.coefficients[b].stiffness *
+                                             lattice.coefficients[b].length *
                                              std::abs(bond.direction * paths.left(bond.crossing)));
     }
     paths.share_evenly(readings);
@@ -220,8 +210,8 @@ void Peridynamics<dim>::follow_paths()
       FractureCell<dim> cell;
       cell.normal = segment.normal;
       for (unsigned int d = 0; d < dim; ++d)
-        cell.place[d] = static_cast<int>(
-          std::floor((segment.centre[d] - zone.position(Place<dim>{})[d]) / h + same_place));
+        cell.place[d] = static_cast<int>(std::floor(
+          (segment.centre[d] - lattice.zone.position(Place<dim>{})[d]) / h + same_place));
       cell.place = cell_of_zone(cell.place);
       cells.push_back(cell);
       for (unsigned int v = 0; v < 1u << dim; ++v)
@@ -231,16 +221,16 @@ void Peridynamics<dim>::follow_paths()
         for (unsigned int d = 0; d < dim; ++d)
         {
           corner[d] += v >> d & 1;
-          weight *= 1. - std::abs(segment.centre[d] - zone.position(corner)[d]) / h;
+          weight *= 1. - std::abs(segment.centre[d] - lattice.zone.position(corner)[d]) / h;
         }
-        const unsigned int site = zone.find(corner);
+        const unsigned int site = lattice.zone.find(corner);
         if (site == dealii::numbers::invalid_unsigned_int ||
-            zone.sites()[site].pressure_dof == dealii::numbers::invalid_dof_index)
+            lattice.zone.sites()[site].pressure_dof == dealii::numbers::invalid_dof_index)
           continue;
-        segment.pore_pressure.bulk.push_back(zone.sites()[site].pressure_dof);
+        segment.pore_pressure.bulk.push_back(lattice.zone.sites()[site].pressure_dof);
         segment.pore_pressure.bulk_coefficients.push_back(weight);
         segment.pore_distance +=
-          weight * std::abs((zone.position(corner) - segment.centre) * segment.normal);
+          weight * std::abs((lattice.zone.position(corner) - segment.centre) * segment.normal);
       }
       all_segments.push_back(segment);
     }
@@ -270,7 +260,8 @@ LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &piece) cons
   {
     constexpr double reach = 0.5; // of the piece; all lengths in spacings
     const Tensor<1, dim> &n = piece.normal, along = cross_product_2d(n);
-    const Tensor<1, dim> centre = (piece.centre - zone.position(Place<dim>{})) / zone.spacing();
+    const Tensor<1, dim> centre =
+      (piece.centre - lattice.zone.position(Place<dim>{})) / lattice.zone.spacing();
     std::map<unsigned int, double> weights; // by site
     double sum = 0.;
     const auto add_cell = [&](const Place<dim> &cell)
@@ -297,9 +288,9 @@ LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &piece) cons
         Place<dim> corner = cell;
         for (unsigned int d = 0; d < dim; ++d)
           corner[d] += a >> d & 1;
-        const unsigned int site = zone.find(corner);
+        const unsigned int site = lattice.zone.find(corner);
         if (site == dealii::numbers::invalid_unsigned_int ||
-            zone.sites()[site].pressure_dof == dealii::numbers::invalid_dof_index)
+            lattice.zone.sites()[site].pressure_dof == dealii::numbers::invalid_dof_index)
           continue;
         // int N_a n.grad(the jump), which is one on the side that the normal points to.
         double integral = 0.;
@@ -324,7 +315,7 @@ LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &piece) cons
     for (const auto &[site, weight] : weights)
       if (weight != 0.)
       {
-        result.bulk.push_back(zone.sites()[site].pressure_dof);
+        result.bulk.push_back(lattice.zone.sites()[site].pressure_dof);
         result.bulk_coefficients.push_back(weight / sum);
       }
   }
@@ -342,8 +333,8 @@ std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const
     {
       const SofteningBond &bond = softening_bonds[n];
       energy[end->path][end->side] +=
-        energy_at_unit_stretch(bond.view) *
-        (softening.dissipated(bond.trial) - softening.dissipated(bond.committed));
+        lattice.energy_at_unit_stretch(bond.view) *
+        (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
     }
   return energy;
 }
@@ -354,7 +345,8 @@ double Peridynamics<dim>::half_process_zones() const
 {
   std::map<std::pair<unsigned int, unsigned int>, double> ahead;
   for (unsigned int n = 0; n < softening_ends.size(); ++n)
-    if (const auto &end = softening_ends[n]; end && softening.damage(softening_bonds[n].trial) > 0.)
+    if (const auto &end = softening_ends[n];
+        end && lattice.softening.damage(softening_bonds[n].trial) > 0.)
     {
       const auto crossing =
         crossing_of(softening_bonds[n].view.first, softening_bonds[n].view.second);
@@ -388,7 +380,7 @@ Peridynamics<dim>::fluid_ahead(const std::vector<Candidate> &candidates) const
   if (scene.has_pore_pressure)
   {
     for (const SofteningBond &bond : softening_bonds)
-      if (rounded(softening.damage(bond.trial)) > 0.)
+      if (rounded(lattice.softening.damage(bond.trial)) > 0.)
         reach(bond.view);
     for (const Candidate &candidate : candidates)
       if (candidate.stretch >= 1.)
@@ -405,7 +397,7 @@ template <int dim>
 bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &candidates)
 {
   const auto energy = energy_across_ways();
-  const double h = zone.spacing(), unit = h * scene.rock.main().energy_release_rate;
+  const double h = lattice.zone.spacing(), unit = h * scene.rock.main().energy_release_rate;
   const auto fluid = fluid_ahead(candidates);
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
@@ -431,9 +423,10 @@ double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &end) const
   double energy = 0.;
   for (const BondAcross &bond : crossing_bonds)
     if (bond.crossing.path == end.path && !bond.was_cut &&
-        views_of(bond.view.first, bond.view.second).front() == bond.view)
+        lattice.bonds.views_of(bond.view.first, bond.view.second).front() == bond.view)
       if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
-        energy += energy_at_unit_stretch(bond.view) * softening.dissipated(softening.last);
+        energy += lattice.energy_at_unit_stretch(bond.view) *
+                  lattice.softening.dissipated(lattice.softening.last);
   return energy;
 }
 
@@ -447,7 +440,7 @@ SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
   SymmetricTensor<2, dim> stress;
   if constexpr (dim == 2)
   {
-    const double length = parameters.horizon * zone.spacing();
+    const double length = parameters.horizon * lattice.zone.spacing();
     stress = mean_stress(
       tip, 3. * length,
       [&](const Tensor<1, dim> &away) { return ring_weight(away / length, ahead); }, state,
@@ -458,11 +451,28 @@ SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(const Point<dim> &tip,
 
 
 template <int dim>
+std::string Peridynamics<dim>::begin_paths(const StepContext &context,
+                                           const State &state,
+                                           const OfCells &of_cells)
+{
+  const std::string reason = new_paths.begin(
+    context, displacement,
+    [&](const Point<dim> &place, const double reach,
+        const std::function<double(const Tensor<1, dim> &)> &weight)
+    { return mean_stress(place, reach, weight, state, of_cells); },
+    paths);
+  for (std::string &message : new_paths.take_messages())
+    messages.push_back(std::move(message));
+  return reason;
+}
+
+
+template <int dim>
 void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
 {
   if constexpr (dim == 2)
   {
-    const double h = zone.spacing();
+    const double h = lattice.zone.spacing();
     const auto energy = energy_across_ways();
     // Before anything softens a way may still be another.
     const auto is_untouched = [&](const TrackedPaths::End &end)
@@ -508,24 +518,24 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   }
 }
 
-#define INSTANTIATE(dim)                                                                         \
-  template void Peridynamics<dim>::find_crossing_bonds();                                        \
-  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(                 \
-    unsigned int, unsigned int) const;                                                           \
-  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;              \
-  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int, const Point<dim> &, \
-                                                 const Tensor<1, dim> &) const;                  \
-  template Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &) const;                 \
-  template void Peridynamics<dim>::follow_paths();                                               \
-  template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;         \
-  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const;     \
-  template double Peridynamics<dim>::half_process_zones() const;                                 \
-  template std::vector<std::array<double, 2>> Peridynamics<dim>::fluid_ahead(                    \
-    const std::vector<Candidate> &) const;                                                       \
-  template bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &);                 \
-  template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;             \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                              \
-    const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;           \
+#define INSTANTIATE(dim)                                                                     \
+  template void Peridynamics<dim>::find_crossing_bonds();                                    \
+  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
+    unsigned int, unsigned int) const;                                                       \
+  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;          \
+  template Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &) const;             \
+  template void Peridynamics<dim>::follow_paths();                                           \
+  template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;     \
+  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
+  template double Peridynamics<dim>::half_process_zones() const;                             \
+  template std::vector<std::array<double, 2>> Peridynamics<dim>::fluid_ahead(                \
+    const std::vector<Candidate> &) const;                                                   \
+  template bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &);             \
+  template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;         \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                          \
+    const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;       \
+  template std::string Peridynamics<dim>::begin_paths(const StepContext &, const State &,    \
+                                                      const OfCells &);                      \
   template void Peridynamics<dim>::track(const State &, const OfCells &);
 INSTANTIATE(2)
 INSTANTIATE(3)

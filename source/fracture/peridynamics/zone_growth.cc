@@ -33,7 +33,7 @@ bool Peridynamics<dim>::enlarge_zone()
   if (parameters.zone_growth == 0)
     return false;
   const std::size_t n_boxes = shape.boxes.size();
-  const double h = zone.spacing();
+  const double h = lattice.zone.spacing();
   std::vector<Point<dim>> active;
   for (unsigned int i = 0; i < cells.size(); ++i)
     if (at_front[i])
@@ -41,8 +41,8 @@ bool Peridynamics<dim>::enlarge_zone()
   for (const SofteningBond &bond : softening_bonds)
   {
     const auto &[site, b] = bond.view;
-    active.push_back(zone.position(zone.sites()[site].place) +
-                     0.5 * coefficients[b].length * coefficients[b].direction);
+    active.push_back(lattice.zone.position(lattice.zone.sites()[site].place) +
+                     0.5 * lattice.coefficients[b].length * lattice.coefficients[b].direction);
   }
 
   const auto is_in_zone = [&](const BoundingBox<dim> &box)
@@ -68,7 +68,7 @@ bool Peridynamics<dim>::enlarge_zone()
   };
   for (const Point<dim> &point : active)
   {
-    const BoundingBox<dim> wanted = surroundings(point, parameters.margin * h, zone.room());
+    const BoundingBox<dim> wanted = surroundings(point, parameters.margin * h, lattice.zone.room());
     if (is_in_zone(wanted))
       continue;
     // Ahead is away from where the fracture is, along it.
@@ -88,7 +88,7 @@ bool Peridynamics<dim>::enlarge_zone()
     ahead -= (ahead * normal) * normal;
     if (ahead.norm() > 0.1 * h)
       ahead *= parameters.zone_growth * h / ahead.norm();
-    BoundingBox<dim> box = surroundings(point + ahead, parameters.margin * h, zone.room());
+    BoundingBox<dim> box = surroundings(point + ahead, parameters.margin * h, lattice.zone.room());
     box.merge_with(wanted);
     shape.boxes.push_back(box);
   }
@@ -100,8 +100,9 @@ template <int dim>
 bool Peridynamics<dim>::zone_may_include(const unsigned int site, const unsigned int bond) const
 {
   return parameters.zone_growth > 0 &&
-         zone.room().point_inside(zone.position(zone.sites()[zone.far_end(site, bond).site].place),
-                                  1e-6);
+         lattice.zone.room().point_inside(
+           lattice.zone.position(lattice.zone.sites()[lattice.zone.far_end(site, bond).site].place),
+           1e-6);
 }
 
 template bool Peridynamics<2>::enlarge_zone();

@@ -1,0 +1,222 @@
+#include "fracture/peridynamics/foresight.h"
+
+#include "fracture/peridynamics/lattice_moduli.h"
+#include "fracture/peridynamics/wording.h"
+#include "stockwork/base/error.h"
+#include "stockwork/fracture/needs.h"
+#include "verification/analytical/kgd.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stockwork::peridynamics
+{
+using dealii::Point;
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace
+{
+/// In-situ stress along a crack less that across it, over the strength, below which pressure and
+/// length are off by less than 1 %.
+constexpr double equal_stress = 0.1;
+/// That above which bonds break without end in the first step, or faces overlap, whatever its
+/// length.
+constexpr double hopeless_stress = 2.5;
+
+/// Unit normals and middles of the flat parts of a crack.
+template <int dim>
+std::vector<std::pair<Point<dim>, Tensor<1, dim>>> flat_parts(const InitialCrack<dim> &crack)
+{
+  std::vector<std::pair<Point<dim>, Tensor<1, dim>>> parts;
+  if (crack.disc)
+    parts.emplace_back(crack.disc->centre, crack.disc->normal);
+  if constexpr (dim == 2)
+    for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
+      if (const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i]; along.norm() > 0.)
+        parts.emplace_back(crack.points[i] + 0.5 * along, cross_product_2d(along) / along.norm());
+  return parts;
+}
+/// Bonds that cross the way of a crack feel the stress along it as well, and the faces release only
+/// that across it.
+template <int dim>
+void foresee_stress(const Lattice<dim> &lattice,
+                    const double spacing,
+                    std::vector<std::string> &messages)
+{
+  const Parameters<dim> &parameters = lattice.parameters;
+  const Scene<dim> &scene = lattice.scene;
+  double worst = equal_stress * lattice.strength();
+  std::string message;
+  const std::string closure =
+    "'Fracture/peridynamics/Closure = in bonds'" +
+    std::string(parameters.state_based ? " with 'Fracture/peridynamics/Bond law = bond-based'"
+                                       : "");
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    for (const auto &[middle, normal] : flat_parts(crack))
+    {
+      const SymmetricTensor<2, dim> stress = scene.in_situ_stress(middle);
+      const double across = normal * (stress * normal);
+      const SymmetricTensor<2, dim> difference =
+        stress - across * dealii::unit_symmetric_tensor<dim>();
+      const double along = (trace(stress) - across) / (dim - 1),
+                   shear = (stress * normal - across * normal).norm(), unequal = difference.norm();
+      if (unequal <= worst)
+        continue;
+      worst = unequal;
+      if (unequal > hopeless_stress * lattice.strength())
+        throw InputError(
+          "In situ/Stress: along the crack '" + crack.text + "' it is " + megapascals(along) +
+          ", across it " + megapascals(across) +
+          (shear > 1e-6 * unequal ? ", with a shear stress of " + megapascals(shear) : "") +
+          ". Bonds ahead of the crack feel the difference, and hold " +
+          megapascals(lattice.strength()) + " with cells of " + text(spacing) +
+          " m. With more than " + text(hopeless_stress) +
+          " times that, runs fail in their first steps. Use " + closure + ", a smaller difference" +
+          (dim == 2 ? ", smaller cells, or 'cohesive_xfem'." : " or smaller cells."));
+      message =
+        "The in-situ stress along the crack '" + crack.text + "', " + megapascals(along) +
+        ", is not that across it, " + megapascals(across) +
+        (shear > 1e-6 * unequal ? ", and there is a shear stress of " + megapascals(shear) : "") +
+        ". Bonds ahead of the crack feel all of it, and what they hold, " +
+        megapascals(lattice.strength()) + " with cells of " + text(spacing) + " m, is " +
+        (unequal > lattice.strength() ? "less" : "little more") +
+        ": expect pressures and lengths that are wrong by ten per cent and more, or no " +
+        "convergence. Use " + closure + (dim == 2 ? " or 'cohesive_xfem'." : ".");
+    }
+  if (!message.empty())
+    messages.push_back(message);
+}
+
+
+/// At rest no step converges with it; in motion the rock beside the crack comes to pieces, and the
+/// run goes on.
+template <int dim>
+void foresee_given_pressure(const Lattice<dim> &lattice,
+                            const double spacing,
+                            std::vector<std::string> &messages)
+{
+  const Parameters<dim> &parameters = lattice.parameters;
+  const Scene<dim> &scene = lattice.scene;
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    for (const auto &[middle, normal] : flat_parts(crack))
+    {
+      const double across = normal * (scene.in_situ_stress(middle) * normal),
+                   net = scene.crack_pressure + across;
+      if (net < lattice.strength())
+        continue;
+      if (parameters.tracked && across >= lattice.strength())
+        return; // refuse_in_situ_tension() says it better
+      const std::string what =
+        "in the crack '" + crack.text + "' the net pressure is " + megapascals(net) +
+        ", and bonds of cells of " + text(spacing) + " m hold " + megapascals(lattice.strength()) +
+        "; beyond that they break over an area where a crack should be. Cells of less than " +
+        text(std::pow(lattice.strength() / net, 2) * spacing) +
+        " m hold it ('Fracture/peridynamics/Cell size')";
+      if (!parameters.has_inertia)
+        throw EntryError("Cracks/Fluid pressure", megapascals(scene.crack_pressure),
+                         "less: " + what);
+      messages.push_back("'Cracks/Fluid pressure': " + what + ".");
+      return;
+    }
+}
+
+
+/// The pressure of a fracture in an infinite body is greatest when it is short. It is taken when
+/// each wing has the length of the crack, or of a horizon.
+template <int dim>
+void foresee_pressure(const Lattice<dim> &lattice,
+                      const double spacing,
+                      std::vector<std::string> &messages)
+{
+  const Parameters<dim> &parameters = lattice.parameters;
+  const Scene<dim> &scene = lattice.scene;
+  if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
+    return;
+  const RockProperties &rock = scene.rock.main();
+  const analytical::KgdParameters fracture{
+    rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio, scene.rock.fluid().viscosity,
+    rock.toughness(), scene.injection_rate};
+  const analytical::Kgd kgd(fracture);
+  double wing = parameters.horizon * spacing;
+  for (const InitialCrack<dim> &crack : scene.cracks)
+    wing = std::max(wing, crack.size());
+  // Lengths are as t^(2/3).
+  const double time = std::pow(wing / kgd.half_length(1.), 1.5);
+  const double pressure = kgd.inlet_pressure(time);
+  if (pressure < lattice.strength())
+    return;
+  const double finer = std::pow(lattice.strength() / pressure, 2) * spacing;
+  messages.push_back(
+    "A fracture of this rock, fluid and rate (K_m = " + text(fracture.dimensionless_toughness()) +
+    ") needs a net pressure of " + megapascals(pressure) + " when its wings are " + text(wing) +
+    " m long, and the bonds of cells of " + text(spacing) + " m hold " +
+    megapascals(lattice.strength()) +
+    ": they may break over an area where a crack should be. Cells of " + text(finer) +
+    " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'.");
+}
+
+
+} // namespace
+
+
+template <int dim>
+void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scene<dim> &scene)
+{
+  needs::cracks_without_proppant(scene, "peridynamics");
+  for (unsigned int region = 0; region <= Rock::max_regions; ++region)
+  {
+    const RockProperties &rock = scene.rock(region);
+    const std::string path =
+      region == 0 ? std::string("Rock") : "Rock/Region " + std::to_string(region);
+    if (rock.stiffness)
+      throw EntryError(path + "/Law", "an anisotropic one",
+                       "'elastic' with 'Fracture/Model = peridynamics': bonds are as stiff in one "
+                       "direction as in another");
+    const double nu = bond_based_poisson_ratio(rock.plane_stress);
+    if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
+      throw EntryError(
+        path + "/Poisson ratio", text(rock.poisson_ratio),
+        std::string(rock.plane_stress ? "1/3" : "0.25") + " with bond-based peridynamics" +
+          (rock.plane_stress ? " in plane stress" : "") + "; others with 'Bond law = state-based'");
+    if (parameters.as_published &&
+        (rock.is_random() || rock.young_modulus != scene.rock.main().young_modulus ||
+         rock.biot_coefficient != scene.rock.main().biot_coefficient))
+      throw EntryError("Fracture/peridynamics/Closure", "as published",
+                       "'conserving' or 'in bonds' where the rock differs from place to place, "
+                       "which the paper does not have");
+    if (!parameters.growth)
+      continue;
+    needs::no_given_strength(
+      rock, "peridynamics",
+      "where the strength follows from the energy release rate and the cells' size", path);
+    needs::energy_of_all_modes(rock, "peridynamics",
+                               "whose bonds break by their stretch, whatever the mode", path);
+    if (rock.is_random() && rock.random->varies(RandomField::tensile_strength))
+      throw EntryError(path + "/Random field/Properties", "one with 'tensile strength'",
+                       "a list without it with the fracture model 'peridynamics', where the "
+                       "strength follows from the energy release rate and the cells' size; "
+                       "'cohesive_xfem' and 'damage' take it");
+  }
+}
+
+
+template <int dim>
+std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spacing)
+{
+  std::vector<std::string> messages;
+  if (!lattice.parameters.growth)
+    return messages;
+  if (!lattice.parameters.in_bonds)
+    foresee_stress(lattice, spacing, messages);
+  if (lattice.scene.crack_pressure > 0.)
+    foresee_given_pressure(lattice, spacing, messages);
+  foresee_pressure(lattice, spacing, messages);
+  return messages;
+}
+
+template void refuse_what_bonds_do_not_know(const Parameters<2> &, const Scene<2> &);
+template void refuse_what_bonds_do_not_know(const Parameters<3> &, const Scene<3> &);
+template std::vector<std::string> foresee(const Lattice<2> &, double);
+template std::vector<std::string> foresee(const Lattice<3> &, double);
+} // namespace stockwork::peridynamics
