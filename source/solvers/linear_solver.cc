@@ -3,6 +3,7 @@
 #include "solvers/block_amg.h"
 #include "solvers/bordered_solver.h"
 #include "solvers/direct_solver.h"
+#include "solvers/lagged_solver.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -27,7 +28,8 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "stays as it is, and in porous rock the time step. iterative: Krylov method with "
     "multigrid, and a sparse one for the fracture; for large three-dimensional "
     "problems. auto: iterative above a size in 3-D, else bordered; direct in porous rock "
-    "without a fracture, and in 2-D where the fracture is large beside the rock.");
+    "without a fracture, and in 2-D where the fracture is large beside the rock; in 3-D, once "
+    "2500 bonds soften, iterations with the factor of an earlier matrix.");
   prm.declare_entry(
     "Direct below", "auto", Quantity(dimension::number, Range::non_negative(), "auto"),
     "Number of bulk unknowns in 3-D up to which Type = auto makes a factor of the rock, and "
@@ -105,6 +107,11 @@ public:
     // In elastic rock without a fracture as well: one may come, and the factor will serve.
     if (system.elastic)
     {
+      if (lagged || has_many_bonds(system))
+      {
+        bordered.reset();
+        return solve_with(get<LaggedSolver>(lagged, communicator));
+      }
       if (!has_large_fracture(system))
         return solve_with(get<BorderedSolver>(bordered, communicator));
       bordered.reset();
@@ -154,6 +161,15 @@ private:
                          largest * std::sqrt(static_cast<double>(system.residual_bulk.size()));
   }
 
+  /// Whether a solution for each of the bonds that soften, and a dense block of them, takes more
+  /// than iterations with a lasting factor: in `radial/toughness/peridynamics`, fine, with as many
+  /// (38844 unknowns of the rock) about as much, with 6500 three times.
+  bool has_many_bonds(const LinearSystem &system) const
+  {
+    constexpr unsigned int many = 2500;
+    return dim == 3 && !system.definite && system.n_mechanical_extra > many;
+  }
+
   /// A rock that was singular without its fracture (closed, and nothing can be compressed) still is
   /// as long as it does not change; after a few of them others will be, too.
   bool rock_may_have_factor(const SystemStamps &stamps) const
@@ -173,7 +189,7 @@ private:
   LinearSolverParameters parameters;
   unsigned int dim, largest_factor;
   MPI_Comm communicator;
-  std::unique_ptr<LinearSolver> direct, bordered, iterative;
+  std::unique_ptr<LinearSolver> direct, bordered, lagged, iterative;
   unsigned int n_failures = 0;  ///< of the rock's factor, one after another
   unsigned int failed_rock = 0; ///< SystemStamps::bulk_values of the last of them
 };

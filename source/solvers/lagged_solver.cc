@@ -1,0 +1,95 @@
+#include "solvers/lagged_solver.h"
+
+#include "solvers/krylov.h"
+#include "solvers/local_elimination.h"
+#include "solvers/stopwatch.h"
+#include "stockwork/base/error.h"
+
+namespace stockwork
+{
+namespace
+{
+/// Iterations that cost about as much as a factor.
+constexpr unsigned int most_iterations = 60;
+/// Of a solve after which the next one is begun with a new factor.
+constexpr unsigned int many_iterations = 30;
+/// Of the preconditioner: one elimination is exact but for rounding errors.
+constexpr double inner_tolerance = 1e-3;
+} // namespace
+
+LaggedSolver::LaggedSolver(const MPI_Comm communicator)
+  : communicator(communicator)
+  , whole(communicator)
+{
+}
+
+void LaggedSolver::lag(const LinearSystem &system)
+{
+  if (!earlier)
+  {
+    inner = std::make_unique<BorderedSolver>(communicator);
+    earlier = std::make_unique<LinearSystem>();
+    earlier->symmetric = false;
+    earlier->elastic = true;
+    earlier->bulk.reinit(1, 1);
+    ++inner_stamps.mesh;
+  }
+  earlier->bulk.block(0, 0).copy_from(system.bulk.block(0, 0));
+  earlier->bulk.collect_sizes();
+  ++inner_stamps.bulk_values;
+}
+
+LinearReport LaggedSolver::solve(const LinearSystem &system,
+                                 const SystemStamps &stamps,
+                                 const double tolerance,
+                                 dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
+                                 std::vector<double> &dx_extra)
+{
+  const Stopwatch stopwatch;
+  const LocalElimination elimination(system, communicator);
+  if (!elimination.fits())
+    return whole.solve(system, stamps, tolerance, dx_bulk, dx_extra);
+  const LinearSystem &reduced = elimination.reduced();
+  if (stamps.mesh != mesh_stamps.mesh || stamps.matrix != mesh_stamps.matrix)
+    earlier.reset();
+  mesh_stamps = stamps;
+
+  LinearReport report;
+  const SystemOperator op(reduced, communicator);
+  SystemVector dx = op.make_vector();
+  const bool begins_anew = !earlier;
+  if (begins_anew)
+    lag(reduced);
+  for (bool anew = begins_anew;; anew = true)
+  {
+    earlier->bulk_extra = reduced.bulk_extra;
+    earlier->extra_bulk = reduced.extra_bulk;
+    earlier->extra_extra = reduced.extra_extra;
+    earlier->n_mechanical_extra = reduced.n_mechanical_extra;
+    report.factorised |= anew;
+    report.setup_seconds = stopwatch.seconds();
+    solve_by_krylov(
+      op, communicator,
+      [&](SystemVector &z, SystemVector &r)
+      {
+        earlier->residual_bulk = r.bulk;
+        earlier->residual_extra = r.extra;
+        inner->solve(*earlier, inner_stamps, inner_tolerance, z.bulk, z.extra);
+        z.bulk *= -1.;
+        for (double &value : z.extra)
+          value = -value;
+      },
+      {tolerance, most_iterations, most_iterations}, dx, report);
+    if (report.converged || anew)
+      break;
+    lag(reduced);
+  }
+  if (!(report.relative_residual < 1e-3))
+    ExtraSchur::throw_singular();
+  if (!report.factorised && report.iterations > many_iterations)
+    lag(reduced);
+  dx_bulk = dx.bulk;
+  dx_extra = elimination.recover(dx.bulk, dx.extra);
+  return report;
+}
+} // namespace stockwork
