@@ -170,7 +170,8 @@ void LocalElimination::sort_out(const LinearSystem &system)
 
 void LocalElimination::reduce_bulk()
 {
-  // The values of a matrix that deal.II hands out as constant are this object's own.
+  // deal.II's add() does not tell, in a Release build, whether an entry has a place. The matrix is
+  // this object's own.
   auto &matrix = const_cast<Epetra_CrsMatrix &>(system_without.bulk.block(0, 0).trilinos_matrix());
   using Index = dealii::TrilinosWrappers::types::int_type;
   std::vector<double> values;
