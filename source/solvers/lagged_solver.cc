@@ -10,11 +10,11 @@ namespace stockwork
 namespace
 {
 /// Iterations that cost about as much as a factor.
-constexpr unsigned int most_iterations = 60;
+constexpr unsigned int most_lagged_iterations = 60;
 /// Of a solve after which the next one is begun with a new factor.
-constexpr unsigned int many_iterations = 30;
+constexpr unsigned int many_lagged_iterations = 30;
 /// Of the preconditioner: one elimination is exact but for rounding errors.
-constexpr double inner_tolerance = 1e-3;
+constexpr double tolerance_of_earlier = 1e-3;
 } // namespace
 
 LaggedSolver::LaggedSolver(const MPI_Comm communicator)
@@ -74,19 +74,19 @@ LinearReport LaggedSolver::solve(const LinearSystem &system,
       {
         earlier->residual_bulk = r.bulk;
         earlier->residual_extra = r.extra;
-        inner->solve(*earlier, inner_stamps, inner_tolerance, z.bulk, z.extra);
+        inner->solve(*earlier, inner_stamps, tolerance_of_earlier, z.bulk, z.extra);
         z.bulk *= -1.;
         for (double &value : z.extra)
           value = -value;
       },
-      {tolerance, most_iterations, most_iterations}, dx, report);
+      {tolerance, most_lagged_iterations, most_lagged_iterations}, dx, report);
     if (report.converged || anew)
       break;
     lag(reduced);
   }
   if (!(report.relative_residual < 1e-3))
     ExtraSchur::throw_singular();
-  if (!report.factorised && report.iterations > many_iterations)
+  if (!report.factorised && report.iterations > many_lagged_iterations)
     lag(reduced);
   dx_bulk = dx.bulk;
   dx_extra = elimination.recover(dx.bulk, dx.extra);

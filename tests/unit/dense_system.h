@@ -13,7 +13,7 @@
 #include <cmath>
 #include <memory>
 
-namespace stockwork
+namespace stockwork::dense_system
 {
 using namespace dealii;
 
@@ -252,4 +252,4 @@ inline Run solve(LinearSolver &solver, const DenseSystem &d, const SystemStamps 
   const auto report = solver.solve(*system, stamps, 1e-12, bulk, extra);
   return {report, error(d, bulk, extra), system};
 }
-} // namespace stockwork
+} // namespace stockwork::dense_system

@@ -8,6 +8,8 @@
 
 namespace stockwork::lagged_solver_mpi_test
 {
+using namespace dense_system;
+
 namespace
 {
 constexpr unsigned int n_bulk = 60;

@@ -10,6 +10,8 @@
 
 namespace stockwork::linear_solver_mpi_test
 {
+using namespace dense_system;
+
 namespace
 {
 std::unique_ptr<LinearSolver> make(const LinearSolverParameters::Type type)
