@@ -380,9 +380,11 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
   const Stopwatch stopwatch;
   const bool has_one = has_factor(system, stamps);
   const bool same_bulk = has_one && stamps.bulk_values == values_with_changes;
-  const bool may_keep =
-    has_one && keeps_values &&
-    solutions.size() <= std::max(most_solutions, minimum_memory / factor->size());
+  const bool has_room =
+    has_one && solutions.size() <= std::max(most_solutions, minimum_memory / factor->size());
+  const bool may_keep = has_one && keeps_values && has_room;
+  if (same_bulk && !has_room)
+    solutions.clear(); // products stay
   auto op = std::make_unique<SystemOperator>(
     system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);
   LinearReport report;

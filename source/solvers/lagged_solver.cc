@@ -13,6 +13,9 @@ namespace
 constexpr unsigned int most_lagged_iterations = 60;
 /// Of a solve after which the next one is begun with a new factor.
 constexpr unsigned int many_lagged_iterations = 30;
+/// Of the extra unknowns. With more that cannot be eliminated, as of state-based bonds, the rest
+/// would have a large dense block after all.
+constexpr double most_left = 0.25;
 /// Of the preconditioner: one elimination is exact but for rounding errors.
 constexpr double tolerance_of_earlier = 1e-3;
 } // namespace
@@ -37,6 +40,7 @@ void LaggedSolver::lag(const LinearSystem &system)
   earlier->bulk.block(0, 0).copy_from(system.bulk.block(0, 0));
   earlier->bulk.collect_sizes();
   ++inner_stamps.bulk_values;
+  has_no_factor = true;
 }
 
 LinearReport LaggedSolver::solve(const LinearSystem &system,
@@ -45,47 +49,76 @@ LinearReport LaggedSolver::solve(const LinearSystem &system,
                                  dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                                  std::vector<double> &dx_extra)
 {
+  const auto solve_whole = [&]()
+  { return whole.solve(system, stamps, tolerance, dx_bulk, dx_extra); };
+  if (!eliminates)
+    return solve_whole();
   const Stopwatch stopwatch;
   const LocalElimination elimination(system, communicator);
-  if (!elimination.fits())
-    return whole.solve(system, stamps, tolerance, dx_bulk, dx_extra);
   const LinearSystem &reduced = elimination.reduced();
+  eliminates =
+    elimination.fits() && reduced.residual_extra.size() <= most_left * system.residual_extra.size();
+  if (!eliminates)
+  {
+    earlier.reset();
+    inner.reset();
+    return solve_whole();
+  }
   if (stamps.mesh != mesh_stamps.mesh || stamps.matrix != mesh_stamps.matrix)
     earlier.reset();
   mesh_stamps = stamps;
+  if (!earlier)
+    lag(reduced);
 
   LinearReport report;
   const SystemOperator op(reduced, communicator);
   SystemVector dx = op.make_vector();
-  const bool begins_anew = !earlier;
-  if (begins_anew)
-    lag(reduced);
-  for (bool anew = begins_anew;; anew = true)
+  report.setup_seconds = stopwatch.seconds();
+  for (bool again = true; again;)
   {
+    again = !has_no_factor;
+    report.factorised |= has_no_factor;
     earlier->bulk_extra = reduced.bulk_extra;
     earlier->extra_bulk = reduced.extra_bulk;
     earlier->extra_extra = reduced.extra_extra;
     earlier->n_mechanical_extra = reduced.n_mechanical_extra;
-    report.factorised |= anew;
-    report.setup_seconds = stopwatch.seconds();
-    solve_by_krylov(
-      op, communicator,
-      [&](SystemVector &z, SystemVector &r)
+    try
+    {
+      solve_by_krylov(
+        op, communicator,
+        [&](SystemVector &z, SystemVector &r)
+        {
+          const Stopwatch of_factor;
+          earlier->residual_bulk = r.bulk;
+          earlier->residual_extra = r.extra;
+          inner->solve(*earlier, inner_stamps, tolerance_of_earlier, z.bulk, z.extra);
+          z.bulk *= -1.;
+          for (double &value : z.extra)
+            value = -value;
+          if (has_no_factor)
+            report.setup_seconds += of_factor.seconds();
+          has_no_factor = false;
+        },
+        {tolerance, most_lagged_iterations, most_lagged_iterations}, dx, report);
+      if (report.converged)
+        break;
+    }
+    catch (const SolveError &)
+    {
+      if (!again)
       {
-        earlier->residual_bulk = r.bulk;
-        earlier->residual_extra = r.extra;
-        inner->solve(*earlier, inner_stamps, tolerance_of_earlier, z.bulk, z.extra);
-        z.bulk *= -1.;
-        for (double &value : z.extra)
-          value = -value;
-      },
-      {tolerance, most_lagged_iterations, most_lagged_iterations}, dx, report);
-    if (report.converged || anew)
-      break;
-    lag(reduced);
+        earlier.reset();
+        throw;
+      }
+    }
+    if (again)
+      lag(reduced);
   }
   if (!(report.relative_residual < 1e-3))
+  {
+    earlier.reset();
     ExtraSchur::throw_singular();
+  }
   if (!report.factorised && report.iterations > many_lagged_iterations)
     lag(reduced);
   dx_bulk = dx.bulk;

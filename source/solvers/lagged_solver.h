@@ -12,8 +12,8 @@ namespace stockwork
 /// would cost far more than the bulk. They are eliminated one by one (LocalElimination), which
 /// changes the bulk in every iteration of Newton's, but little. FGMRES then solves, with the bulk
 /// of an earlier iteration factorised as preconditioner, and the border as it is now; when that
-/// takes too many iterations the present bulk is factorised. Where they cannot be eliminated,
-/// BorderedSolver solves.
+/// takes too many iterations the present bulk is factorised. Where few of them can be
+/// eliminated, BorderedSolver solves.
 class LaggedSolver : public LinearSolver
 {
 public:
@@ -30,9 +30,11 @@ private:
   void lag(const LinearSystem &system);
 
   MPI_Comm communicator;
+  bool eliminates = true;                 ///< as far as has been seen
   BorderedSolver whole;                   ///< where nothing is eliminated
   std::unique_ptr<BorderedSolver> inner;  ///< of the earlier bulk
   std::unique_ptr<LinearSystem> earlier;  ///< it, with the present border
+  bool has_no_factor = true;              ///< of `earlier`, yet
   SystemStamps inner_stamps, mesh_stamps; ///< of that system; of the present one
 };
 } // namespace stockwork

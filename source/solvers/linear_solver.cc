@@ -29,7 +29,7 @@ void LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
     "multigrid, and a sparse one for the fracture; for large three-dimensional "
     "problems. auto: iterative above a size in 3-D, else bordered; direct in porous rock "
     "without a fracture, and in 2-D where the fracture is large beside the rock; in 3-D, once "
-    "2500 bonds soften, iterations with the factor of an earlier matrix.");
+    "2500 bonds soften (bond-based ones), iterations with the factor of an earlier matrix.");
   prm.declare_entry(
     "Direct below", "auto", Quantity(dimension::number, Range::non_negative(), "auto"),
     "Number of bulk unknowns in 3-D up to which Type = auto makes a factor of the rock, and "

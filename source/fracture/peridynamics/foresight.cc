@@ -37,6 +37,7 @@ std::vector<std::pair<Point<dim>, Tensor<1, dim>>> flat_parts(const InitialCrack
         parts.emplace_back(crack.points[i] + 0.5 * along, cross_product_2d(along) / along.norm());
   return parts;
 }
+
 /// Bonds that cross the way of a crack feel the stress along it as well, and the faces release only
 /// that across it.
 template <int dim>
@@ -155,8 +156,6 @@ void foresee_pressure(const Lattice<dim> &lattice,
     ": they may break over an area where a crack should be. Cells of " + text(finer) +
     " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'.");
 }
-
-
 } // namespace
 
 

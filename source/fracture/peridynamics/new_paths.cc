@@ -363,7 +363,7 @@ NewPaths<dim>::begin_one(const Beginning &path, const StepContext &context, Trac
     for (const double ahead : {inwards.norm() > 0. ? 0. : -1., 1.})
       if (!is_in_zone(place + ahead * (h + horizon) * direction))
         return why_none_begins(path, context);
-    // What the deck presses in all cracks is nothing in a dry lattice.scene.
+    // What the deck presses in all cracks is nothing in a dry scene.
     const bool dry = lattice.scene.crack_pressure != 0.;
     if (inwards.norm() > 0.)
       paths.begin_at_side(place, direction, dry);
