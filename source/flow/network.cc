@@ -175,8 +175,10 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
                                      [&](const auto &n) { return n.key == network[i].key; });
       if (twin == back.end())
         throw std::logic_error("a segment is not its neighbour's neighbour");
-      // The pressure that drives the flow is singular in the last segment.
-      double width = neighbour.width;
+      // What leaves one of them comes to the other, also where they are turned against one another
+      // and each sees another width. The pressure that drives the flow is singular in the last
+      // segment.
+      double width = 0.5 * (neighbour.width + twin->width);
       if (network[i].at_tip != network[j].at_tip)
         width *= network[i].at_tip ? tip_gradient_factor(neighbour.distance, twin->distance)
                                    : tip_gradient_factor(twin->distance, neighbour.distance);

@@ -209,6 +209,15 @@ TEST_CASE("injected fluid is in the fracture, the borehole, or has leaked")
                                        {"Wells/Well 2/Pressure", "10 kPa"},
                                        {"Wells/Well 2/Perforations", "3.75, 0"}};
   }
+  SUBCASE("segments that are turned against one another and see edges of another width")
+  {
+    chain.edit = [](auto &segments)
+    {
+      for (unsigned int i = 0; i < segments.size(); i += 2)
+        for (auto &neighbour : segments[i].neighbours)
+          neighbour.width = 1.4;
+    };
+  }
   chain.set_up(entries);
   stockwork::FluidBalance balance;
   for (const double dt : {0.01, 0.02, 0.1, 0.5, 0.5})

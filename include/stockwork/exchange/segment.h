@@ -50,7 +50,9 @@ struct Segment
   {
     std::uint64_t key; ///< the neighbour's key
     double distance;   ///< from this segment's centre to the shared edge [m]
-    double width;      ///< length of the shared edge [m]; 1 in 2-D
+    /// Length of the shared edge, as this segment sees it; the flow takes the mean of both [m]. 1
+    /// in 2-D.
+    double width;
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
