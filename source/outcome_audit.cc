@@ -64,12 +64,12 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
             "bonds' holds them; the greatest opening is ") +
          to_string(outcome.greatest_opening, dimension::length)});
   }
-  if (dim != 2 || the_case.scene.cracks.empty() || !(outcome.injected > 0.))
+  if (the_case.scene.cracks.empty() || !(outcome.injected > 0.))
     return assumptions;
   const RockProperties &rock = the_case.rock.main();
   const Fluid &fluid = the_case.rock.fluid();
   // A cloud of cracked cells, or a crack through all of the rock, has no tips.
-  const bool has_tips = outcome.n_tips > 0;
+  const bool has_tips = dim == 2 && outcome.n_tips > 0;
   const double wing = has_tips ? outcome.length / outcome.n_tips : 0.;
 
   if (has_tips && the_case.scheme.kind() != TimeScheme::Kind::newmark)
@@ -121,6 +121,8 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
        share < 0.02 ? "hardly any of the volume is compressed away" : "set Fluid/Bulk modulus"});
   }
 
+  if (dim != 2)
+    return assumptions;
   if (outcome.leaked > 0.)
   {
     const double seen = outcome.leaked / outcome.injected;
