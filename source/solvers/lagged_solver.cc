@@ -13,9 +13,9 @@ namespace
 constexpr unsigned int most_lagged_iterations = 60;
 /// Of a solve after which the next one is begun with a new factor.
 constexpr unsigned int many_lagged_iterations = 30;
-/// Of the extra unknowns. With more that cannot be eliminated, as of state-based bonds, the rest
-/// would have a large dense block after all.
-constexpr double most_left = 0.25;
+/// Extra unknowns that cannot be eliminated. With more, as of state-based bonds, there would be a
+/// large dense block after all.
+constexpr unsigned int most_left = 1000;
 /// Of the preconditioner: one elimination is exact but for rounding errors.
 constexpr double tolerance_of_earlier = 1e-3;
 } // namespace
@@ -56,8 +56,7 @@ LinearReport LaggedSolver::solve(const LinearSystem &system,
   const Stopwatch stopwatch;
   const LocalElimination elimination(system, communicator);
   const LinearSystem &reduced = elimination.reduced();
-  eliminates =
-    elimination.fits() && reduced.residual_extra.size() <= most_left * system.residual_extra.size();
+  eliminates = elimination.fits() && reduced.residual_extra.size() <= most_left;
   if (!eliminates)
   {
     earlier.reset();
@@ -67,16 +66,16 @@ LinearReport LaggedSolver::solve(const LinearSystem &system,
   if (stamps.mesh != mesh_stamps.mesh || stamps.matrix != mesh_stamps.matrix)
     earlier.reset();
   mesh_stamps = stamps;
-  if (!earlier)
+  bool is_present = !earlier; // what preconditions is what is solved
+  if (is_present)
     lag(reduced);
 
   LinearReport report;
   const SystemOperator op(reduced, communicator);
   SystemVector dx = op.make_vector();
   report.setup_seconds = stopwatch.seconds();
-  for (bool again = true; again;)
+  for (;; is_present = true)
   {
-    again = !has_no_factor;
     report.factorised |= has_no_factor;
     earlier->bulk_extra = reduced.bulk_extra;
     earlier->extra_bulk = reduced.extra_bulk;
@@ -100,19 +99,18 @@ LinearReport LaggedSolver::solve(const LinearSystem &system,
           has_no_factor = false;
         },
         {tolerance, most_lagged_iterations, most_lagged_iterations}, dx, report);
-      if (report.converged)
-        break;
     }
     catch (const SolveError &)
     {
-      if (!again)
+      if (is_present)
       {
         earlier.reset();
         throw;
       }
     }
-    if (again)
-      lag(reduced);
+    if (report.converged || is_present)
+      break;
+    lag(reduced);
   }
   if (!(report.relative_residual < 1e-3))
   {
