@@ -163,30 +163,65 @@ void Peridynamics<dim>::assemble(const StepContext &,
     }
   }
 
-  // What else is in state-based bonds: the dilatation of every site acts on all of its family.
-  for_each_dilatation(
-    [&](const std::vector<unsigned int> &family, const std::vector<Tensor<1, dim>> &functional,
-        const double modulus)
+  if (!parameters.state_based)
+    return;
+  std::vector<Tensor<2, dim>> stiffness(lattice.zone.sites().size());
+  for (const unsigned int i : lattice.zone.peridynamic_sites())
+    if (has_rows(i) && are_wanted(lattice.zone.sites()[i]))
+      assemble_dilatations(i, stiffness, local, sink);
+}
+
+
+template <int dim>
+void Peridynamics<dim>::assemble_dilatations(const unsigned int i,
+                                             std::vector<Tensor<2, dim>> &stiffness,
+                                             LocalSystem &local,
+                                             Sink &sink) const
+{
+  std::vector<unsigned int> neighbours{i}, family, coupled;
+  for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+    neighbours.push_back(lattice.zone.far_end(i, b).site);
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+
+  std::vector<Tensor<1, dim>> functional;
+  for (const unsigned int s : neighbours)
+  {
+    const double modulus = lattice.find_dilatation(s, family, functional);
+    Tensor<1, dim> own;
+    for (unsigned int k = 0; k < family.size(); ++k)
+      if (family[k] == i)
+        own += modulus * functional[k];
+    for (unsigned int k = 0; k < family.size(); ++k)
+      stiffness[family[k]] += outer_product(own, functional[k]);
+    coupled.insert(coupled.end(), family.begin(), family.end());
+  }
+  std::sort(coupled.begin(), coupled.end());
+  coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
+
+  // A few columns at a time: a local matrix is square, and only its first rows are used.
+  const unsigned int most_columns = 32;
+  const auto &rows = lattice.zone.sites()[i].dofs;
+  for (unsigned int first = 0; first < coupled.size(); first += most_columns)
+  {
+    const unsigned int n = std::min<unsigned int>(most_columns, coupled.size() - first);
+    local.bulk.assign(rows.begin(), rows.end());
+    for (unsigned int k = 0; k < n; ++k)
     {
-      if (std::none_of(family.begin(), family.end(),
-                       [&](const unsigned int i)
-                       { return has_rows(i) && are_wanted(lattice.zone.sites()[i]); }))
-        return;
-      local.bulk.resize(family.size() * dim);
-      local.reinit();
-      for (unsigned int k = 0; k < family.size(); ++k)
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          local.bulk[k * dim + d] = lattice.zone.sites()[family[k]].dofs[d];
-          if (functional[k][d] == 0. || !has_rows(family[k]))
-            continue;
-          for (unsigned int l = 0; l < family.size(); ++l)
-            for (unsigned int c = 0; c < dim; ++c)
-              local.matrix(k * dim + d, l * dim + c) =
-                modulus * functional[k][d] * functional[l][c];
-        }
-      sink.add(local);
-    });
+      const auto &columns = lattice.zone.sites()[coupled[first + k]].dofs;
+      local.bulk.insert(local.bulk.end(), columns.begin(), columns.end());
+    }
+    local.reinit();
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      Tensor<2, dim> &entry = stiffness[coupled[first + k]];
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int c = 0; c < dim; ++c)
+          local.matrix(d, (k + 1) * dim + c) = entry[d][c];
+      entry = 0.;
+    }
+    sink.add(local);
+  }
 }
 
 
@@ -227,6 +262,8 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
                              const std::vector<Tensor<1, dim>> &, double)> &) const;               \
   template void Peridynamics<dim>::assemble(const StepContext &, const dealii::IndexSet &, Sink &) \
     const;                                                                                         \
+  template void Peridynamics<dim>::assemble_dilatations(                                           \
+    const unsigned int, std::vector<Tensor<2, dim>> &, LocalSystem &, Sink &) const;               \
   template void Peridynamics<dim>::assemble(const StepContext &, const State &, Sink &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -501,6 +501,15 @@ private:
                              const std::vector<dealii::Tensor<1, dim>> &functional,
                              double modulus)> &use) const;
 
+  /// What else is in the momentum rows of a site with state-based bonds: the dilatations of its
+  /// family, which act on all within two horizons. By rows, so that each entry of the matrix is
+  /// added to once.
+  /// @param stiffness per site, nil before and after
+  void assemble_dilatations(unsigned int site,
+                            std::vector<dealii::Tensor<2, dim>> &stiffness,
+                            LocalSystem &local,
+                            Sink &sink) const;
+
   /// Whether this rank assembles the momentum rows of a site as bonds'.
   bool has_rows(unsigned int site) const
   {
