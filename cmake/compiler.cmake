@@ -1,5 +1,6 @@
 # Compiler settings shared by every target. deal.II's own flags carry -g, which doubles the
-# time and memory of each translation unit; a Release build does without.
+# time and memory of each translation unit; a Release build does without. Debug is -O0 there: with
+# -Og a unit compiles no slower, for it comes to less code, and its tests run faster.
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -25,7 +26,7 @@ if(DEAL_II_LINKER_FLAGS MATCHES "-fuse-ld=([a-z]+)")
 endif()
 
 add_library(stockwork_options INTERFACE)
-target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-g0> $<$<CONFIG:Debug>:-g1>)
+target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-g0> $<$<CONFIG:Debug>:-Og;-g1>)
 if(STOCKWORK_NATIVE)
   target_compile_options(stockwork_options INTERFACE $<$<CONFIG:Release>:-O3 -march=native>)
 endif()

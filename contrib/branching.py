@@ -105,16 +105,19 @@ def table(options):
 def draw(options):
     folder = os.path.join(options.output, options.resolution)
     for factor in options.factors:
+        histories = {value: read_statistics(place(options, factor, value)) for value in FACTORS[factor]}
+        length, height = (max(columns[extent][-1] for columns in histories.values()) for extent in ("extent_x", "extent_y"))
+        window = (0., max(5.5, length + 0.5), -max(2., height + 0.5), max(2., height + 0.5))
         figure, axes = plt.subplots(1, 4, figsize=(16., 3.6), layout="constrained")
         for axis, value in zip(axes, FACTORS[factor]):
             directory = place(options, factor, value)
             shown, _ = field.panel(axis, argparse.Namespace(
-                directory=directory, field="damage", component=None, window=(0., 5.5, -2., 2.), mirror=True, warp=None,
+                directory=directory, field="damage", component=None, window=window, mirror=True, warp=None,
                 fluid=False), None)
             for collection in shown:
                 collection.set_clim(0., 1.)
             axis.set_title(f"{factor} {value} {UNITS[factor]}, {axis.get_title()}", fontsize=8)
-            columns = read_statistics(directory)
+            columns = histories[value]
             axes[3].plot(columns["time"], [1e-6 * p for p in columns["inlet_pressure"]], label=f"{value} {UNITS[factor]}")
         axes[0].set_ylabel("y [m]")
         axes[3].set_xlabel("time [s]")
