@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace stockwork::peridynamics
 {
@@ -24,6 +25,51 @@ surroundings(const Point<dim> &point, const double distance, const BoundingBox<d
   }
   return BoundingBox<dim>(std::make_pair(lower, upper));
 }
+
+/// Whether all of the box is in the zone, by points that are at most a lattice spacing h apart.
+template <int dim>
+bool is_filled(const ZoneShape<dim> &shape, const BoundingBox<dim> &box, const double h)
+{
+  const auto &[lower, upper] = box.get_boundary_points();
+  BoundingBox<dim> reached = box;
+  reached.extend(same_place * h);
+  // A zone that has grown often has thousands of boxes, and few of them are near.
+  std::vector<BoundingBox<dim>> near;
+  for (const BoundingBox<dim> &one : shape.boxes)
+  {
+    if (one.point_inside(lower) && one.point_inside(upper))
+      return true;
+    bool overlaps = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      overlaps = overlaps && one.lower_bound(d) <= reached.upper_bound(d) &&
+                 one.upper_bound(d) >= reached.lower_bound(d);
+    if (overlaps)
+    {
+      near.push_back(one);
+      near.back().extend(same_place * h);
+    }
+  }
+  const ZoneShape<dim> around_cracks{shape.cracks, {}, shape.margin};
+
+  std::array<unsigned int, dim> n;
+  unsigned int n_points = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    n_points *= n[d] = 2 + static_cast<unsigned int>(box.side_length(d) / h);
+  for (unsigned int k = 0; k < n_points; ++k)
+  {
+    Point<dim> point;
+    for (unsigned int d = 0, rest = k; d < dim; rest /= n[d++])
+      point[d] = box.lower_bound(d) + box.side_length(d) * (rest % n[d]) / (n[d] - 1);
+    const auto found =
+      std::find_if(near.begin(), near.end(),
+                   [&](const BoundingBox<dim> &one) { return one.point_inside(point); });
+    if (found != near.end())
+      std::iter_swap(near.begin(), found); // the next point may well be in it, too
+    else if (!around_cracks.contains(point, h))
+      return false;
+  }
+  return true;
+}
 } // namespace
 
 
@@ -38,38 +84,23 @@ bool Peridynamics<dim>::enlarge_zone()
   for (unsigned int i = 0; i < cells.size(); ++i)
     if (at_front[i])
       active.push_back(all_segments[i].centre);
+  std::set<Place<dim>> middles; // of bonds, times two: many have the same
   for (const SofteningBond &bond : softening_bonds)
   {
     const auto &[site, b] = bond.view;
-    active.push_back(lattice.zone.position(lattice.zone.sites()[site].place) +
-                     0.5 * lattice.coefficients[b].length * lattice.coefficients[b].direction);
+    const Place<dim> &place = lattice.zone.sites()[site].place;
+    Place<dim> middle;
+    for (unsigned int d = 0; d < dim; ++d)
+      middle[d] = 2 * place[d] + lattice.stencil[b].offset[d];
+    if (middles.insert(middle).second)
+      active.push_back(lattice.zone.position(place) +
+                       0.5 * lattice.coefficients[b].length * lattice.coefficients[b].direction);
   }
 
-  const auto is_in_zone = [&](const BoundingBox<dim> &box)
-  {
-    const auto &[lower, upper] = box.get_boundary_points();
-    if (std::any_of(shape.boxes.begin(), shape.boxes.end(),
-                    [&](const BoundingBox<dim> &one)
-                    { return one.point_inside(lower) && one.point_inside(upper); }))
-      return true;
-    std::array<unsigned int, dim> n;
-    unsigned int n_points = 1;
-    for (unsigned int d = 0; d < dim; ++d)
-      n_points *= n[d] = 2 + static_cast<unsigned int>(box.side_length(d) / h);
-    for (unsigned int k = 0; k < n_points; ++k)
-    {
-      Point<dim> point;
-      for (unsigned int d = 0, rest = k; d < dim; rest /= n[d++])
-        point[d] = box.lower_bound(d) + box.side_length(d) * (rest % n[d]) / (n[d] - 1);
-      if (!shape.contains(point, h))
-        return false;
-    }
-    return true;
-  };
   for (const Point<dim> &point : active)
   {
     const BoundingBox<dim> wanted = surroundings(point, parameters.margin * h, lattice.zone.room());
-    if (is_in_zone(wanted))
+    if (is_filled(shape, wanted, h))
       continue;
     // Ahead is away from where the fracture is, along it.
     Tensor<1, dim> ahead, normal;
