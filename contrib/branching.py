@@ -81,13 +81,15 @@ def table(options):
     print("| | to [s] | inlet pressure, greatest, last [MPa] | aperture [mm] | extent in x, y [m] | branches, forks | "
           "greatest speed of the tip over c_R | leaked [%] | balance | steps (tried again) | processor [min] |")
     print("| --- | ---: | --- | ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |")
+    n_read = 0
     for factor, value in runs(options):
         directory = place(options, factor, value)
         try:
             columns, summary, deck = read_statistics(directory), read_summary(directory), read_deck(directory)
         except ResultError as error:
-            print(f"| {factor} {value} | {error} |")
+            print(f"| `{factor}/{value}` | {error} |" + " |" * 9)
             continue
+        n_read += 1
         last = {name: column[-1] for name, column in columns.items()}
         cell = number(deck["Fracture/peridynamics/Cell size"])
         speed = greatest_speed(columns["time"], columns["extent_x"], CELLS_OF_A_MEAN_SPEED * cell)
@@ -99,7 +101,7 @@ def table(options):
               f" | {100. * last['leaked_volume'] / last['injected_volume']:.2g}"
               f" | {max(map(abs, columns['fluid_balance_error'])):.0e}"
               f" | {summary['steps']} ({summary['rejected_steps']}) | {summary['cpu_seconds'] / 60.:.1f} |")
-    return 0
+    return 0 if n_read else 1
 
 
 def draw(options):

@@ -90,8 +90,9 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   const LeakedShare leaked = leaked_share(the_case, pumping);
   const double speed = kgd.tip_speed(0.01 * pumping.duration) / rayleigh_speed(rock);
   numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)", speed,
-                     speed < 0.1 ? "inertia left out: waves settle long before the tip moves on"
-                                 : "inertia matters: set Time/Inertia = on"});
+                     speed < 0.1
+                       ? "inertia may be left out: waves settle long before the tip moves on"
+                       : "inertia matters: set Time/Inertia = on"});
 
   const std::string when = pumping.is_shut_in ? "at shut-in" : "at the end";
   if (leaked.most > 1e-4) // else rounding

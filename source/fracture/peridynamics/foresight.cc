@@ -123,6 +123,36 @@ void foresee_given_pressure(const Lattice<dim> &lattice,
 }
 
 
+/// A path goes by the stress that is averaged over some horizons ahead of its tip. Where the crack
+/// is no longer than that, its ends and its direction are in the average.
+template <int dim>
+void foresee_short_cracks(const Lattice<dim> &lattice,
+                          const double spacing,
+                          std::vector<std::string> &messages)
+{
+  constexpr double most_horizons = 2.;
+  const double horizon = lattice.parameters.horizon * spacing;
+  if (!lattice.parameters.tracked)
+    return;
+  for (const InitialCrack<dim> &crack : lattice.scene.cracks)
+  {
+    const auto parts = flat_parts(crack);
+    const bool oblique = std::any_of(parts.begin(), parts.end(),
+                                     [](const auto &part)
+                                     { return std::abs(part.second[0] * part.second[1]) > 1e-6; });
+    if (!oblique || crack.size() > (1. + same_place) * most_horizons * horizon)
+      continue;
+    messages.push_back("The crack '" + crack.text + "' is oblique to the mesh, and with " +
+                       text(crack.size()) + " m no longer than two horizons, of " + text(horizon) +
+                       " m: the path that begins there may have a wrong direction, and another "
+                       "with other cells. Cells of less than " +
+                       text(crack.size() / (most_horizons * lattice.parameters.horizon)) +
+                       " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'.");
+    return;
+  }
+}
+
+
 /// The pressure of a fracture in an infinite body is greatest when it is short. It is taken when
 /// each wing has the length of the crack, or of a horizon.
 template <int dim>
@@ -210,6 +240,7 @@ std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spaci
     foresee_stress(lattice, spacing, messages);
   if (lattice.scene.crack_pressure > 0.)
     foresee_given_pressure(lattice, spacing, messages);
+  foresee_short_cracks(lattice, spacing, messages);
   foresee_pressure(lattice, spacing, messages);
   return messages;
 }
