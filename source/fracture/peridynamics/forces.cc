@@ -55,38 +55,24 @@ void Peridynamics<dim>::add_couplings(const Coupling &couple) const
         dofs.push_back(site.pressure_dof);
       couple(dofs);
     }
-  for_each_dilatation(
-    [&](const std::vector<unsigned int> &family, const std::vector<Tensor<1, dim>> &, const double)
-    {
-      dofs.clear();
-      for (const unsigned int site : family)
-        dofs.insert(dofs.end(), lattice.zone.sites()[site].dofs.begin(),
-                    lattice.zone.sites()[site].dofs.end());
-      couple(dofs);
-    });
-}
-
-
-template <int dim>
-void Peridynamics<dim>::for_each_dilatation(
-  const std::function<void(const std::vector<unsigned int> &family,
-                           const std::vector<Tensor<1, dim>> &functional,
-                           double modulus)> &use) const
-{
   if (!parameters.state_based)
     return;
+  // The dilatation of a site couples all of its family.
   std::vector<unsigned int> family;
-  std::vector<Tensor<1, dim>> functional;
   for (const auto *sites : {&lattice.zone.peridynamic_sites(), &lattice.zone.rim_sites()})
     for (const unsigned int i : *sites)
     {
-      bool acts_here = has_rows(i);
+      family.assign(1, i);
       for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
-        acts_here = acts_here || has_rows(lattice.zone.far_end(i, b).site);
-      if (!acts_here)
+        family.push_back(lattice.zone.far_end(i, b).site);
+      if (std::none_of(family.begin(), family.end(),
+                       [&](const unsigned int k) { return has_rows(k); }))
         continue;
-      const double modulus = lattice.find_dilatation(i, family, functional);
-      use(family, functional, modulus);
+      dofs.clear();
+      for (const unsigned int k : family)
+        dofs.insert(dofs.end(), lattice.zone.sites()[k].dofs.begin(),
+                    lattice.zone.sites()[k].dofs.end());
+      couple(dofs);
     }
 }
 
@@ -257,9 +243,6 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
   template CellRole<dim> Peridynamics<dim>::role(const CellIterator &) const;                      \
   template void Peridynamics<dim>::add_couplings(const Coupling &) const;                          \
   template double Peridynamics<dim>::strain_energy(const std::vector<double> &) const;             \
-  template void Peridynamics<dim>::for_each_dilatation(                                            \
-    const std::function<void(const std::vector<unsigned int> &,                                    \
-                             const std::vector<Tensor<1, dim>> &, double)> &) const;               \
   template void Peridynamics<dim>::assemble(const StepContext &, const dealii::IndexSet &, Sink &) \
     const;                                                                                         \
   template void Peridynamics<dim>::assemble_dilatations(                                           \

@@ -493,14 +493,6 @@ private:
   /// its ends, and counts if the end is peridynamic.
   double strain_energy(const std::vector<double> &u) const;
 
-  /// Call use(family, functional, modulus) for each site whose dilatation theta acts on momentum
-  /// rows of this rank: its energy is modulus/2 (sum functional_k . u_k)^2 over sites k of its
-  /// family.
-  void for_each_dilatation(
-    const std::function<void(const std::vector<unsigned int> &family,
-                             const std::vector<dealii::Tensor<1, dim>> &functional,
-                             double modulus)> &use) const;
-
   /// What else is in the momentum rows of a site with state-based bonds: the dilatations of its
   /// family, which act on all within two horizons. By rows, so that each entry of the matrix is
   /// added to once.
