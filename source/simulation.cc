@@ -5,29 +5,23 @@
 #include "stockwork/base/quantity.h"
 #include "stockwork/base/version.h"
 
-#include "base/parameter_tree.h"
 #include "case.h"
-#include "cost_estimate.h"
+#include "cost_of_run.h"
 #include "coupling/mesh_adaptation.h"
-#include "output/checkpoint.h"
 #include "output/directory.h"
 #include "output/field_output.h"
 #include "output/signals.h"
 #include "physics_choice/left_out.h"
 #include "physics_choice/physics_choice.h"
 #include "report.h"
+#include "rock_of_run.h"
+#include "run_checkpoint.h"
 #include "scene_audit.h"
 #include "scene_estimates.h"
 #include "scene_numbers.h"
 
 #include <deal.II/numerics/vector_tools.h>
 
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-#include <boost/serialization/map.hpp>
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/utility.hpp>
-#include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -50,26 +44,6 @@ double step_towards(const double left, const double dt)
     return left;
   return left < 1.5 * dt ? 0.5 * left : dt;
 }
-
-
-/// Entries that a restart may give another value.
-const std::vector<std::string> may_change = {"Time/End time", "Output directory", "Output",
-                                             "Checkpoint"};
-
-
-/// Where a run stands between two steps.
-struct Clock
-{
-  double time = 0.;
-  double dt = 0.;        ///< proposed for the next step
-  unsigned int step = 0; ///< the last one
-
-  template <class Archive>
-  void serialize(Archive &archive, const unsigned int)
-  {
-    archive &time &dt &step;
-  }
-};
 
 
 /// The objects of a run on one case.
@@ -101,29 +75,12 @@ public:
   }
 
 private:
-  void save();
-
-  /// Rock that yields before anything happens, and roles of cells that such rock cannot have.
-  void check_rock(ParameterHandler &prm) const;
-
-  /// What laws of the rock remark on the last step, each remark once in a run.
-  void pass_on_remarks();
-
   /// What 'Physics = auto' has left out, now and then.
   void watch_what_is_left_out();
 
-  /// What has become of the rock's strength, for people.
-  void say_how_far_rock_went() const;
-
-  std::pair<CostEstimate, ExpectedSteps> expected_cost(const MeshSizes<dim> &mesh);
-
-  /// Before memory is taken for the unknowns of a mesh.
-  void refuse_too_large() const;
-  double unknowns_per_cell() const;
-
   bool finished() const
   {
-    return clock.time >= the_case.control.end_time * (1. - 1e-12);
+    return has_ended(clock, the_case.control);
   }
 
   RunContext &run;
@@ -137,10 +94,7 @@ private:
   Stepper<dim> stepper;
   Report<dim> report;
   FieldOutput<dim> fields;
-  Checkpoint checkpoint;
-  CheckpointSchedule schedule;
-  std::string comparable_deck;
-  std::uint64_t deck_fingerprint;
+  RunCheckpoint<dim> checkpoint;
   std::unique_ptr<DirectoryLock> lock;
   Clock clock;
   std::set<std::string> remarks; ///< passed on already
@@ -184,9 +138,8 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.reference.get(),
            the_case.control,
            options.output_directory)
-  , checkpoint(options.output_directory + "/checkpoint", run.communicator)
-  , comparable_deck(comparable_text(prm, may_change))
-  , deck_fingerprint(fingerprint(prm, may_change))
+  , checkpoint(
+      run, the_case, prm, triangulation, system, stepper, report, fields, options.output_directory)
 {
   system.is_interrupted = [&run]() { return stop_requested(run.communicator); };
   report.case_name = the_case.name;
@@ -202,7 +155,6 @@ Simulation<dim>::Simulation(RunContext &run,
   if (!never.empty())
     run.warn("Output/Times of fields: nothing is written at " + never +
              ", not between 'Time/Start time' and 'Time/End time'.");
-  schedule.parse_parameters(prm);
   if (options.restart && !checkpoint.exists())
     throw InputError("There is no checkpoint in '" + options.output_directory +
                      "' to restart from. Name the directory of the run with --output; a run that "
@@ -217,9 +169,8 @@ void Simulation<dim>::open_output(ParameterHandler &prm)
   prepare_output_directory(options.output_directory, run.communicator);
   if (!lock)
     lock = std::make_unique<DirectoryLock>(options.output_directory, run.communicator);
-  // What an earlier run has left here belongs to another table.
   if (!options.restart)
-    checkpoint.remove();
+    checkpoint.forget_earlier_run();
   fields.open(options.output_directory, run.communicator);
   on_root(run.communicator,
           [&]() { write_effective_deck(prm, options.output_directory + "/effective.prm"); });
@@ -241,11 +192,11 @@ void Simulation<dim>::start(ParameterHandler &prm)
   the_case.geometry.check_boxes(triangulation);
   for (const std::string &text : the_case.geometry.misfits_of_regions(triangulation))
     run.warn(text);
-  refuse_too_large();
+  refuse_too_large(run, the_case, triangulation);
   the_case.boundary_conditions.check(triangulation,
                                      the_case.scheme.kind() == TimeScheme::Kind::newmark);
   system.setup_mesh(clock.time);
-  check_rock(prm);
+  check_rock(run, the_case, system, prm);
   stepper.committed.bulk = system.ghosted_vector();
   system.adopt_extra(ExtraNumbering(), {&stepper.committed.extra});
   if (the_case.reference && the_case.starts_from_reference)
@@ -258,75 +209,6 @@ void Simulation<dim>::start(ParameterHandler &prm)
   }
   the_case.scheme.initialise(stepper.committed);
   stepper.make_explicit_march();
-}
-
-
-template <int dim>
-void Simulation<dim>::check_rock(ParameterHandler &prm) const
-{
-  NonlinearRock<dim> *const rock = system.nonlinear_rock();
-  if (rock == nullptr)
-    return;
-  std::pair<std::string, types::material_id> replaced; // law and region
-  bool flows = false;
-  for (const auto &cell : system.bulk_dofs().active_cell_iterators())
-    if (cell->is_locally_owned() && rock->answers(cell) &&
-        the_case.model->role(cell).skip_stiffness != nullptr)
-    {
-      replaced = {rock->laws.name(cell->material_id()), cell->material_id()};
-      flows = rock->law(cell).n_history() == 0;
-    }
-  if (Utilities::MPI::max(flows ? 1 : 0, run.communicator) == 1)
-    throw EntryError("Rock/Permeability decay stress",
-                     value_of(prm, {"Rock"}, "Permeability decay stress"),
-                     "nothing (an empty entry) where the fracture model '" + the_case.model_name +
-                       "' provides the stiffness of the rock itself: the elements do not know the "
-                       "stress there");
-  for (const auto &[law, number] : Utilities::MPI::all_gather(run.communicator, replaced))
-    if (const std::string region = "Region " + std::to_string(number); !law.empty())
-      throw EntryError(number == 0 || value_of(prm, {"Rock", region}, "Law").empty()
-                         ? "Rock/Law"
-                         : "Rock/" + region + "/Law",
-                       law,
-                       "elastic where the fracture model '" + the_case.model_name +
-                         "' provides the stiffness of the rock itself: give the region that it "
-                         "works in, or all rock, the law 'elastic', or take a model whose cracks "
-                         "cut cells");
-
-  const auto shares = Utilities::MPI::all_gather(run.communicator,
-                                                 [&]()
-                                                 {
-                                                   const auto mine = rock->in_situ_share();
-                                                   return std::make_pair(mine.used, mine.place);
-                                                 }());
-  const auto worst = *std::max_element(
-    shares.begin(), shares.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-  constexpr double rounding = 1e-10; // on the surface is not beyond it
-  if (worst.first <= 1. + rounding)
-    return;
-  std::ostringstream allowed;
-  allowed << "a state that the rock can bear: at (" << worst.second
-          << ") m the in-situ stress and pore pressure take " << 100. * worst.first
-          << " per cent of the strength given in 'Rock/" << rock->laws.name(0)
-          << "' (see also 'In situ/Stress across the plane')";
-  throw EntryError("In situ/Stress", value_of(prm, {"In situ"}, "Stress"), allowed.str());
-}
-
-
-template <int dim>
-void Simulation<dim>::pass_on_remarks()
-{
-  NonlinearRock<dim> *const rock = system.nonlinear_rock();
-  if (rock == nullptr)
-    return;
-  const std::set<std::string> &mine = rock->totals().remarks;
-  if (Utilities::MPI::max(mine.size(), run.communicator) == 0)
-    return;
-  const std::vector<std::string> here(mine.begin(), mine.end());
-  for (const auto &of_rank : Utilities::MPI::all_gather(run.communicator, here))
-    for (const std::string &remark : of_rank)
-      if (remarks.insert(remark).second)
-        run.warn(remark);
 }
 
 
@@ -346,53 +228,6 @@ void Simulation<dim>::watch_what_is_left_out()
 
 
 template <int dim>
-void Simulation<dim>::say_how_far_rock_went() const
-{
-  NonlinearRock<dim> *const rock = system.nonlinear_rock();
-  if (rock == nullptr || !rock->remembers())
-    return;
-  const double volume = Utilities::MPI::sum(rock->totals().yielded_volume, run.communicator);
-  const double used = Utilities::MPI::max(rock->totals().maximum_used, run.communicator);
-  if (volume > 0.)
-    run.out << "The rock has yielded in " << volume << (dim == 2 ? " m^2" : " m^3") << "."
-            << std::endl;
-  else
-    run.out << "The rock has stayed linear: at most " << 100. * used
-            << " per cent of its strength were used at the end." << std::endl;
-}
-
-
-template <int dim>
-double Simulation<dim>::unknowns_per_cell() const
-{
-  const auto &d = the_case.elements;
-  return dim * std::pow(d.displacement_degree, dim) + d.has_pore_pressure;
-}
-
-
-template <int dim>
-void Simulation<dim>::refuse_too_large() const
-{
-  const double n_cells = triangulation.n_global_active_cells();
-  const double n_unknowns = n_cells * unknowns_per_cell();
-  CostlyPhysics physics = costly_physics(the_case);
-  double needed = explicit_cost({}, n_unknowns, physics.memory_per_unknown, run.n_ranks).memory;
-  if (!the_case.scheme.is_explicit())
-  {
-    physics.memory_per_unknown = 0.; // which a model takes in its part of the mesh alone
-    needed = estimate_cost(dim, n_unknowns, physics, run.n_ranks).memory;
-  }
-  const double available = physical_memory(run.communicator);
-  if (needed > available)
-    throw EntryError(
-      "Mesh/Maximum number of cells", std::to_string(the_case.geometry.maximum_number_of_cells()),
-      "a mesh that fits into memory: this one has " +
-        std::to_string(triangulation.n_global_active_cells()) + " cells and would take about " +
-        in_bytes(needed) + ", there are " + in_bytes(available));
-}
-
-
-template <int dim>
 void Simulation<dim>::announce()
 {
   const MeshSizes<dim> mesh = mesh_sizes();
@@ -401,71 +236,8 @@ void Simulation<dim>::announce()
     run.warn(message);
   run.out << triangulation.n_global_active_cells() << " cells, " << system.n_unknowns()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
-  const auto [cost, steps] = expected_cost(mesh);
+  const auto [cost, steps] = expected_cost(run, the_case, mesh, system, stepper, clock);
   run.out << "  " << in_words(cost, steps, run.n_ranks) << std::endl;
-}
-
-
-template <int dim>
-std::pair<CostEstimate, ExpectedSteps> Simulation<dim>::expected_cost(const MeshSizes<dim> &mesh)
-{
-  const CostlyPhysics physics = costly_physics(the_case);
-  const double duration = the_case.control.end_time - clock.time;
-  if (ExplicitMarch<dim> *const march = stepper.explicit_march())
-    return {explicit_cost(
-              {static_cast<double>(march->n_parts(std::min(clock.dt, duration))), march->n_terms()},
-              system.n_unknowns(), physics.memory_per_unknown, run.n_ranks),
-            {std::ceil(duration / clock.dt), the_case.control.growth > 1.}};
-  const bool cracked = is_cracked(the_case);
-  const double at_end =
-    unknowns_at_end(the_case, mesh, system.n_unknowns(), the_case.network.segments().size());
-  const double cells =
-    !cracked   ? 0.
-    : dim == 3 ? std::numeric_limits<double>::quiet_NaN() // not all of a front comes on at once
-               : (half_length_at_end(the_case) - half_length_at_start(the_case)) / mesh.smallest;
-  return {estimate_cost(dim, at_end, physics, run.n_ranks),
-          expected_steps(the_case.control, duration, clock.dt, cracked, cells)};
-}
-
-
-template <int dim>
-void Simulation<dim>::save()
-{
-  const auto scope = run.timers.scope("output");
-  std::ostringstream bytes;
-  {
-    boost::archive::binary_oarchive archive(bytes);
-    const std::vector<std::uint64_t> keys = system.extra_numbering().keys();
-    archive << clock << the_case.scheme << keys;
-    for (const std::vector<double> *values : stepper.extra_vectors())
-      archive << *values;
-    the_case.model->save(archive);
-    the_case.network.save(archive);
-    archive << report << fields << run.warnings;
-  }
-  std::vector<const TrilinosWrappers::MPI::BlockVector *> vectors;
-  for (const auto *vector : stepper.bulk_vectors())
-    vectors.push_back(vector);
-  std::uint64_t attached_bytes = 0;
-  NodalFields<dim> *const own_fields = system.nodal_fields();
-  if (own_fields != nullptr)
-  {
-    own_fields->prepare_for_save();
-    attached_bytes += triangulation.n_locally_owned_active_cells() * own_fields->names.size() *
-                      GeometryInfo<dim>::vertices_per_cell * sizeof(double);
-  }
-  NonlinearRock<dim> *const rock = system.nonlinear_rock();
-  if (rock != nullptr)
-  {
-    rock->history().prepare_for_save(triangulation);
-    attached_bytes += rock->history().bytes();
-  }
-  checkpoint.save(triangulation, system.bulk_dofs(), vectors, bytes.str(), deck_fingerprint,
-                  comparable_deck, attached_bytes);
-  if (own_fields != nullptr)
-    own_fields->finish_save();
-  if (rock != nullptr)
-    rock->history().finish_save();
 }
 
 
@@ -474,50 +246,8 @@ void Simulation<dim>::resume()
 {
   if (!options.check_only)
     lock = std::make_unique<DirectoryLock>(options.output_directory, run.communicator);
-  std::istringstream bytes(checkpoint.read(deck_fingerprint, comparable_deck));
-  if (!checkpoint.why_not_newest().empty())
-    run.warn("The newest checkpoint cannot be used; the one before it is taken. " +
-             checkpoint.why_not_newest());
-  the_case.geometry.create_coarse(triangulation);
-  checkpoint.load_mesh(triangulation);
-
-  boost::archive::binary_iarchive archive(bytes);
-  std::vector<std::uint64_t> keys;
-  archive >> clock >> the_case.scheme >> keys;
+  clock = checkpoint.load();
   looked_at = clock.time;
-  if (finished())
-    throw EntryError("Time/End time", to_string(the_case.control.end_time, dimension::time),
-                     "a time after that of the checkpoint, " +
-                       to_string(clock.time, dimension::time) + ", where a restart goes on");
-  std::vector<ExtraUnknown> unknowns;
-  for (const std::uint64_t key : keys)
-    unknowns.push_back({key});
-  for (std::vector<double> *values : stepper.extra_vectors())
-    archive >> *values;
-  the_case.model->load(archive);
-  the_case.network.load(archive);
-  std::vector<std::string> warnings;
-  archive >> report >> fields >> warnings;
-  run.recall(warnings);
-
-  // In the order in which they were saved; the model looks at its fields in setup().
-  if (NodalFields<dim> *const own_fields = system.nodal_fields())
-    own_fields->load(triangulation);
-  system.setup_mesh(clock.time);
-  system.adopt_extra(ExtraNumbering(unknowns), stepper.extra_vectors());
-  if (NonlinearRock<dim> *const rock = system.nonlinear_rock())
-    rock->history().load(triangulation);
-  const auto targets = stepper.bulk_vectors();
-  std::vector<TrilinosWrappers::MPI::BlockVector> values(targets.size(), system.owned_vector());
-  std::vector<TrilinosWrappers::MPI::BlockVector *> loaded;
-  for (auto &vector : values)
-    loaded.push_back(&vector);
-  checkpoint.load_vectors(system.bulk_dofs(), loaded);
-  for (unsigned int i = 0; i < targets.size(); ++i)
-  {
-    *targets[i] = system.ghosted_vector();
-    *targets[i] = values[i];
-  }
   stepper.make_explicit_march();
   run.out << "Restarted at t = " << clock.time << " s, after step " << clock.step << "."
           << std::endl;
@@ -543,7 +273,7 @@ void Simulation<dim>::march()
     }
     catch (const SolveError &error)
     {
-      save();
+      checkpoint.save(clock);
       report.fail(triangulation.n_global_active_cells(), error.what());
       throw SolveError(error.what() + std::string("\nThe state at t = ") +
                        std::to_string(clock.time) + " s is in the checkpoint in '" +
@@ -558,7 +288,7 @@ void Simulation<dim>::march()
       clock.dt = std::min(clock.dt, the_case.control.initial_step);
     ++clock.step;
     report.add_step(clock.step, taken);
-    pass_on_remarks();
+    pass_on_remarks(run, system, remarks);
     watch_what_is_left_out();
     for (const std::string &message : the_case.model->take_messages())
       run.warn(message);
@@ -575,16 +305,15 @@ void Simulation<dim>::march()
     }
     if (stop_requested(run.communicator))
     {
-      save();
+      checkpoint.save(clock);
       report.fail(triangulation.n_global_active_cells(), "stopped by a signal");
       throw SolveError("Stopped by a signal at t = " + std::to_string(clock.time) +
                        " s; --restart goes on from there.");
     }
-    if (schedule.due(clock.step, run.communicator))
-      save();
+    checkpoint.save_if_due(clock);
   }
   audit_outcome(run, the_case, report.outcome());
-  say_how_far_rock_went();
+  say_how_far_rock_went(run, system);
   report.finish(triangulation.n_global_active_cells());
 }
 } // namespace
