@@ -95,7 +95,7 @@ void Peridynamics<dim>::soften_cohesive_cracks()
     for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       if (cracked.is_broken(i, b) && !lattice.bonds.is_broken(i, b) &&
           lattice.bonds.views_of(i, b).front() == BondView(i, b))
-        committed_softening.push_back(
+        softening_bonds.committed.bonds.push_back(
           {lattice.bonds.places(i, b), {{lattice.softening.stretch_of(little_damage), 0.}}});
   restore_softening();
 }

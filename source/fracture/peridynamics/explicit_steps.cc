@@ -12,55 +12,28 @@
 
 namespace stockwork::peridynamics
 {
-namespace
-{
-void refuse_explicit(const std::string &allowed)
-{
-  throw EntryError("Time/Scheme", "explicit", allowed);
-}
-} // namespace
-
-
-template <int dim>
-void Peridynamics<dim>::check_explicit_steps() const
-{
-  if (!parameters.explicit_steps)
-    return;
-  if (parameters.state_based)
-    refuse_explicit("Newmark with 'Bond law = state-based'");
-  if (std::isnan(scene.crack_pressure))
-    refuse_explicit("Newmark with fluid whose pressure is to be found; a given one is "
-                    "'Cracks/Fluid pressure', and in dry cracks 0 Pa");
-  if (parameters.as_published || parameters.tensor_fluid)
-    refuse_explicit("Newmark, or 'Fracture/peridynamics/Closure = auto' and 'Fluid = network': no "
-                    "fluid flows");
-  if (scene.crack_pressure != 0. && parameters.softening > 1.)
-    refuse_explicit("Newmark, or brittle bonds ('Fracture/peridynamics/Softening = 1'): those that "
-                    "soften have no given pressure in explicit steps");
-}
-
-
 template <int dim>
 void Peridynamics<dim>::make_explicit_bonds()
 {
   if (!is_all_bonds())
-    refuse_explicit(
+    throw EntryError(
+      "Time/Scheme", "explicit",
       "Newmark, or a 'Fracture/peridynamics/Zone' that holds all of the domain: explicit "
       "steps move bonds and no elements, and of " +
-      std::to_string(n_nodes) + " vertices " + std::to_string(lattice.zone.n_peridynamic_sites()) +
-      " are in the zone");
+        std::to_string(n_nodes) + " vertices " +
+        std::to_string(lattice.zone.n_peridynamic_sites()) + " are in the zone");
   SofteningLaw law_of_bonds = lattice.softening;
   if (!parameters.growth)
     law_of_bonds.first = law_of_bonds.last = std::numeric_limits<double>::max();
   energy_before_explicit = committed_energy;
   explicit_bonds = std::make_unique<ExplicitBonds<dim>>(
-    lattice.zone, lattice.stencil, lattice.law, law_of_bonds, stretch_of_given_pressure(),
+    lattice.zone, lattice.stencil, lattice.law, law_of_bonds, lattice.stretch_of_given_pressure(),
     [this](const unsigned int site, const unsigned int bond)
     {
       typename ExplicitBonds<dim>::Bond result{lattice.stiffness(site, bond), 1.};
       // Of the lattice's stress; what the surface correction adds does not push.
-      result.by_fluid = stretch_of_given_pressure() / lattice.rock_of_bonds.modulus(site, bond) /
-                        lattice.correction(site, bond);
+      result.by_fluid = lattice.stretch_of_given_pressure() /
+                        lattice.rock_of_bonds.modulus(site, bond) / lattice.correction(site, bond);
       if (result.by_fluid != 0. && lattice.bonds.is_broken(site, bond))
       {
         result.stiffness =
@@ -72,18 +45,11 @@ void Peridynamics<dim>::make_explicit_bonds()
         result.amplification = 0.;
       else if (result.stiffness > 0.)
         result.amplification = equivalent_stretch(site, bond, lattice.coefficients[bond].length);
-      if (const SofteningBond *softened = softening_bond(site, bond))
+      if (const SofteningBond *softened = softening_bonds.find(site, bond))
         result.greatest = softened->committed;
       return result;
     },
     rank);
-}
-
-
-template <int dim>
-double Peridynamics<dim>::stretch_of_given_pressure() const
-{
-  return scene.crack_pressure * lattice.strain_of_pressure;
 }
 
 
@@ -93,22 +59,21 @@ void Peridynamics<dim>::open_explicit_bonds(const Collectives &collectives)
   std::vector<double> volumes(cells.size(), 0.);
   for (const unsigned int i : lattice.bonds.damaged_sites())
     if (lattice.zone.sites()[i].owner == rank)
-      lattice.bonds.for_each_broken(i,
-                                    [&](const unsigned int b)
-                                    {
-                                      // Half of a bond belongs to each end.
-                                      const double length = lattice.coefficients[b].length,
-                                                   modulus = lattice.rock_of_bonds.modulus(i, b),
-                                                   effective =
-                                                     explicit_bonds->elongation(i, b) +
-                                                     stretch_of_given_pressure() / modulus * length,
-                                                   volume = 0.5 * lattice.zone.sites()[i].share *
-                                                            lattice.uncorrected_stiffness(i, b) *
-                                                            length * effective *
-                                                            lattice.strain_of_pressure;
-                                      for (const auto &[cell, share] : crossed.of(i, b, true))
-                                        volumes[cell] += share * volume;
-                                    });
+      lattice.bonds.for_each_broken(
+        i,
+        [&](const unsigned int b)
+        {
+          // Half of a bond belongs to each end.
+          const double length = lattice.coefficients[b].length,
+                       modulus = lattice.rock_of_bonds.modulus(i, b),
+                       effective = explicit_bonds->elongation(i, b) +
+                                   lattice.stretch_of_given_pressure() / modulus * length,
+                       volume = 0.5 * lattice.zone.sites()[i].share *
+                                lattice.uncorrected_stiffness(i, b) * length * effective *
+                                lattice.strain_of_pressure;
+          for (const auto &[cell, share] : crossed.of(i, b, true))
+            volumes[cell] += share * volume;
+        });
   collectives.sum(volumes);
   for (unsigned int k = 0; k < owned_segments.size(); ++k)
   {
@@ -157,9 +122,10 @@ bool Peridynamics<dim>::take_explicit_changes(const Collectives &collectives)
       changed = true;
     }
   }
-  softening_bonds.clear();
+  std::vector<SofteningBond> now;
   for (const auto &[view, bond] : softened)
-    softening_bonds.push_back(bond);
+    now.push_back(bond);
+  softening_bonds.replace(std::move(now));
   return collectives.max(changed ? 1. : 0.) > 0.;
 }
 
@@ -174,7 +140,7 @@ bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collecti
     refresh_segments();
     passes = 1; // what commit() keeps is new
   }
-  if (stretch_of_given_pressure() == 0.)
+  if (lattice.stretch_of_given_pressure() == 0.)
     return changed;
   if (changed)
     crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
@@ -184,9 +150,7 @@ bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collecti
 }
 
 #define INSTANTIATE(dim)                                                       \
-  template void Peridynamics<dim>::check_explicit_steps() const;               \
   template void Peridynamics<dim>::make_explicit_bonds();                      \
-  template double Peridynamics<dim>::stretch_of_given_pressure() const;        \
   template void Peridynamics<dim>::open_explicit_bonds(const Collectives &);   \
   template bool Peridynamics<dim>::take_explicit_changes(const Collectives &); \
   template bool Peridynamics<dim>::follow_explicit_bonds(const State &, const Collectives &);

@@ -6,11 +6,44 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace stockwork::peridynamics
 {
 using dealii::Point;
 using dealii::Tensor;
+
+namespace
+{
+/// The sites that bonds across a fracture cell of this rank may lead to, and some more.
+template <int dim>
+std::vector<unsigned int> sites_of_crossing_bonds(const Lattice<dim> &lattice)
+{
+  const int reach = 2 * lattice.parameters.horizon + 3;
+  Place<dim> lower, upper;
+  lower.fill(std::numeric_limits<int>::max());
+  upper.fill(std::numeric_limits<int>::min());
+  for (const Place<dim> &cell : lattice.zone.cells())
+    if (lattice.zone.owns(cell))
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::min(lower[d], cell[d]);
+        upper[d] = std::max(upper[d], cell[d]);
+      }
+  std::vector<unsigned int> sites;
+  for (unsigned int i = 0; i < lattice.zone.sites().size(); ++i)
+  {
+    bool is_near = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      is_near = is_near && lattice.zone.sites()[i].place[d] > lower[d] - reach &&
+                lattice.zone.sites()[i].place[d] < upper[d] + reach;
+    if (is_near)
+      sites.push_back(i);
+  }
+  return sites;
+}
+} // namespace
+
 
 template <int dim>
 CellRole<dim> Peridynamics<dim>::role(const CellIterator &cell) const
@@ -47,7 +80,7 @@ void Peridynamics<dim>::add_couplings(const Coupling &couple) const
         couple(dofs);
       }
   if (parameters.in_bonds)
-    for (const unsigned int i : sites_of_crossing_bonds())
+    for (const unsigned int i : sites_of_crossing_bonds(lattice))
     {
       const Site<dim> &site = lattice.zone.sites()[i];
       dofs.assign(site.dofs.begin(), site.dofs.end());
@@ -95,7 +128,7 @@ double Peridynamics<dim>::strain_energy(const std::vector<double> &u) const
       double theta = 0.;
       for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
         if (!lattice.bonds.is_broken(i, b))
-          theta += (1. - bond_damage(i, b)) * lattice.coefficients[b].dilatation *
+          theta += (1. - softening_bonds.damage(i, b)) * lattice.coefficients[b].dilatation *
                    lattice.elongation(i, b, u);
       theta *= lattice.dilatation_factor(i);
       energy += 0.5 * lattice.dilatation_modulus(i) *

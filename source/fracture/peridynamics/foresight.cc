@@ -231,6 +231,27 @@ void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scen
 
 
 template <int dim>
+void refuse_explicit_steps(const Parameters<dim> &parameters, const Scene<dim> &scene)
+{
+  if (!parameters.explicit_steps)
+    return;
+  const auto refuse = [](const std::string &allowed)
+  { throw EntryError("Time/Scheme", "explicit", allowed); };
+  if (parameters.state_based)
+    refuse("Newmark with 'Bond law = state-based'");
+  if (std::isnan(scene.crack_pressure))
+    refuse("Newmark with fluid whose pressure is to be found; a given one is "
+           "'Cracks/Fluid pressure', and in dry cracks 0 Pa");
+  if (parameters.as_published || parameters.tensor_fluid)
+    refuse("Newmark, or 'Fracture/peridynamics/Closure = auto' and 'Fluid = network': no "
+           "fluid flows");
+  if (scene.crack_pressure != 0. && parameters.softening > 1.)
+    refuse("Newmark, or brittle bonds ('Fracture/peridynamics/Softening = 1'): those that "
+           "soften have no given pressure in explicit steps");
+}
+
+
+template <int dim>
 std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spacing)
 {
   std::vector<std::string> messages;
@@ -247,6 +268,8 @@ std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spaci
 
 template void refuse_what_bonds_do_not_know(const Parameters<2> &, const Scene<2> &);
 template void refuse_what_bonds_do_not_know(const Parameters<3> &, const Scene<3> &);
+template void refuse_explicit_steps(const Parameters<2> &, const Scene<2> &);
+template void refuse_explicit_steps(const Parameters<3> &, const Scene<3> &);
 template std::vector<std::string> foresee(const Lattice<2> &, double);
 template std::vector<std::string> foresee(const Lattice<3> &, double);
 } // namespace stockwork::peridynamics

@@ -22,6 +22,8 @@ constexpr unsigned int attempts_for_advances = 3;
 /// Attempts at a step, each with half the length of the one before, after which its length is not
 /// what is wrong.
 constexpr unsigned int attempts_for_length = 6;
+/// In steps that get shorter, and between which the zone grows, while the fracture does not.
+constexpr unsigned int most_stops_at_rim = 12;
 } // namespace
 
 
@@ -124,7 +126,7 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
     };
     const double most = most_of_cells / lattice.rock_of_bonds.modulus(i, b) +
                         (parameters.in_bonds ? 0. : lattice.in_situ_stretch(i, b));
-    if (ratio_with(most) < least || softening_bond(i, b) != nullptr)
+    if (ratio_with(most) < least || softening_bonds.find(i, b) != nullptr)
       return;
     const double ratio = ratio_with(added_stretch(i, b, of_cells));
     if (ratio < least)
@@ -137,7 +139,7 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
       rim = Rim::stays;
   };
   if (parameters.tracked)
-    for (const BondAcross &bond : crossing_bonds)
+    for (const BondAcross<dim> &bond : crossing_bonds)
       consider(bond.view.first, bond.view.second);
   else
     for (const unsigned int i : lattice.zone.peridynamic_sites())
@@ -182,7 +184,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   Verdict verdict;
   if (parameters.explicit_steps)
   {
-    if ((parameters.growth || stretch_of_given_pressure() != 0.) &&
+    if ((parameters.growth || lattice.stretch_of_given_pressure() != 0.) &&
         follow_explicit_bonds(state, collectives))
       verdict.kind = Verdict::Kind::topology_changed;
     return verdict;
@@ -228,7 +230,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     verdict.kind = Verdict::Kind::reject;
     has_rejected = true;
     verdict.reason = "a crack has come to the rim of the zone, which grows between steps";
-    if (context.attempt >= attempts_for_length)
+    // Each time as far as the rim: all of the rock is stretched too far ahead.
+    if (++stops_at_rim >= most_stops_at_rim)
     {
       verdict.kind = Verdict::Kind::stop;
       verdict.reason = wanted_zone();
@@ -256,7 +259,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     if (verdict.kind != Verdict::Kind::accept)
       return verdict;
     verdict.advances = n_new == 0 ? 0 : 1 + (n_new - 1) / n_tips;
-    verdict.length_is_right = damage_relaxation < 1.;
+    verdict.length_is_right = softening_bonds.relaxation() < 1.;
     return verdict;
   }
   // A fracture in viscous fluid may jump by several cells in steps of any length.

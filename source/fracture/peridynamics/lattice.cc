@@ -281,6 +281,16 @@ void Lattice<dim>::append_family(const unsigned int site, std::vector<unsigned i
 
 /// What breaks a bond is its energy; bonds beside a crack are stiffer.
 template <int dim>
+double Lattice<dim>::push(const BondView &view) const
+{
+  double sum = 0.;
+  for (const auto &[s, b] : bonds.views_of(view.first, view.second))
+    sum += 0.5 * zone.sites()[s].share * coefficients[b].stiffness * coefficients[b].length;
+  return sum;
+}
+
+
+template <int dim>
 double Lattice<dim>::equivalent_stretch(const unsigned int site,
                                         const unsigned int bond,
                                         const double elongation,

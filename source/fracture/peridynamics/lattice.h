@@ -102,6 +102,17 @@ public:
   /// [J/m].
   double energy_at_unit_stretch(const BondView &view) const;
 
+  /// Of all views of a bond, stiffness times length, as far as it lies in the domain [N/m^2 times
+  /// m^dim].
+  double push(const BondView &view) const;
+
+  /// Stretch of a bond, by the pressure that the deck gives the fluid in all cracks, as of a
+  /// uniform stress.
+  double stretch_of_given_pressure() const
+  {
+    return scene.crack_pressure * strain_of_pressure;
+  }
+
   /// Stretch, of a bond of the lattice's stiffness in the rock outside of regions that has as much
   /// of the energy that it takes.
   /// @param relative_energy that it takes, over that of a bond in the rock outside of regions

@@ -67,7 +67,7 @@ std::string Peridynamics<dim>::why_sliding_crack_holds() const
   double held = 0., most = 0.;
   Point<dim> where;
   if constexpr (dim == 2)
-    for (const BondAcross &bond : crossing_bonds)
+    for (const BondAcross<dim> &bond : crossing_bonds)
     {
       const auto &[site, b] = bond.view;
       const double stretched = lattice.elongation(site, b, displacement);
@@ -91,7 +91,7 @@ std::string Peridynamics<dim>::why_sliding_crack_holds() const
         continue;
       double energy = 0.;
       for (const auto &[s, view] : lattice.bonds.views_of(site, b))
-        energy += 0.25 * lattice.zone.sites()[s].share * (1. - bond_damage(s, view)) *
+        energy += 0.25 * lattice.zone.sites()[s].share * (1. - softening_bonds.damage(s, view)) *
                   lattice.stiffness(s, view) * stretched * stretched;
       held += energy;
       if (energy > most)

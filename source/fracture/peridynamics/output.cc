@@ -23,7 +23,7 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
   {
     const double broken = broken_share<dim>(lattice.zone, lattice.stencil, cells[i],
                                             [this](const unsigned int site, const unsigned int bond)
-                                            { return bond_damage(site, bond); });
+                                            { return softening_bonds.damage(site, bond); });
     if (broken < 0.5 && is_beside(cells, apertures, parameters.horizon + 1., i))
       continue; // it has softened without opening
     sums[0] += all_segments[i].area;
@@ -65,13 +65,13 @@ double Peridynamics<dim>::length_that_holds() const
 {
   double energy = 0.;
   if constexpr (dim == 2)
-    for (const BondAcross &bond : crossing_bonds)
+    for (const BondAcross<dim> &bond : crossing_bonds)
       if (const auto &[site, b] = bond.view;
           !lattice.bonds.is_broken(site, b) && !paths.end_at(bond.crossing) &&
           scene.cracks[bond.crossing.path].kind != InitialCrack<dim>::Kind::open &&
           lattice.bonds.views_of(site, b).front() == bond.view)
       {
-        const SofteningBond *softened = softening_bond(site, b);
+        const SofteningBond *softened = softening_bonds.find(site, b);
         energy += lattice.energy_at_unit_stretch(bond.view) *
                   (lattice.softening.first * lattice.softening.last -
                    (softened != nullptr ? lattice.softening.separation(softened->trial) : 0.));

@@ -36,7 +36,9 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   : parameters(parameters)
   , scene(scene)
   , lattice(this->parameters, scene)
+  , softening_bonds(lattice)
   , new_paths(lattice)
+  , crossing_bonds(lattice)
 {
   if (parameters.growth)
     needs::energy_release_rate(scene.rock, "peridynamics", "or 'Growth = false'");
@@ -48,7 +50,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   if (parameters.boxes.empty())
     needs::initial_crack(scene, "peridynamics", "or the box of its 'Zone'");
   refuse_what_bonds_do_not_know(parameters, scene);
-  check_explicit_steps();
+  refuse_explicit_steps(parameters, scene);
   shape.cracks = scene.cracks;
   shape.boxes = parameters.boxes;
   shape.margin = parameters.margin;
@@ -165,14 +167,14 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
           committed_correction[lattice.zone.sites()[i].place] = gone;
   }
   row_versions.restart(lattice.zone.sites().size());
-  paths_crossed.reset(); // by other sites
+  crossing_bonds.forget();
   refresh_segments();
   if (!started && parameters.tracked && parameters.growth)
     new_paths.refuse_in_situ_tension(paths);
   started = true;
   if (parameters.explicit_steps)
     make_explicit_bonds();
-  if (explicit_bonds && stretch_of_given_pressure() != 0.)
+  if (explicit_bonds && lattice.stretch_of_given_pressure() != 0.)
   {
     crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
     open_explicit_bonds(collectives);
@@ -316,11 +318,8 @@ template <int dim>
 void Peridynamics<dim>::begin_step(const StepContext &context)
 {
   passes = 0;
-  // An attempt that this model has not rejected has not converged. Half of the step may do.
-  if (context.attempt == 0)
-    damage_relaxation = std::min(1., 1.25 * committed_damage_relaxation);
-  else if (context.attempt > 1 && !has_rejected)
-    damage_relaxation *= 0.5;
+  // An attempt that this model has not rejected has not converged.
+  softening_bonds.begin_attempt(context.attempt, has_rejected);
   has_rejected = false;
   dissipated = committed_energy;
   n_messages_before = messages.size();
@@ -345,17 +344,14 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
     committed_paths = paths;
     committed_way_energy = energy_across_ways();
   }
-  committed_softening.clear();
-  for (SofteningBond &bond : softening_bonds)
-  {
+  for (const SofteningBond &bond : softening_bonds)
     dissipated +=
       relative_energy(bond.view.first, bond.view.second) *
       lattice.energy_at_unit_stretch(bond.view) *
       (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
-    bond.committed = bond.trial;
-    committed_softening.push_back(
-      {lattice.bonds.places(bond.view.first, bond.view.second), {{bond.trial, bond.offset}}});
-  }
+  softening_bonds.commit();
+  if (cells.size() > n_segments_before)
+    stops_at_rim = 0;
   if (parameters.in_bonds)
   {
     commit_contact(state);
@@ -366,7 +362,6 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
           cell.place, std::vector<double>(cell.normal.begin_raw(), cell.normal.end_raw()));
   }
   committed_energy = dissipated;
-  committed_damage_relaxation = damage_relaxation;
   const double settled = (parameters.horizon + 1.5) * lattice.zone.spacing();
   std::vector<Point<dim>> front;
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -396,7 +391,7 @@ void Peridynamics<dim>::correct_faces()
   {
     for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       if (!lattice.bonds.is_broken(site, b) &&
-          (1. - bond_damage(site, b)) * lattice.elongation(site, b, displacement) >
+          (1. - softening_bonds.damage(site, b)) * lattice.elongation(site, b, displacement) >
             relaxed * lattice.softening.first * relative_stretch(site, b) *
               lattice.coefficients[b].length)
         return false;
@@ -479,15 +474,15 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
   const auto broken =
                parameters.explicit_steps ? of_all_ranks(lattice.bonds.places()) : committed_bonds,
              open = parameters.explicit_steps ? of_all_ranks(cracked.places()) : committed_cracked;
-  const auto softened = of_all_ranks(committed_softening);
+  const auto softened = of_all_ranks(softening_bonds.committed.bonds);
   std::map<Place<dim>, double> correction;
   for (const auto &[place, corrected] : of_all_ranks(std::vector<std::pair<Place<dim>, double>>(
          committed_correction.begin(), committed_correction.end())))
     correction[place] = corrected;
   archive << origin << grown << broken << open << softened << committed_normals << correction
-          << committed_energy << committed_damage_relaxation << told_of_pressure << committed_paths
-          << committed_way_energy << new_paths.told << committed_cells << told_of_contact
-          << told_of_rim;
+          << committed_energy << softening_bonds.committed.relaxation << told_of_pressure
+          << committed_paths << committed_way_energy << new_paths.told << committed_cells
+          << told_of_contact << told_of_rim;
 }
 
 
@@ -496,10 +491,11 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
 {
   std::array<double, dim> origin;
   std::vector<std::array<Point<dim>, 2>> grown;
-  archive >> origin >> grown >> committed_bonds >> committed_cracked >> committed_softening >>
-    committed_normals >> committed_correction >> committed_energy >> committed_damage_relaxation >>
-    told_of_pressure >> committed_paths >> committed_way_energy >> new_paths.told >>
-    committed_cells >> told_of_contact >> told_of_rim;
+  archive >> origin >> grown >> committed_bonds >> committed_cracked >>
+    softening_bonds.committed.bonds >> committed_normals >> committed_correction >>
+    committed_energy >> softening_bonds.committed.relaxation >> told_of_pressure >>
+    committed_paths >> committed_way_energy >> new_paths.told >> committed_cells >>
+    told_of_contact >> told_of_rim;
   paths = committed_paths;
   Point<dim> corner;
   for (unsigned int d = 0; d < dim; ++d)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fracture/peridynamics/crossed_cells.h"
+#include "fracture/peridynamics/crossing_bonds.h"
 #include "fracture/peridynamics/explicit_bonds.h"
 #include "fracture/peridynamics/faces.h"
 #include "fracture/peridynamics/fracture_cells.h"
@@ -8,6 +9,7 @@
 #include "fracture/peridynamics/new_paths.h"
 #include "fracture/peridynamics/published_load.h"
 #include "fracture/peridynamics/row_versions.h"
+#include "fracture/peridynamics/softening_bonds.h"
 #include "fracture/peridynamics/tracked_paths.h"
 #include "stockwork/fracture/model.h"
 
@@ -167,38 +169,8 @@ private:
     unsigned int site, bond;
   };
 
-  /// A bond that leads from one face to the other, as seen from one of its ends.
-  struct BondAcross
-  {
-    BondView view;
-    dealii::Tensor<1, dim> direction; ///< of the bond, or of its image that crosses the path
-    TrackedPaths::Crossing crossing;  ///< where it crosses a path
-    bool was_cut = false;             ///< by another crack of the deck, which is open
-  };
-
   /// Those that cross a path; without paths the broken ones.
-  std::vector<BondAcross> bonds_across() const;
-
-  /// A bond that softens. Its unknown is what has become of its elongation without any force, D
-  /// times the elongation [m].
-  struct SofteningBond
-  {
-    BondView view;
-    /// Greatest stretch so far, as of a bond of the lattice's stiffness.
-    double committed = 0., trial = 0.;
-    /// Stretch that is not elongation: in situ, and what fluid relieves. With the pressure in the
-    /// bonds it is not kept, see added_stretch().
-    double offset = 0.;
-  };
-
-  /// With a stretch now [-].
-  double maximum_stretch(const SofteningBond &bond, double stretch) const;
-
-  /// The bond among `softening_bonds`, or null.
-  const SofteningBond *softening_bond(unsigned int site, unsigned int bond) const;
-
-  /// 0: whole, 1: broken.
-  double bond_damage(unsigned int site, unsigned int bond) const;
+  std::vector<BondAcross<dim>> bonds_across() const;
 
   /// Break the most stretched bonds.
   void break_bonds(const std::vector<Candidate> &candidates);
@@ -260,7 +232,7 @@ private:
 
   /// Of all cells, the same of unit tractions of the modes [1/Pa]: across the fracture and along
   /// it, combined so that bonds read no slip as an opening, nor the other way round.
-  void find_modes(const std::vector<BondAcross> &across);
+  void find_modes(const std::vector<BondAcross<dim>> &across);
 
   /// Of all cells.
   std::vector<dealii::SymmetricTensor<2, dim>> strain_of_faces(const State &state) const;
@@ -306,29 +278,19 @@ private:
 
   /// The same for what a cell's faces have moved by: bonds ahead of the fluid belong to its last
   /// piece, but not to that one's jump.
-  CellShares shares_of_jump(const BondAcross &bond) const;
+  CellShares shares_of_jump(const BondAcross<dim> &bond) const;
 
   // With tracked paths (tracking.cc).
 
   /// Find the bonds that cross paths, if these are others than before.
   void find_crossing_bonds();
 
-  /// Where a bond, or its image in the domain, crosses a path.
-  std::optional<TrackedPaths::Crossing> crossing_of(unsigned int site, unsigned int bond) const;
-
   /// Of a bond across a path that fluid has not reached: by the effective in-situ traction there,
   /// which the fracture would release.
   double dry_stretch(unsigned int site, unsigned int bond) const;
 
-  /// A place itself, if it is that of a cell, or the nearest cell of the zone.
-  Place<dim> cell_of_zone(const Place<dim> &place) const;
-
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
-
-  /// The pressure of the pores on the faces of a piece. Elements spread the jump across it over the
-  /// cells that it crosses, and their pressure acts on that, not the one on the line.
-  LinearFunctional pores_across(const Segment<dim> &piece) const;
 
   /// Paths begin where bonds far from all others are stretched too far.
   /// @return why the run cannot go on; empty: it can
@@ -387,12 +349,6 @@ private:
   /// Segments open by what bonds have lost of their elongation.
   void open_by_bonds();
 
-  /// Stiffness times length, as far as it lies in the domain [N/m^2 times m^dim].
-  double push(const BondView &view) const;
-
-  /// The sites that bonds across a fracture cell of this rank may lead to, and some more.
-  std::vector<unsigned int> sites_of_crossing_bonds() const;
-
   /// Of an owned segment [m].
   double aperture(unsigned int owned, const State &state) const;
 
@@ -445,15 +401,8 @@ private:
 
   // By explicit steps (explicit_steps.cc).
 
-  /// @throws InputError where they cannot be
-  void check_explicit_steps() const;
-
   /// @throws InputError where not all of the rock is bonds
   void make_explicit_bonds();
-
-  /// Of a bond of the lattice, by the pressure that the deck gives the fluid in all cracks, as of
-  /// a uniform stress.
-  double stretch_of_given_pressure() const;
 
   /// The fracture is what bonds have become.
   /// @return whether segments are others than before
@@ -516,9 +465,9 @@ private:
   unsigned int rank = 0;
   unsigned int n_nodes = 0; ///< of the mesh
 
-  BondSet<dim> cracked;                       ///< broken ones and those that have begun to soften
-  std::vector<SofteningBond> softening_bonds; ///< sorted by view
-  std::vector<unsigned int> n_broken;         ///< bonds of all sites
+  BondSet<dim> cracked; ///< broken ones and those that have begun to soften
+  SofteningBonds<dim> softening_bonds;
+  std::vector<unsigned int> n_broken; ///< bonds of all sites
   std::vector<FractureCell<dim>> cells;
   std::vector<Segment<dim>> all_segments;    ///< of all ranks
   std::vector<bool> at_front;                ///< which of them the fracture ends at
@@ -531,8 +480,7 @@ private:
   std::vector<CellShares> softening_shares;                          ///< of the softening bonds
   TrackedPaths paths, committed_paths;
   NewPaths<dim> new_paths;
-  std::vector<BondAcross> crossing_bonds; ///< of `paths_crossed`, sorted by view
-  std::optional<TrackedPaths> paths_crossed;
+  CrossingBonds<dim> crossing_bonds;
   std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
   std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
   std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here
@@ -545,8 +493,6 @@ private:
 
   // Committed.
   std::vector<BondPlaces<dim>> committed_bonds, committed_cracked;
-  /// Greatest stretch and offset.
-  std::vector<std::pair<BondPlaces<dim>, std::array<double, 2>>> committed_softening;
   std::map<Place<dim>, std::vector<double>> committed_normals;
   std::vector<std::pair<Place<dim>, std::vector<double>>> committed_cells; ///< and their normals
   std::map<Place<dim>, double> committed_correction; ///< damage of sites that is made up for
@@ -559,11 +505,8 @@ private:
   std::size_t n_segments_before = 0, n_tips_before = 0;
   double extent_before = 0.;
   unsigned int passes = 0;
-  /// How far bonds soften within the step, of what their stretch asks for. Where a crack jumps, no
-  /// step is short enough; so an attempt after one that has not converged lets them soften by less,
-  /// and the rest is left to the steps that follow.
-  double damage_relaxation = 1., committed_damage_relaxation = 1.;
   bool has_rejected = false;        ///< the last attempt
+  unsigned int stops_at_rim = 0;    ///< rejected by that of the zone, since the fracture grew
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
   bool told_of_rim_before = false, told_of_pressure_before = false;

@@ -113,14 +113,14 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
       return is_wet_bond(site, bond) ? crossed.of(site, bond, true) : CellShares();
     return crossed.of(site, bond, always);
   }
-  const auto crossing = crossing_of(site, bond);
+  const auto crossing = crossing_bonds.crossing(site, bond);
   return crossing ? paths.shares(*crossing, (parameters.horizon + 1.) * lattice.zone.spacing())
                   : CellShares();
 }
 
 
 template <int dim>
-CellShares Peridynamics<dim>::shares_of_jump(const BondAcross &bond) const
+CellShares Peridynamics<dim>::shares_of_jump(const BondAcross<dim> &bond) const
 {
   return parameters.tracked ? paths.shares(bond.crossing, same_place * lattice.zone.spacing())
                             : shares_of(bond.view.first, bond.view.second, true);
@@ -128,11 +128,11 @@ CellShares Peridynamics<dim>::shares_of_jump(const BondAcross &bond) const
 
 
 template <int dim>
-std::vector<typename Peridynamics<dim>::BondAcross> Peridynamics<dim>::bonds_across() const
+std::vector<BondAcross<dim>> Peridynamics<dim>::bonds_across() const
 {
   if (parameters.tracked)
-    return crossing_bonds;
-  std::vector<BondAcross> across;
+    return crossing_bonds.all();
+  std::vector<BondAcross<dim>> across;
   for (const unsigned int i : lattice.zone.peridynamic_sites())
     for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       if (lattice.bonds.is_broken(i, b))
@@ -150,7 +150,7 @@ std::vector<typename Peridynamics<dim>::BondAcross> Peridynamics<dim>::bonds_acr
 /// one side, and what makes up for that alone pulls at the others by what the pores press with,
 /// which is more than their strength (doc/laboratory/peridynamics_paths.md).
 template <int dim>
-void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
+void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &across)
 {
   modes.assign(cells.size(), {});
   for (unsigned int i = 0; i < cells.size(); ++i)
@@ -165,7 +165,7 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &across)
       return;
     // What modes read of jumps across the fracture and along it, over its area.
     std::vector<Tensor<2, dim>> reading(cells.size());
-    for (const BondAcross &bond : across)
+    for (const BondAcross<dim> &bond : across)
     {
       const auto &[site, b] = bond.view;
       if (!scene.has_pore_pressure && !lattice.bonds.is_broken(site, b))
@@ -212,7 +212,7 @@ void Peridynamics<dim>::open_by_bonds()
 {
   if (!parameters.tracked)
     crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
-  const std::vector<BondAcross> across = bonds_across();
+  const std::vector<BondAcross<dim>> across = bonds_across();
   find_modes(across);
   released.clear();
   if (!lattice.in_situ_is_zero)
@@ -222,7 +222,7 @@ void Peridynamics<dim>::open_by_bonds()
   // Of the bonds across a piece. The last piece of a fracture may have lost a single one, which
   // reads the same of both modes: faces that stick would be held twice by it.
   std::vector<double> broken_share(cells.size(), 0.), all_bonds(cells.size(), 0.);
-  for (const BondAcross &bond : across)
+  for (const BondAcross<dim> &bond : across)
     for (const auto &[cell, share] : shares_of_jump(bond))
     {
       const double part = share * lattice.coefficients[bond.view.second].stiffness;
@@ -275,7 +275,7 @@ void Peridynamics<dim>::open_by_bonds()
     const double strain = e * (modes[cell][m] * e);
     return std::abs(strain) > same_place * lattice.strain_of_pressure ? strain : 0.;
   };
-  for (const BondAcross &bond : across)
+  for (const BondAcross<dim> &bond : across)
   {
     const auto &[i, b] = bond.view;
     if (!lattice.bonds.is_broken(i, b))
@@ -335,7 +335,7 @@ void Peridynamics<dim>::open_by_bonds()
       {
         own->bonds.push_back(number);
         for (unsigned int m = 0; m < n; ++m)
-          own->modes[m].of_bonds.push_back(share * push(softening_bonds[number].view) *
+          own->modes[m].of_bonds.push_back(share * lattice.push(softening_bonds[number].view) *
                                            (e * (modes[cell][m] * e)));
       }
   }
@@ -360,17 +360,6 @@ double Peridynamics<dim>::bare_aperture(const unsigned int cell) const
                          main.shear_modulus() / here.shear_modulus());
     }
   return 0.; // an initial crack has no bridges
-}
-
-
-template <int dim>
-double Peridynamics<dim>::push(const BondView &view) const
-{
-  double sum = 0.;
-  for (const auto &[s, b] : lattice.bonds.views_of(view.first, view.second))
-    sum += 0.5 * lattice.zone.sites()[s].share * lattice.coefficients[b].stiffness *
-           lattice.coefficients[b].length;
-  return sum;
 }
 
 
@@ -421,34 +410,6 @@ double Peridynamics<dim>::aperture(const unsigned int owned, const State &state)
 }
 
 
-template <int dim>
-std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const
-{
-  const int reach = 2 * parameters.horizon + 3;
-  Place<dim> lower, upper;
-  lower.fill(std::numeric_limits<int>::max());
-  upper.fill(std::numeric_limits<int>::min());
-  for (const Place<dim> &cell : lattice.zone.cells())
-    if (lattice.zone.owns(cell))
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] = std::min(lower[d], cell[d]);
-        upper[d] = std::max(upper[d], cell[d]);
-      }
-  std::vector<unsigned int> sites;
-  for (unsigned int i = 0; i < lattice.zone.sites().size(); ++i)
-  {
-    bool is_near = true;
-    for (unsigned int d = 0; d < dim; ++d)
-      is_near = is_near && lattice.zone.sites()[i].place[d] > lower[d] - reach &&
-                lattice.zone.sites()[i].place[d] < upper[d] + reach;
-    if (is_near)
-      sites.push_back(i);
-  }
-  return sites;
-}
-
-
 #define INSTANTIATE(dim)                                                                          \
   template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const;        \
   template std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const State &) \
@@ -457,15 +418,13 @@ std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const
     unsigned int, unsigned int, const CellShares &, const std::vector<SymmetricTensor<2, dim>> &) \
     const;                                                                                        \
   template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const;       \
-  template void Peridynamics<dim>::find_modes(const std::vector<BondAcross> &);                   \
+  template void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &);              \
   template void Peridynamics<dim>::open_by_bonds();                                               \
   template double Peridynamics<dim>::bare_aperture(unsigned int) const;                           \
-  template double Peridynamics<dim>::push(const BondView &) const;                                \
   template void Peridynamics<dim>::commit_contact(const State &);                                 \
   template void Peridynamics<dim>::keep_committed_cells();                                        \
   template double Peridynamics<dim>::aperture(unsigned int, const State &) const;                 \
-  template std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const;                \
-  template std::vector<unsigned int> Peridynamics<dim>::sites_of_crossing_bonds() const;
+  template std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const;
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

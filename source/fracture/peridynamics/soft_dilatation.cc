@@ -17,10 +17,10 @@ using dealii::Tensor;
 
 
 template <int dim>
-typename Peridynamics<dim>::Softened
-Peridynamics<dim>::softened(const SofteningBond &softening_bond, const State &state) const
+typename Peridynamics<dim>::Softened Peridynamics<dim>::softened(const SofteningBond &soft,
+                                                                 const State &state) const
 {
-  const auto &[site, bond] = softening_bond.view;
+  const auto &[site, bond] = soft.view;
   const FarEnd end = lattice.zone.far_end(site, bond);
   double elongated = 0.;
   for (unsigned int d = 0; d < dim; ++d)
@@ -30,12 +30,12 @@ Peridynamics<dim>::softened(const SofteningBond &softening_bond, const State &st
                   state.current.bulk(lattice.zone.sites()[site].dofs[d]));
   const double by_elongation = equivalent_stretch(site, bond, 1.);
   const double stretch =
-    by_elongation * (elongated + softening_bond.offset * lattice.coefficients[bond].length);
-  const double kappa = maximum_stretch(softening_bond, stretch);
+    by_elongation * (elongated + soft.offset * lattice.coefficients[bond].length);
+  const double kappa = softening_bonds.maximum_stretch(soft, stretch);
   const double damage = lattice.softening.damage(kappa);
-  const bool softens = stretch > softening_bond.committed;
-  return {damage, softens ? (lattice.softening.slope(kappa) - damage) / kappa * damage_relaxation *
-                              by_elongation
+  const bool softens = stretch > soft.committed;
+  return {damage, softens ? (lattice.softening.slope(kappa) - damage) / kappa *
+                              softening_bonds.relaxation() * by_elongation
                           : 0.};
 }
 

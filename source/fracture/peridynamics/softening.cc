@@ -17,35 +17,11 @@ constexpr double wet_damage_beside = 0.5;
 
 
 template <int dim>
-const typename Peridynamics<dim>::SofteningBond *
-Peridynamics<dim>::softening_bond(const unsigned int site, const unsigned int bond) const
-{
-  if (softening_bonds.empty() || !lattice.bonds.can_break(site, bond))
-    return nullptr;
-  const BondView view = lattice.bonds.views_of(site, bond).front();
-  const auto found =
-    std::lower_bound(softening_bonds.begin(), softening_bonds.end(), view,
-                     [](const SofteningBond &a, const BondView &b) { return a.view < b; });
-  return found != softening_bonds.end() && found->view == view ? &*found : nullptr;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::bond_damage(const unsigned int site, const unsigned int bond) const
-{
-  if (lattice.bonds.is_broken(site, bond))
-    return 1.;
-  const SofteningBond *softened = softening_bond(site, bond);
-  return softened != nullptr ? lattice.softening.damage(softened->trial) : 0.;
-}
-
-
-template <int dim>
 double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigned int bond) const
 {
   if constexpr (dim == 2)
     if (parameters.tracked && !is_alike())
-      if (const auto crossing = crossing_of(site, bond))
+      if (const auto crossing = crossing_bonds.crossing(site, bond))
       {
         const bool cemented =
           crossing->path < scene.cracks.size() && !paths.end_at(*crossing) &&
@@ -95,13 +71,6 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
     for (const ExtraUnknown &unknown : unknowns_of_faces())
       unknowns.push_back(unknown);
   return unknowns;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::maximum_stretch(const SofteningBond &bond, const double stretch) const
-{
-  return bond.committed + damage_relaxation * std::max(0., stretch - bond.committed);
 }
 
 
@@ -160,7 +129,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     const double total = elongation + added;
     const double stretch = equivalent_stretch(site, bond, total);
     const double committed = softening_bonds[n].committed;
-    const double kappa = maximum_stretch(softening_bonds[n], stretch);
+    const double kappa = softening_bonds.maximum_stretch(softening_bonds[n], stretch);
     const double damage = lattice.softening.damage(kappa);
     // What an in-situ stress adds to the stretch is not the bond's to carry, unless it is part of
     // its law.
@@ -168,7 +137,8 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     // Of damage times this elongation by the elongation.
     const double slope = stretch > committed && total != 0.
                            ? damage + (lattice.softening.slope(kappa) - damage) *
-                                        damage_relaxation * stretch / kappa * carried / total
+                                        softening_bonds.relaxation() * stretch / kappa * carried /
+                                        total
                            : damage;
     law_of_bond.extra.resize(1);
     if (parameters.in_bonds)
@@ -248,7 +218,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   };
   for (SofteningBond &bond : softening_bonds)
   {
-    bond.trial = maximum_stretch(bond, stretch_of(bond));
+    bond.trial = softening_bonds.maximum_stretch(bond, stretch_of(bond));
     if (!parameters.tracked && lets_fluid_in(bond))
       crack(bond.view);
   }
@@ -281,14 +251,12 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     bond.view = view;
     if (!parameters.in_bonds)
       bond.offset = added_stretch(view.first, view.second, of_cells);
-    bond.trial = maximum_stretch(bond, stretch_of(bond));
+    bond.trial = softening_bonds.maximum_stretch(bond, stretch_of(bond));
     if (!parameters.tracked && lets_fluid_in(bond))
       cracked.set_broken(view.first, view.second);
     softening_now.push_back(bond);
   }
-  std::sort(softening_now.begin(), softening_now.end(),
-            [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
-  softening_bonds = std::move(softening_now);
+  softening_bonds.replace(std::move(softening_now));
   return true;
 }
 
@@ -298,25 +266,15 @@ void Peridynamics<dim>::restore_softening()
 {
   cracked.reinit(lattice.zone, lattice.stencil);
   cracked.set_broken(committed_cracked);
-  softening_bonds.clear();
-  for (const auto &[places, values] : committed_softening)
-    if (const auto found = lattice.bonds.find(places))
-      softening_bonds.push_back({lattice.bonds.views_of(found->first, found->second).front(),
-                                 values[0], values[0], values[1]});
-  std::sort(softening_bonds.begin(), softening_bonds.end(),
-            [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
+  softening_bonds.restore();
 }
 
 
 #define INSTANTIATE(dim)                                                                           \
-  template const Peridynamics<dim>::SofteningBond *Peridynamics<dim>::softening_bond(              \
-    unsigned int, unsigned int) const;                                                             \
-  template double Peridynamics<dim>::bond_damage(unsigned int, unsigned int) const;                \
   template double Peridynamics<dim>::relative_energy(unsigned int, unsigned int) const;            \
   template double Peridynamics<dim>::relative_stretch(unsigned int, unsigned int) const;           \
   template double Peridynamics<dim>::equivalent_stretch(unsigned int, unsigned int, double) const; \
   template std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const;                    \
-  template double Peridynamics<dim>::maximum_stretch(const SofteningBond &, double) const;         \
   template void Peridynamics<dim>::assemble_softening(const State &, Sink &) const;                \
   template double Peridynamics<dim>::added_stretch(const SofteningBond &, const OfCells &) const;  \
   template bool Peridynamics<dim>::soften_bonds(const std::vector<double> &, const OfCells &,      \

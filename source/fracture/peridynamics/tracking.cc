@@ -1,6 +1,7 @@
 // `Tracking = path`: bonds soften only where they cross the way of a crack, which is found from the
 // stress ahead of its tip.
 #include "fracture/peridynamics/peridynamics.h"
+#include "fracture/peridynamics/pores_across.h"
 #include "stockwork/mesh/key.h"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ Tensor<1, 2> turned(const Tensor<1, 2> &from, const Tensor<1, 2> &to, const doub
   return Tensor<1, 2>({std::cos(angle) * from[0] - std::sin(angle) * from[1],
                        std::sin(angle) * from[0] + std::cos(angle) * from[1]});
 }
+
 /// A direction that leads away from a line, to the side that its normal points to.
 Tensor<1, 2> off_line(const Tensor<1, 2> &direction, const Tensor<1, 2> &normal)
 {
@@ -53,106 +55,12 @@ Tensor<1, 2> off_line(const Tensor<1, 2> &direction, const Tensor<1, 2> &normal)
            ? direction
            : std::sin(least_off_line) * normal + side * std::cos(least_off_line) * along;
 }
-} // namespace
 
-
+/// A place itself, if it is that of a cell, or the nearest cell of the zone. The way of a tip that
+/// has come to the rim of the zone, or to a side of the domain, leads beyond, where no rank has a
+/// cell that a piece could belong to.
 template <int dim>
-void Peridynamics<dim>::find_crossing_bonds()
-{
-  if constexpr (dim == 2)
-  {
-    if (paths_crossed && paths.run_as(*paths_crossed))
-      return;
-    paths_crossed = paths;
-    crossing_bonds.clear();
-    new_paths.look_beside(paths);
-    std::vector<bool> is_near(lattice.zone.sites().size(), false);
-    const int reach = parameters.horizon + 1;
-    for (const auto &[lower, upper] : paths.boxes())
-    {
-      Place<dim> first, last;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double origin = lattice.zone.position(Place<dim>{})[d];
-        first[d] =
-          static_cast<int>(std::floor((lower[d] - origin) / lattice.zone.spacing())) - reach;
-        last[d] = static_cast<int>(std::ceil((upper[d] - origin) / lattice.zone.spacing())) + reach;
-      }
-      for (int x = first[0]; x <= last[0]; ++x)
-        for (int y = first[1]; y <= last[1]; ++y)
-          if (const unsigned int site = lattice.zone.find({{x, y}});
-              site != dealii::numbers::invalid_unsigned_int)
-            is_near[site] = true;
-    }
-    for (const unsigned int i : lattice.zone.peridynamic_sites())
-      for (unsigned int b = 0; b < lattice.stencil.size() && is_near[i]; ++b)
-      {
-        // Beyond planes of symmetry paths go on as images.
-        const Place<dim> &from = lattice.zone.sites()[i].place;
-        const FarEnd end = lattice.zone.far_end(i, b);
-        const Place<dim> &image = lattice.zone.sites()[end.site].place;
-        for (unsigned int mirrored = 0; mirrored <= end.mirrored; ++mirrored)
-        {
-          if ((mirrored & ~static_cast<unsigned int>(end.mirrored)) != 0)
-            continue;
-          BondAcross bond{{i, b}, lattice.coefficients[b].direction, {}};
-          Place<dim> first = from, last = from;
-          for (unsigned int d = 0; d < dim; ++d)
-          {
-            last[d] += lattice.stencil[b].offset[d];
-            if (mirrored >> d & 1)
-            {
-              first[d] = image[d] + last[d] - from[d];
-              last[d] = image[d];
-              bond.direction[d] = -bond.direction[d];
-            }
-          }
-          if (const auto crossing =
-                paths.crossing(lattice.zone.position(first), lattice.zone.position(last)))
-          {
-            bond.crossing = *crossing;
-            for (unsigned int c = 0; c < scene.cracks.size(); ++c)
-              bond.was_cut |=
-                c != crossing->path && scene.cracks[c].kind == InitialCrack<dim>::Kind::open &&
-                paths.crosses_initial(c, lattice.zone.position(first), lattice.zone.position(last));
-            crossing_bonds.push_back(bond);
-            break;
-          }
-        }
-      }
-  }
-}
-
-
-template <int dim>
-std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(const unsigned int site,
-                                                                     const unsigned int bond) const
-{
-  const BondView view(site, bond);
-  const auto found =
-    std::lower_bound(crossing_bonds.begin(), crossing_bonds.end(), view,
-                     [](const BondAcross &a, const BondView &b) { return a.view < b; });
-  if (found == crossing_bonds.end() || found->view != view)
-    return {};
-  return found->crossing;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned int bond) const
-{
-  if constexpr (dim == 2)
-    if (!lattice.in_situ_is_zero)
-      if (const auto crossing = crossing_of(site, bond); crossing && !paths.is_wet(crossing->path))
-        return lattice.dry_stretch(site, bond, paths.point(*crossing), paths.left(*crossing));
-  return 0.;
-}
-
-
-/// The way of a tip that has come to the rim of the zone, or to a side of the domain, leads beyond,
-/// where no rank has a cell that a piece could belong to.
-template <int dim>
-Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &place) const
+Place<dim> cell_of_zone(const Zone<dim> &zone, const Place<dim> &place)
 {
   bool is_cell = true;
   for (unsigned int v = 0; v < 1u << dim; ++v)
@@ -160,7 +68,7 @@ Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &place) const
     Place<dim> corner = place;
     for (unsigned int d = 0; d < dim; ++d)
       corner[d] += v >> d & 1;
-    is_cell = is_cell && lattice.zone.find(corner) != dealii::numbers::invalid_unsigned_int;
+    is_cell = is_cell && zone.find(corner) != dealii::numbers::invalid_unsigned_int;
   }
   if (is_cell)
     return place;
@@ -171,9 +79,31 @@ Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &place) const
       sum += (cell[d] - place[d]) * (cell[d] - place[d]);
     return sum;
   };
-  return *std::min_element(lattice.zone.cells().begin(), lattice.zone.cells().end(),
+  return *std::min_element(zone.cells().begin(), zone.cells().end(),
                            [&](const Place<dim> &a, const Place<dim> &b)
                            { return distance(a) < distance(b); });
+}
+} // namespace
+
+
+template <int dim>
+void Peridynamics<dim>::find_crossing_bonds()
+{
+  if constexpr (dim == 2)
+    if (crossing_bonds.follow(paths))
+      new_paths.look_beside(paths);
+}
+
+
+template <int dim>
+double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned int bond) const
+{
+  if constexpr (dim == 2)
+    if (!lattice.in_situ_is_zero)
+      if (const auto crossing = crossing_bonds.crossing(site, bond);
+          crossing && !paths.is_wet(crossing->path))
+        return lattice.dry_stretch(site, bond, paths.point(*crossing), paths.left(*crossing));
+  return 0.;
 }
 
 
@@ -187,7 +117,7 @@ void Peridynamics<dim>::follow_paths()
   {
     const double h = lattice.zone.spacing();
     TrackedPaths::Readings readings;
-    for (const BondAcross &bond : crossing_bonds)
+    for (const BondAcross<dim> &bond : crossing_bonds)
     {
       const auto &[site, b] = bond.view;
       readings.emplace_back(bond.crossing, lattice.zone.sites()[site].share *
@@ -212,7 +142,7 @@ void Peridynamics<dim>::follow_paths()
       for (unsigned int d = 0; d < dim; ++d)
         cell.place[d] = static_cast<int>(std::floor(
           (segment.centre[d] - lattice.zone.position(Place<dim>{})[d]) / h + same_place));
-      cell.place = cell_of_zone(cell.place);
+      cell.place = cell_of_zone<dim>(lattice.zone, cell.place);
       cells.push_back(cell);
       for (unsigned int v = 0; v < 1u << dim; ++v)
       {
@@ -242,84 +172,13 @@ void Peridynamics<dim>::follow_paths()
   pores_of_pieces.clear();
   if (scene.has_pore_pressure)
     for (const Segment<dim> &segment : all_segments)
-      pores_of_pieces.push_back(pores_across(segment));
+      pores_of_pieces.push_back(pores_across(lattice.zone, segment));
   softening_ends.clear();
   for (const SofteningBond &bond : softening_bonds)
   {
-    const auto crossing = crossing_of(bond.view.first, bond.view.second);
+    const auto crossing = crossing_bonds.crossing(bond.view.first, bond.view.second);
     softening_ends.push_back(crossing ? paths.end_at(*crossing) : std::nullopt);
   }
-}
-
-
-template <int dim>
-LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &piece) const
-{
-  LinearFunctional result;
-  if constexpr (dim == 2)
-  {
-    constexpr double reach = 0.5; // of the piece; all lengths in spacings
-    const Tensor<1, dim> &n = piece.normal, along = cross_product_2d(n);
-    const Tensor<1, dim> centre =
-      (piece.centre - lattice.zone.position(Place<dim>{})) / lattice.zone.spacing();
-    std::map<unsigned int, double> weights; // by site
-    double sum = 0.;
-    const auto add_cell = [&](const Place<dim> &cell)
-    {
-      // What of the line lies in the cell.
-      double begin = -10., end = 10.;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double low = cell[d] - centre[d], high = low + 1.;
-        if (std::abs(along[d]) < same_place)
-        {
-          if (low > same_place || high < -same_place)
-            return;
-          continue;
-        }
-        begin = std::max(begin, std::min(low / along[d], high / along[d]));
-        end = std::min(end, std::max(low / along[d], high / along[d]));
-      }
-      const double counted = std::min(end, reach) - std::max(begin, -reach);
-      if (end - begin < same_place || counted <= 0.)
-        return;
-      for (unsigned int a = 0; a < 4; ++a)
-      {
-        Place<dim> corner = cell;
-        for (unsigned int d = 0; d < dim; ++d)
-          corner[d] += a >> d & 1;
-        const unsigned int site = lattice.zone.find(corner);
-        if (site == dealii::numbers::invalid_unsigned_int ||
-            lattice.zone.sites()[site].pressure_dof == dealii::numbers::invalid_dof_index)
-          continue;
-        // int N_a n.grad(the jump), which is one on the side that the normal points to.
-        double integral = 0.;
-        for (unsigned int b = 0; b < 4; ++b)
-        {
-          double above = same_place;
-          for (unsigned int d = 0; d < dim; ++d)
-            above += n[d] * (cell[d] + static_cast<int>(b >> d & 1) - centre[d]);
-          for (unsigned int d = 0; d < dim && above >= 0.; ++d)
-            integral += n[d] * (b >> d & 1 ? 0.5 : -0.5) *
-                        (((a ^ b) >> (1 - d) & 1) == 0 ? 1. / 3. : 1. / 6.);
-        }
-        weights[site] += counted / (end - begin) * integral;
-        sum += counted / (end - begin) * integral;
-      }
-    };
-    const int x = static_cast<int>(std::floor(centre[0])),
-              y = static_cast<int>(std::floor(centre[1]));
-    for (int i = -2; i <= 2; ++i)
-      for (int j = -2; j <= 2; ++j)
-        add_cell({{x + i, y + j}});
-    for (const auto &[site, weight] : weights)
-      if (weight != 0.)
-      {
-        result.bulk.push_back(lattice.zone.sites()[site].pressure_dof);
-        result.bulk_coefficients.push_back(weight / sum);
-      }
-  }
-  return result;
 }
 
 
@@ -349,7 +208,7 @@ double Peridynamics<dim>::half_process_zones() const
         end && lattice.softening.damage(softening_bonds[n].trial) > 0.)
     {
       const auto crossing =
-        crossing_of(softening_bonds[n].view.first, softening_bonds[n].view.second);
+        crossing_bonds.crossing(softening_bonds[n].view.first, softening_bonds[n].view.second);
       double &farthest = ahead[{end->path, end->side}];
       farthest = std::max(farthest, paths.along_way(*crossing, *end) - paths.advance(*end));
     }
@@ -369,7 +228,7 @@ Peridynamics<dim>::fluid_ahead(const std::vector<Candidate> &candidates) const
   std::vector<std::array<double, 2>> farthest(paths.n_paths(), {{0., 0.}});
   const auto reach = [&](const BondView &view)
   {
-    const auto crossing = crossing_of(view.first, view.second);
+    const auto crossing = crossing_bonds.crossing(view.first, view.second);
     const auto end = crossing ? paths.end_at(*crossing) : std::nullopt;
     // What begins beyond another path, or by itself, is dry at first, see TrackedPaths.
     if (!end || (paths.is_all_way(end->path) && !paths.is_wet(end->path)))
@@ -421,7 +280,7 @@ template <int dim>
 double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &end) const
 {
   double energy = 0.;
-  for (const BondAcross &bond : crossing_bonds)
+  for (const BondAcross<dim> &bond : crossing_bonds)
     if (bond.crossing.path == end.path && !bond.was_cut &&
         lattice.bonds.views_of(bond.view.first, bond.view.second).front() == bond.view)
       if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
@@ -520,12 +379,8 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
 
 #define INSTANTIATE(dim)                                                                     \
   template void Peridynamics<dim>::find_crossing_bonds();                                    \
-  template std::optional<TrackedPaths::Crossing> Peridynamics<dim>::crossing_of(             \
-    unsigned int, unsigned int) const;                                                       \
   template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;          \
-  template Place<dim> Peridynamics<dim>::cell_of_zone(const Place<dim> &) const;             \
   template void Peridynamics<dim>::follow_paths();                                           \
-  template LinearFunctional Peridynamics<dim>::pores_across(const Segment<dim> &) const;     \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
   template double Peridynamics<dim>::half_process_zones() const;                             \
   template std::vector<std::array<double, 2>> Peridynamics<dim>::fluid_ahead(                \
