@@ -34,6 +34,10 @@ FACTORS = {"rate": ("0.001", "0.005", "0.01"), "modulus": ("15.96", "23.94", "31
 UNITS = {"rate": "m²/s per wing", "modulus": "GPa", "porosity": "", "permeability": "m²", "viscosity": "Pa s",
          "toughness": "J/m²"}
 
+# Units in these decks, and others that '--set' may bring.
+SI = {"": 1., "GPa": 1e9, "MPa": 1e6, "Pa": 1., "m": 1., "cm": 1e-2, "mm": 1e-3, "s": 1., "ms": 1e-3, "min": 60.,
+      "kg/m^3": 1.}
+
 CELLS_OF_A_MEAN_SPEED = 4  # a tip goes from cell to cell: its speed is that over a horizon
 
 
@@ -55,7 +59,9 @@ def run(options):
 def number(text):
     """Of an entry of these decks in SI units."""
     value, unit = (text.split() + [""])[:2]
-    return float(value) * {"GPa": 1e9}.get(unit, 1.)
+    if unit not in SI:
+        raise ResultError(f"'{text}': the unit is none of {', '.join(filter(None, SI))}")
+    return float(value) * SI[unit]
 
 
 def rayleigh_speed(deck):
@@ -106,12 +112,22 @@ def table(options):
 
 def draw(options):
     folder = os.path.join(options.output, options.resolution)
+    n_drawn = 0
     for factor in options.factors:
-        histories = {value: read_statistics(place(options, factor, value)) for value in FACTORS[factor]}
+        histories = {}
+        for value in FACTORS[factor]:
+            try:
+                histories[value] = read_statistics(place(options, factor, value))
+            except ResultError as error:
+                print(f"{factor}/{value}: {error}", file=sys.stderr)
+        if not histories:
+            continue
         length, height = (max(columns[extent][-1] for columns in histories.values()) for extent in ("extent_x", "extent_y"))
         window = (0., max(5.5, length + 0.5), -max(2., height + 0.5), max(2., height + 0.5))
         figure, axes = plt.subplots(1, 4, figsize=(16., 3.6), layout="constrained")
-        for axis, value in zip(axes, FACTORS[factor]):
+        for axis in axes[len(histories):3]:
+            axis.axis("off")
+        for axis, value in zip(axes, histories):
             directory = place(options, factor, value)
             shown, _ = field.panel(axis, argparse.Namespace(
                 directory=directory, field="damage", component=None, window=window, mirror=True, warp=None,
@@ -130,7 +146,8 @@ def draw(options):
         figure.savefig(output, dpi=80)
         plt.close(figure)
         print(output)
-    return 0
+        n_drawn += 1
+    return 0 if n_drawn else 1
 
 
 def main():

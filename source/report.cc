@@ -561,6 +561,8 @@ void Report<dim>::finish(const unsigned long n_cells)
   summarise(n_cells);
   if (!cost_of_fracture.empty())
     run.out << '\n' << cost_of_fracture << ".\n";
+  if (const std::string choices = system.solver_choices(); !choices.empty())
+    run.out << "Linear systems ('Linear solver/Type = auto'): " << choices << ".\n";
   run.timers.print(run.out.get_stream(), run.communicator, steps_of_run);
   for (const auto &[name, error] : summary.errors)
     run.out << "error of " << name << ": " << 100. * error.final << " % at the end, "

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace stockwork
@@ -305,6 +306,50 @@ void add_pore_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numb
 }
 
 
+/// The least that presses the faces of a crack together in situ, in the middle of its parts [Pa];
+/// infinity without a crack.
+template <int dim>
+double least_compression_across_cracks(const Scene<dim> &scene)
+{
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Point<dim> &place, const Tensor<1, dim> &normal)
+  { least = std::min(least, -(normal * (scene.in_situ_stress(place) * normal))); };
+  for (const InitialCrack<dim> &crack : scene.cracks)
+  {
+    if (crack.disc)
+      look(crack.disc->centre, crack.disc->normal);
+    if constexpr (dim == 2)
+      for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
+      {
+        const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i];
+        if (along.norm() > 0.)
+          look(crack.points[i] + 0.5 * along, cross_product_2d(along) / along.norm());
+      }
+  }
+  return least;
+}
+
+
+/// Where the deck gives the pressure in cracks, or in wells that feed them.
+template <int dim>
+void add_given_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
+{
+  const bool in_cracks = !std::isnan(the_case.scene.crack_pressure);
+  const double given = in_cracks ? the_case.scene.crack_pressure
+                                 : the_case.network.maximum_pressure().value_or(
+                                     std::numeric_limits<double>::quiet_NaN()),
+               across = least_compression_across_cracks(the_case.scene);
+  if (std::isnan(given) || !(across > 0.) || std::isinf(across))
+    return;
+  std::ostringstream text;
+  text << "the least, of " << to_string(across, dimension::stress);
+  if (given <= across)
+    text << ": no crack of the deck opens"
+         << (in_cracks ? "" : "; what flows goes through 'Fracture flow/Minimum aperture'");
+  numbers.push_back({"given pressure / in-situ stress across a crack", given / across, text.str()});
+}
+
+
 /// How far wells in the rock spread their fluid, and what that asks of time.
 template <int dim>
 void add_sources(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
@@ -525,6 +570,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
 
   if (the_case.elements.has_pore_pressure)
     add_sources(the_case, numbers);
+  add_given_pressure(the_case, numbers);
   for (const auto &[well, pressure] : the_case.network.minimum_well_pressures())
     numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,
                        "at it, what the well takes is what flows (Minimum pressure)"});

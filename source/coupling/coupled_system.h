@@ -70,6 +70,12 @@ public:
     return !restarts() && solver->wants_hierarchy(unknowns.n_bulk());
   }
 
+  /// Of a linear solver that chooses: what it has chosen, in words; else empty.
+  std::string solver_choices() const
+  {
+    return solver->choices();
+  }
+
   /// Every step starts at the start of the run: 'Coupling/Scheme = as published'.
   bool restarts() const
   {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace stockwork
 {
@@ -100,28 +101,32 @@ public:
                      dealii::TrilinosWrappers::MPI::BlockVector &dx_bulk,
                      std::vector<double> &dx_extra) override
   {
-    const auto solve_with = [&](LinearSolver &solver)
-    { return solver.solve(system, stamps, tolerance, dx_bulk, dx_extra); };
+    const auto solve_with = [&](LinearSolver &solver, unsigned int &n_systems)
+    {
+      ++n_systems;
+      return solver.solve(system, stamps, tolerance, dx_bulk, dx_extra);
+    };
     if (wants_hierarchy(system.residual_bulk.size()))
-      return solve_with(get<BlockAmgSolver>(iterative, parameters, communicator));
+      return solve_with(get<BlockAmgSolver>(iterative, parameters, communicator), n_iterative);
     // In elastic rock without a fracture as well: one may come, and the factor will serve.
     if (system.elastic)
     {
       if (lagged || has_many_bonds(system))
       {
         bordered.reset();
-        return solve_with(get<LaggedSolver>(lagged, communicator));
+        return solve_with(get<LaggedSolver>(lagged, communicator), n_lagged);
       }
       if (!has_large_fracture(system))
-        return solve_with(get<BorderedSolver>(bordered, communicator));
+        return solve_with(get<BorderedSolver>(bordered, communicator), n_bordered);
       bordered.reset();
-      return solve_with(get<DirectSolver>(direct, communicator));
+      return solve_with(get<DirectSolver>(direct, communicator), n_direct);
     }
     const bool tries_factor = !system.residual_extra.empty() && rock_may_have_factor(stamps);
     if (tries_factor)
       try
       {
-        const LinearReport report = solve_with(get<BorderedSolver>(bordered, communicator));
+        const LinearReport report =
+          solve_with(get<BorderedSolver>(bordered, communicator), n_bordered);
         if (report.is_good_enough())
         {
           n_failures = 0;
@@ -131,7 +136,7 @@ public:
       catch (const SolveError &)
       {
       }
-    const LinearReport report = solve_with(get<DirectSolver>(direct, communicator));
+    const LinearReport report = solve_with(get<DirectSolver>(direct, communicator), n_direct);
     if (tries_factor)
     {
       ++n_failures; // singular without its fracture, or nearly so, if all together is not
@@ -143,10 +148,28 @@ public:
   std::unique_ptr<CondensedSystem>
   condense(const LinearSystem &system, const SystemStamps &stamps, const double tolerance) override
   {
-    return system.elastic && bordered && !has_large_fracture(system) &&
-               !wants_hierarchy(system.residual_bulk.size())
-             ? bordered->condense(system, stamps, tolerance)
-             : nullptr;
+    if (!system.elastic || !bordered || has_large_fracture(system) ||
+        wants_hierarchy(system.residual_bulk.size()))
+      return nullptr;
+    auto condensed = bordered->condense(system, stamps, tolerance);
+    if (condensed)
+      ++n_bordered;
+    return condensed;
+  }
+
+  std::string choices() const override
+  {
+    std::ostringstream text;
+    const auto add = [&](const unsigned int n, const char *name)
+    {
+      if (n > 0)
+        text << (text.str().empty() ? "" : ", ") << n << " by " << name;
+    };
+    add(n_bordered, "a lasting factor of the rock (bordered)");
+    add(n_lagged, "iterations with the factor of an earlier matrix");
+    add(n_direct, "a factor of everything (direct)");
+    add(n_iterative, "multigrid (iterative)");
+    return text.str();
   }
 
 private:
@@ -190,6 +213,7 @@ private:
   unsigned int dim, largest_factor;
   MPI_Comm communicator;
   std::unique_ptr<LinearSolver> direct, bordered, lagged, iterative;
+  unsigned int n_direct = 0, n_bordered = 0, n_lagged = 0, n_iterative = 0; ///< systems
   unsigned int n_failures = 0;  ///< of the rock's factor, one after another
   unsigned int failed_rock = 0; ///< SystemStamps::bulk_values of the last of them
 };

@@ -133,6 +133,12 @@ public:
   {
     return nullptr;
   }
+
+  /// Of one that chooses: what it has chosen, and for how many systems. Else empty.
+  virtual std::string choices() const
+  {
+    return "";
+  }
 };
 
 std::unique_ptr<LinearSolver>

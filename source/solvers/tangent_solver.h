@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace stockwork
 {
@@ -24,6 +25,12 @@ public:
   bool wants_hierarchy(const dealii::types::global_dof_index n_dofs) const
   {
     return linear->wants_hierarchy(n_dofs);
+  }
+
+  /// Of the solver of the linear system.
+  std::string choices() const
+  {
+    return linear->choices();
   }
 
   /// See LinearSolver. `system` is used as working space and comes back as it was.

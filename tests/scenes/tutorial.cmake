@@ -21,6 +21,10 @@ stockwork_audit_test(cells_exceed_diffusion "Warning: cell size / sqrt.c t. = 6\
 stockwork_audit_test(near_walls "Warning: distance to walls / final length = [34]\\."
   SET "Mesh/Box/Lower corner=-90 m, -90 m" "Mesh/Box/Upper corner=90 m, 90 m")
 
+# A pressure that the deck gives, beside the stress that holds the crack shut: that at 30 degrees of 10 and 20 MPa, 17.5.
+stockwork_check_test(NAME scenes/audit/given_pressure DECK tests/data/pressed_crack.prm LABELS quick
+  SET "In situ/Stress=-10 MPa, -20 MPa" SAYS "given pressure / in-situ stress across a crack +0\\.686 +the least, of 1\\.75e.07 Pa: no crack of the deck opens")
+
 # The whole hour. The stress across the fracture is 18.00 MPa in situ; contrib/back_stress.py reads
 # 18.17 MPa beside it 30 s before it closes. Greatest aperture: 0.907 mm.
 stockwork_case_test(NAME scenes/tutorial/resolved DECK prm/tutorial/cohesive_xfem.prm LABELS nightly TIMEOUT 1800

@@ -413,8 +413,11 @@ std::string CohesiveXFEM<dim>::grow(GrowthPass &pass, const Collectives &collect
       discontinuity.stop(crack, growing.end);
       limits.blocked_by =
         where +
-        "has met another crack where it cannot join it, and stops: one is there already, or "
-        "a tip.";
+        (discontinuity.paths().size() == 1
+           ? "has turned back into a cell that it cuts already, and stops: little stress in situ, "
+             "or none, holds it straight."
+           : "has met another crack where it cannot join it, or itself, and stops: one is there "
+             "already, or a tip.");
     }
     if (outcomes[i] == Outcome::reached_boundary || outcomes[i] == Outcome::reached_crack)
       messages.push_back(limits.blocked_by);
