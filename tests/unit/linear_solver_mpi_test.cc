@@ -288,6 +288,7 @@ TEST_CASE("auto takes what is there")
   CHECK_FALSE(solve(*solver, make_dense(31, 0, 6), stamps).report.factorised);
   ++stamps.mesh;
   CHECK(solve(*solver, make_dense(31, 13, 6), stamps).error < 1e-10);
+  CHECK(solver->choices() == "3 by a lasting factor of the rock (bordered)");
 }
 
 TEST_CASE("auto tries the rock's factor again after one rock that has none")
@@ -410,6 +411,8 @@ TEST_CASE("a fracture that is large beside its rock has no dense block")
     for (unsigned int i = 0; i < d.n_u; ++i)
       d.R(i) = 0.;
     CHECK((solver->condense(*distribute(d), stamps, 1e-6) != nullptr) == (n_extra == 6));
+    CHECK(solver->choices() == (n_extra == 6 ? "2 by a lasting factor of the rock (bordered)"
+                                             : "1 by a factor of everything (direct)"));
   }
 }
 
