@@ -3,6 +3,7 @@
 #include "stockwork/base/error.h"
 #include "stockwork/rock/linear_stiffness.h"
 
+#include "exchange/flat_parts.h"
 #include "scales.h"
 #include "scene_estimates.h"
 #include "verification/analytical/radial.h"
@@ -312,20 +313,9 @@ template <int dim>
 double least_compression_across_cracks(const Scene<dim> &scene)
 {
   double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Point<dim> &place, const Tensor<1, dim> &normal)
-  { least = std::min(least, -(normal * (scene.in_situ_stress(place) * normal))); };
   for (const InitialCrack<dim> &crack : scene.cracks)
-  {
-    if (crack.disc)
-      look(crack.disc->centre, crack.disc->normal);
-    if constexpr (dim == 2)
-      for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
-      {
-        const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i];
-        if (along.norm() > 0.)
-          look(crack.points[i] + 0.5 * along, cross_product_2d(along) / along.norm());
-      }
-  }
+    for (const auto &[place, normal] : flat_parts(crack))
+      least = std::min(least, -(normal * (scene.in_situ_stress(place) * normal)));
   return least;
 }
 

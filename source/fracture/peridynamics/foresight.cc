@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/foresight.h"
 
+#include "exchange/flat_parts.h"
 #include "fracture/peridynamics/lattice_moduli.h"
 #include "fracture/peridynamics/wording.h"
 #include "stockwork/base/error.h"
@@ -23,20 +24,6 @@ constexpr double equal_stress = 0.1;
 /// That above which bonds break without end in the first step, or faces overlap, whatever its
 /// length.
 constexpr double hopeless_stress = 2.5;
-
-/// Unit normals and middles of the flat parts of a crack.
-template <int dim>
-std::vector<std::pair<Point<dim>, Tensor<1, dim>>> flat_parts(const InitialCrack<dim> &crack)
-{
-  std::vector<std::pair<Point<dim>, Tensor<1, dim>>> parts;
-  if (crack.disc)
-    parts.emplace_back(crack.disc->centre, crack.disc->normal);
-  if constexpr (dim == 2)
-    for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
-      if (const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i]; along.norm() > 0.)
-        parts.emplace_back(crack.points[i] + 0.5 * along, cross_product_2d(along) / along.norm());
-  return parts;
-}
 
 /// Bonds that cross the way of a crack feel the stress along it as well, and the faces release only
 /// that across it.

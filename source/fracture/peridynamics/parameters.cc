@@ -2,6 +2,7 @@
 
 #include "base/parameter_tree.h"
 #include "discontinuity/contact.h"
+#include "exchange/flat_parts.h"
 #include "flow/permeability_tensor.h"
 #include "mesh/box_list.h"
 #include "mesh/interpret_entry.h"
@@ -166,12 +167,10 @@ std::string why_guided(const Scene<dim> &scene)
   constexpr double same = 1e-6;
   if constexpr (dim == 2)
     for (const InitialCrack<dim> &crack : scene.cracks)
-      for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
+      for (const auto &[middle, normal] : flat_parts(crack))
       {
-        const dealii::Tensor<1, dim> along = crack.points[i + 1] - crack.points[i];
-        const dealii::SymmetricTensor<2, dim> stress =
-          scene.in_situ_stress(crack.points[i] + 0.5 * along);
-        if (std::min(std::abs(along[0]), std::abs(along[1])) > same * along.norm())
+        const dealii::SymmetricTensor<2, dim> stress = scene.in_situ_stress(middle);
+        if (std::min(std::abs(normal[0]), std::abs(normal[1])) > same)
           return "the crack '" + crack.text +
                  "' is oblique to the mesh, into whose axes it would turn";
         if (dealii::deviator(stress).norm() > same * stress.norm())
