@@ -25,6 +25,20 @@ double unknowns_per_cell(const Case<dim> &the_case)
 
 
 template <int dim>
+EntryError too_large(const Case<dim> &the_case,
+                     const parallel::distributed::Triangulation<dim> &triangulation,
+                     const double needed,
+                     const double available)
+{
+  return EntryError(
+    "Mesh/Maximum number of cells", std::to_string(the_case.geometry.maximum_number_of_cells()),
+    "a mesh that fits into memory: this one has " +
+      std::to_string(triangulation.n_global_active_cells()) + " cells and would take about " +
+      in_bytes(needed) + ", there are " + in_bytes(available));
+}
+
+
+template <int dim>
 void refuse_too_large(const RunContext &run,
                       const Case<dim> &the_case,
                       const parallel::distributed::Triangulation<dim> &triangulation)
@@ -40,11 +54,7 @@ void refuse_too_large(const RunContext &run,
   }
   const double available = physical_memory(run.communicator);
   if (needed > available)
-    throw EntryError(
-      "Mesh/Maximum number of cells", std::to_string(the_case.geometry.maximum_number_of_cells()),
-      "a mesh that fits into memory: this one has " +
-        std::to_string(triangulation.n_global_active_cells()) + " cells and would take about " +
-        in_bytes(needed) + ", there are " + in_bytes(available));
+    throw too_large(the_case, triangulation, needed, available);
 }
 
 
@@ -75,6 +85,8 @@ std::pair<CostEstimate, ExpectedSteps> expected_cost(const RunContext &run,
 }
 
 
+template EntryError
+too_large<2>(const Case<2> &, const parallel::distributed::Triangulation<2> &, double, double);
 template void refuse_too_large<2>(const RunContext &,
                                   const Case<2> &,
                                   const parallel::distributed::Triangulation<2> &);
@@ -84,6 +96,8 @@ template std::pair<CostEstimate, ExpectedSteps> expected_cost<2>(const RunContex
                                                                  const CoupledSystem<2> &,
                                                                  Stepper<2> &,
                                                                  const Clock &);
+template EntryError
+too_large<3>(const Case<3> &, const parallel::distributed::Triangulation<3> &, double, double);
 template void refuse_too_large<3>(const RunContext &,
                                   const Case<3> &,
                                   const parallel::distributed::Triangulation<3> &);

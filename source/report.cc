@@ -77,7 +77,8 @@ void Report<dim>::observe_fracture(const FractureSummary &summary, Values &value
 {
   values["fracture_length"] = summary.length;
   values["broken_length"] = summary.broken_length;
-  values["equivalent_length"] = 0.5 * (summary.length + summary.broken_length);
+  values["equivalent_length"] =
+    summary.equivalent_length.value_or(0.5 * (summary.length + summary.broken_length));
   values["dissipated_energy"] = summary.dissipated_energy;
   if (summary.stress_intensity_I)
     values["stress_intensity_I"] = *summary.stress_intensity_I;

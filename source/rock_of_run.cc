@@ -47,22 +47,25 @@ void check_rock(const RunContext &run,
                          "works in, or all rock, the law 'elastic', or take a model whose cracks "
                          "cut cells");
 
-  const auto shares = Utilities::MPI::all_gather(run.communicator,
-                                                 [&]()
-                                                 {
-                                                   const auto mine = rock->in_situ_share();
-                                                   return std::make_pair(mine.used, mine.place);
-                                                 }());
+  const auto shares = Utilities::MPI::all_gather(
+    run.communicator,
+    [&]()
+    {
+      const auto mine = rock->in_situ_share();
+      return std::make_pair(mine.used, std::make_pair(mine.place, mine.region));
+    }());
   const auto worst = *std::max_element(
     shares.begin(), shares.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   constexpr double rounding = 1e-10; // on the surface is not beyond it
   if (worst.first <= 1. + rounding)
     return;
+  const auto &[place, region] = worst.second;
   std::ostringstream allowed;
-  allowed << "a state that the rock can bear: at (" << worst.second
+  allowed << "a state that the rock can bear: at (" << place
           << ") m the in-situ stress and pore pressure take " << 100. * worst.first
-          << " per cent of the strength given in 'Rock/" << rock->laws.name(0)
-          << "' (see also 'In situ/Stress across the plane')";
+          << " per cent of the strength given in 'Rock/"
+          << (region == 0 ? std::string() : "Region " + std::to_string(region) + "/")
+          << rock->laws.name(region) << "' (see also 'In situ/Stress across the plane')";
   throw EntryError("In situ/Stress", value_of(prm, {"In situ"}, "Stress"), allowed.str());
 }
 

@@ -105,7 +105,7 @@ typename NonlinearRock<dim>::InSituShare NonlinearRock<dim>::in_situ_share()
         state.in_situ_pressure = scene.in_situ_pore_pressure(x);
         const double used = law(cell).used(state);
         if (used > share.used)
-          share = {used, x};
+          share = {used, x, cell->material_id()};
       }
     }
   return share;

@@ -55,6 +55,7 @@ public:
   {
     double used = 0.;
     dealii::Point<dim> place;
+    dealii::types::material_id region = 0; ///< of the rock, there
   };
   InSituShare in_situ_share();
 

@@ -170,8 +170,17 @@ Stepper<dim>::attempt(StepReport &report, std::string &advice, Verdict &verdict)
   Accuracy accuracy = of_looks;
   for (unsigned int pass = 0; pass < max_passes; ++pass)
   {
-    const NonlinearReport solve =
-      system.solve(context, current, before, rate_reference, acceleration_reference, accuracy);
+    NonlinearReport solve;
+    try
+    {
+      solve =
+        system.solve(context, current, before, rate_reference, acceleration_reference, accuracy);
+    }
+    catch (const MemoryError &error)
+    {
+      verdict.reason = error.what();
+      return Outcome::hopeless;
+    }
     report.nonlinear_iterations += solve.iterations;
     report.linear_iterations += solve.linear_iterations;
     if (!solve.converged)

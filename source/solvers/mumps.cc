@@ -43,6 +43,11 @@ struct Mumps::Instance
   [[noreturn]] void fail(const std::string &doing)
   {
     const int code = data.infog[0], detail = data.infog[1];
+    if (code == out_of_memory)
+      throw MemoryError(
+        "there is not enough memory for a factor of the matrix. 'stockwork --check' "
+        "estimates how much a run needs. Use larger cells, more machines or "
+        "'Linear solver/Type = iterative'");
     std::string text = "The direct solver (MUMPS) failed while " + doing + ": ";
     if (code == singular || code == structurally_singular)
       text += "the matrix is singular (rank " + std::to_string(code == singular ? detail : 0) +
@@ -51,9 +56,6 @@ struct Mumps::Instance
               "piece off, a pressure without storage, conductivity or boundary value.";
     else if (code == indefinite_pivot)
       text += "a matrix that should be positive definite is not.";
-    else if (code == out_of_memory)
-      text += "not enough memory. Use more ranks, a coarser mesh, or the iterative solver (set "
-              "Linear solver/Type = iterative).";
     else
       text += "error " + std::to_string(code) + ", detail " + std::to_string(detail) +
               " (INFOG(1), INFOG(2) in the MUMPS users' guide).";

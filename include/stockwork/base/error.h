@@ -45,6 +45,14 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// A matrix does not fit into memory, as all ranks know: no shorter step needs less. The run ends,
+/// as with a SolveError.
+class MemoryError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A result could not be written during the run (disk full, directory gone). The last good
 /// checkpoint is kept; the program ends with status 2.
 class OutputError : public std::runtime_error

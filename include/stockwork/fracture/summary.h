@@ -12,8 +12,11 @@ namespace stockwork
 /// join. Apertures, pressures and volumes come from the segments, not from here.
 struct FractureSummary
 {
-  double length = 0.;            ///< of all cracks, from mouth to physical tip [m] ([m^2] in 3-D)
-  double broken_length = 0.;     ///< part without any strength left
+  double length = 0.;        ///< of all cracks, from mouth to physical tip [m] ([m^2] in 3-D)
+  double broken_length = 0.; ///< part without any strength left
+  /// Of the elastic crack without a process zone that is the same from afar, where the model knows
+  /// it; else taken to be half-way between the two [m].
+  std::optional<double> equivalent_length;
   double dissipated_energy = 0.; ///< by the fracture process since the start [J/m]
   double stored_energy = 0.;     ///< in the fracture process zone, recovered on unloading [J/m]
   unsigned int n_tips = 0;

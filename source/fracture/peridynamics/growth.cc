@@ -219,9 +219,12 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     // Fluid that is pumped on would raise the pressure, and what pulls would stretch bonds that
     // hold; nothing else would come of it.
     verdict.kind = Verdict::Kind::stop;
-    verdict.reason = "a crack has reached the rim of the peridynamic zone, which has no room to "
-                     "grow. Enlarge 'Fracture/peridynamics/Zone', or make the elements around it "
-                     "squares";
+    verdict.reason =
+      std::string(context.step == 1 ? "bonds are stretched too far in the first step already, up to"
+                                    : "a crack has reached") +
+      " the rim of the peridynamic zone, which has no room to grow. Enlarge "
+      "'Fracture/peridynamics/Zone', or make the elements around it squares" +
+      what_bonds_carry();
     return verdict;
   }
   if (rim == Rim::grows)

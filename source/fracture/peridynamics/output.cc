@@ -41,15 +41,22 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
     // tractions. The model's tips are by the energy dissipated, which is less by what would come
     // back.
     double elastic = paths.length();
-    for (unsigned int n = 0; n < softening_ends.size(); ++n)
-      if (softening_ends[n])
+    for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+      if (tips.is_across_way(n))
         elastic += lattice.energy_at_unit_stretch(softening_bonds[n].view) *
                    (lattice.softening.separation(softening_bonds[n].trial) -
                     lattice.softening.dissipated(softening_bonds[n].trial)) /
                    scene.rock.main().energy_release_rate;
-    result.length = paths.length() + half_process_zones();
-    // Of a young path that is less than nothing: a long process zone, and little energy yet.
-    result.broken_length = std::max(0., 2. * elastic - result.length - length_that_holds());
+    const double half_zones = tips.half_process_zones(paths);
+    result.length = paths.length() + half_zones;
+    result.equivalent_length = elastic - 0.5 * length_that_holds();
+    // Process zones reach as far back from the tips, but not into what was open from the start.
+    double open = 0.;
+    for (const InitialCrack<dim> &crack : scene.cracks)
+      if (crack.kind != InitialCrack<dim>::Kind::cohesive)
+        open += crack.size();
+    result.broken_length = std::max(
+      {std::min(open, paths.length()), paths.length() - half_zones - length_that_holds(), 0.});
   }
   result.dissipated_energy = dissipated;
   result.stored_energy =

@@ -39,6 +39,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   , softening_bonds(lattice)
   , new_paths(lattice)
   , crossing_bonds(lattice)
+  , tips(lattice, softening_bonds, crossing_bonds)
 {
   if (parameters.growth)
     needs::energy_release_rate(scene.rock, "peridynamics", "or 'Growth = false'");
@@ -155,7 +156,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
                            "place: leave one out, or move one by a part of a cell.");
         }
         committed_paths = paths;
-        committed_way_energy.assign(scene.cracks.size(), {{0., 0.}});
+        tips.committed_energy.assign(scene.cracks.size(), {{0., 0.}});
       }
     if (!parameters.tracked)
       set_initial_normals();
@@ -342,7 +343,7 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
   if (parameters.tracked)
   {
     committed_paths = paths;
-    committed_way_energy = energy_across_ways();
+    tips.commit(paths);
   }
   for (const SofteningBond &bond : softening_bonds)
     dissipated +=
@@ -481,7 +482,7 @@ void Peridynamics<dim>::save(boost::archive::binary_oarchive &archive) const
     correction[place] = corrected;
   archive << origin << grown << broken << open << softened << committed_normals << correction
           << committed_energy << softening_bonds.committed.relaxation << told_of_pressure
-          << committed_paths << committed_way_energy << new_paths.told << committed_cells
+          << committed_paths << tips.committed_energy << new_paths.told << committed_cells
           << told_of_contact << told_of_rim;
 }
 
@@ -494,7 +495,7 @@ void Peridynamics<dim>::load(boost::archive::binary_iarchive &archive)
   archive >> origin >> grown >> committed_bonds >> committed_cracked >>
     softening_bonds.committed.bonds >> committed_normals >> committed_correction >>
     committed_energy >> softening_bonds.committed.relaxation >> told_of_pressure >>
-    committed_paths >> committed_way_energy >> new_paths.told >> committed_cells >>
+    committed_paths >> tips.committed_energy >> new_paths.told >> committed_cells >>
     told_of_contact >> told_of_rim;
   paths = committed_paths;
   Point<dim> corner;

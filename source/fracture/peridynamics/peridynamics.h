@@ -10,6 +10,7 @@
 #include "fracture/peridynamics/published_load.h"
 #include "fracture/peridynamics/row_versions.h"
 #include "fracture/peridynamics/softening_bonds.h"
+#include "fracture/peridynamics/tips.h"
 #include "fracture/peridynamics/tracked_paths.h"
 #include "stockwork/fracture/model.h"
 
@@ -299,27 +300,8 @@ private:
   /// Paths go on ahead of tips that have come near to their ends.
   void track(const State &state, const OfCells &of_cells);
 
-  /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
-  /// porous rock in all of the process zone, with candidates.
-  std::vector<std::array<double, 2>> fluid_ahead(const std::vector<Candidate> &candidates) const;
-
-  /// How far tips have come by the energy that softening bonds have dissipated, and fluid with
-  /// them.
-  /// @return whether fluid has reached another piece
-  bool advance_tips(const std::vector<Candidate> &candidates);
-
   /// Of a piece in porous rock, see Segment [m].
   double bare_aperture(unsigned int cell) const;
-
-  /// What all bonds take across the way of an end [J/m].
-  double energy_of_way(const TrackedPaths::End &end) const;
-
-  /// From tips, as far as they have come by the energy dissipated, to the farthest bonds that have
-  /// softened; all tips together. By as much process zones reach back [m].
-  double half_process_zones() const;
-
-  /// Of the bonds across the way of each end of a path [J/m].
-  std::vector<std::array<double, 2>> energy_across_ways() const;
 
   /// Of a peridynamic site, but for what it is in situ [Pa].
   /// @param softened what has become of the elongation of bonds without any force [m]
@@ -481,9 +463,8 @@ private:
   TrackedPaths paths, committed_paths;
   NewPaths<dim> new_paths;
   CrossingBonds<dim> crossing_bonds;
-  std::vector<std::optional<TrackedPaths::End>> softening_ends; ///< whose ways those bonds cross
-  std::vector<std::array<double, 2>> committed_way_energy;      ///< see energy_across_ways()
-  std::vector<Segment<dim>> owned_segments;                     ///< their openings are known here
+  Tips<dim> tips;
+  std::vector<Segment<dim>> owned_segments;               ///< their openings are known here
   std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;

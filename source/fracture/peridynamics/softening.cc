@@ -222,13 +222,15 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     if (!parameters.tracked && lets_fluid_in(bond))
       crack(bond.view);
   }
+  std::vector<BondView> about_to_soften;
+  for (const Candidate &candidate : candidates)
+    if (candidate.stretch >= 1.)
+      about_to_soften.emplace_back(candidate.site, candidate.bond);
   if (parameters.tracked)
-    changed = advance_tips(candidates);
+    changed = tips.advance(paths, about_to_soften);
   else if (changed)
     changed = find_fracture_cells(lattice.zone, cracked).size() != cells.size();
-  for (const Candidate &candidate : candidates)
-    changed = changed || candidate.stretch >= 1.;
-  if (!changed)
+  if (!changed && about_to_soften.empty())
     return false;
 
   // Those that were broken before this step do not need their unknowns any more; but what stress

@@ -173,120 +173,7 @@ void Peridynamics<dim>::follow_paths()
   if (scene.has_pore_pressure)
     for (const Segment<dim> &segment : all_segments)
       pores_of_pieces.push_back(pores_across(lattice.zone, segment));
-  softening_ends.clear();
-  for (const SofteningBond &bond : softening_bonds)
-  {
-    const auto crossing = crossing_bonds.crossing(bond.view.first, bond.view.second);
-    softening_ends.push_back(crossing ? paths.end_at(*crossing) : std::nullopt);
-  }
-}
-
-
-template <int dim>
-std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const
-{
-  std::vector<std::array<double, 2>> energy = committed_way_energy;
-  energy.resize(paths.n_paths(), {{0., 0.}});
-  for (unsigned int n = 0; n < softening_ends.size(); ++n)
-    if (const auto &end = softening_ends[n])
-    {
-      const SofteningBond &bond = softening_bonds[n];
-      energy[end->path][end->side] +=
-        lattice.energy_at_unit_stretch(bond.view) *
-        (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
-    }
-  return energy;
-}
-
-
-template <int dim>
-double Peridynamics<dim>::half_process_zones() const
-{
-  std::map<std::pair<unsigned int, unsigned int>, double> ahead;
-  for (unsigned int n = 0; n < softening_ends.size(); ++n)
-    if (const auto &end = softening_ends[n];
-        end && lattice.softening.damage(softening_bonds[n].trial) > 0.)
-    {
-      const auto crossing =
-        crossing_bonds.crossing(softening_bonds[n].view.first, softening_bonds[n].view.second);
-      double &farthest = ahead[{end->path, end->side}];
-      farthest = std::max(farthest, paths.along_way(*crossing, *end) - paths.advance(*end));
-    }
-  double sum = 0.;
-  for (const auto &end : ahead)
-    sum += end.second;
-  return sum;
-}
-
-
-/// In porous rock the elements' strain across what softens is opening: the pores around must not
-/// feel it, so the fluid of the piece that is there takes it, and leaks into them.
-template <int dim>
-std::vector<std::array<double, 2>>
-Peridynamics<dim>::fluid_ahead(const std::vector<Candidate> &candidates) const
-{
-  std::vector<std::array<double, 2>> farthest(paths.n_paths(), {{0., 0.}});
-  const auto reach = [&](const BondView &view)
-  {
-    const auto crossing = crossing_bonds.crossing(view.first, view.second);
-    const auto end = crossing ? paths.end_at(*crossing) : std::nullopt;
-    // What begins beyond another path, or by itself, is dry at first, see TrackedPaths.
-    if (!end || (paths.is_all_way(end->path) && !paths.is_wet(end->path)))
-      return;
-    double &fluid = farthest[end->path][end->side];
-    fluid = std::max(fluid, paths.along_way(*crossing, *end));
-  };
-  if (scene.has_pore_pressure)
-  {
-    for (const SofteningBond &bond : softening_bonds)
-      if (rounded(lattice.softening.damage(bond.trial)) > 0.)
-        reach(bond.view);
-    for (const Candidate &candidate : candidates)
-      if (candidate.stretch >= 1.)
-        reach({candidate.site, candidate.bond});
-  }
-  return farthest;
-}
-
-
-/// Where a way meets another path, the bonds across both belong to that one, so its last part takes
-/// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
-/// has broken.
-template <int dim>
-bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &candidates)
-{
-  const auto energy = energy_across_ways();
-  const double h = lattice.zone.spacing(), unit = h * scene.rock.main().energy_release_rate;
-  const auto fluid = fluid_ahead(candidates);
-  return paths.set_advances(
-    [&](const TrackedPaths::End &end)
-    {
-      const double by_energy = h * rounded(energy[end.path][end.side] / unit);
-      if (!paths.has_met(end))
-        return by_energy;
-      const double way = paths.way(end), missing = way - h * rounded(energy_of_way(end) / unit);
-      if (missing <= 0.)
-        return by_energy;
-      const double reach = parameters.horizon * h, begin = std::max(0., way - reach - missing);
-      return by_energy <= begin
-               ? by_energy
-               : begin + (by_energy - begin) * (way - begin) / std::max(h, way - begin - missing);
-    },
-    [&](const TrackedPaths::End &end) { return fluid[end.path][end.side]; });
-}
-
-
-template <int dim>
-double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &end) const
-{
-  double energy = 0.;
-  for (const BondAcross<dim> &bond : crossing_bonds)
-    if (bond.crossing.path == end.path && !bond.was_cut &&
-        lattice.bonds.views_of(bond.view.first, bond.view.second).front() == bond.view)
-      if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
-        energy += lattice.energy_at_unit_stretch(bond.view) *
-                  lattice.softening.dissipated(lattice.softening.last);
-  return energy;
+  tips.look_at(paths);
 }
 
 
@@ -332,15 +219,10 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   if constexpr (dim == 2)
   {
     const double h = lattice.zone.spacing();
-    const auto energy = energy_across_ways();
+    const auto energy = tips.energy(paths);
     // Before anything softens a way may still be another.
     const auto is_untouched = [&](const TrackedPaths::End &end)
-    {
-      return energy[end.path][end.side] == 0. &&
-             std::none_of(softening_ends.begin(), softening_ends.end(),
-                          [&](const auto &other)
-                          { return other && other->path == end.path && other->side == end.side; });
-    };
+    { return tips.is_untouched(end, energy); };
     // What has begun beyond another path, and may still be another, has not met anything for good.
     const auto may_change = [&](const TrackedPaths::End &end)
     { return paths.began_beyond(end.path) && is_untouched(end); };
@@ -377,20 +259,14 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
   }
 }
 
-#define INSTANTIATE(dim)                                                                     \
-  template void Peridynamics<dim>::find_crossing_bonds();                                    \
-  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;          \
-  template void Peridynamics<dim>::follow_paths();                                           \
-  template std::vector<std::array<double, 2>> Peridynamics<dim>::energy_across_ways() const; \
-  template double Peridynamics<dim>::half_process_zones() const;                             \
-  template std::vector<std::array<double, 2>> Peridynamics<dim>::fluid_ahead(                \
-    const std::vector<Candidate> &) const;                                                   \
-  template bool Peridynamics<dim>::advance_tips(const std::vector<Candidate> &);             \
-  template double Peridynamics<dim>::energy_of_way(const TrackedPaths::End &) const;         \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                          \
-    const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;       \
-  template std::string Peridynamics<dim>::begin_paths(const StepContext &, const State &,    \
-                                                      const OfCells &);                      \
+#define INSTANTIATE(dim)                                                                  \
+  template void Peridynamics<dim>::find_crossing_bonds();                                 \
+  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;       \
+  template void Peridynamics<dim>::follow_paths();                                        \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                       \
+    const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;    \
+  template std::string Peridynamics<dim>::begin_paths(const StepContext &, const State &, \
+                                                      const OfCells &);                   \
   template void Peridynamics<dim>::track(const State &, const OfCells &);
 INSTANTIATE(2)
 INSTANTIATE(3)

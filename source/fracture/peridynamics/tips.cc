@@ -1,0 +1,158 @@
+#include "fracture/peridynamics/tips.h"
+
+#include <algorithm>
+#include <map>
+
+namespace stockwork::peridynamics
+{
+template <int dim>
+Tips<dim>::Tips(const Lattice<dim> &lattice,
+                const SofteningBonds<dim> &softening_bonds,
+                const CrossingBonds<dim> &crossing_bonds)
+  : lattice(lattice)
+  , softening_bonds(softening_bonds)
+  , crossing_bonds(crossing_bonds)
+{
+}
+
+
+template <int dim>
+void Tips<dim>::look_at(const TrackedPaths &paths)
+{
+  ends.clear();
+  for (const SofteningBond &bond : softening_bonds)
+  {
+    const auto crossing = crossing_bonds.crossing(bond.view.first, bond.view.second);
+    ends.push_back(crossing ? paths.end_at(*crossing) : std::nullopt);
+  }
+}
+
+
+template <int dim>
+typename Tips<dim>::OfEnds Tips<dim>::energy(const TrackedPaths &paths) const
+{
+  OfEnds energy = committed_energy;
+  energy.resize(paths.n_paths(), {{0., 0.}});
+  for (unsigned int n = 0; n < ends.size(); ++n)
+    if (const auto &end = ends[n])
+    {
+      const SofteningBond &bond = softening_bonds[n];
+      energy[end->path][end->side] +=
+        lattice.energy_at_unit_stretch(bond.view) *
+        (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
+    }
+  return energy;
+}
+
+
+template <int dim>
+bool Tips<dim>::is_untouched(const TrackedPaths::End &end, const OfEnds &energy) const
+{
+  return energy[end.path][end.side] == 0. &&
+         std::none_of(ends.begin(), ends.end(),
+                      [&](const auto &other)
+                      { return other && other->path == end.path && other->side == end.side; });
+}
+
+
+template <int dim>
+void Tips<dim>::commit(const TrackedPaths &paths)
+{
+  committed_energy = energy(paths);
+}
+
+
+template <int dim>
+double Tips<dim>::half_process_zones(const TrackedPaths &paths) const
+{
+  std::map<std::pair<unsigned int, unsigned int>, double> ahead; // by end
+  for (unsigned int n = 0; n < ends.size(); ++n)
+    if (const auto &end = ends[n]; end && lattice.softening.damage(softening_bonds[n].trial) > 0.)
+    {
+      const auto crossing =
+        crossing_bonds.crossing(softening_bonds[n].view.first, softening_bonds[n].view.second);
+      double &farthest = ahead[{end->path, end->side}];
+      farthest = std::max(farthest, paths.along_way(*crossing, *end) - paths.advance(*end));
+    }
+  double sum = 0.;
+  for (const auto &end : ahead)
+    sum += end.second;
+  return sum;
+}
+
+
+/// In porous rock the elements' strain across what softens is opening: the pores around must not
+/// feel it, so the fluid of the piece that is there takes it, and leaks into them.
+template <int dim>
+typename Tips<dim>::OfEnds
+Tips<dim>::fluid_ahead(const TrackedPaths &paths,
+                       const std::vector<BondView> &about_to_soften) const
+{
+  OfEnds farthest(paths.n_paths(), {{0., 0.}});
+  const auto reach = [&](const BondView &view)
+  {
+    const auto crossing = crossing_bonds.crossing(view.first, view.second);
+    const auto end = crossing ? paths.end_at(*crossing) : std::nullopt;
+    // What begins beyond another path, or by itself, is dry at first, see TrackedPaths.
+    if (!end || (paths.is_all_way(end->path) && !paths.is_wet(end->path)))
+      return;
+    double &fluid = farthest[end->path][end->side];
+    fluid = std::max(fluid, paths.along_way(*crossing, *end));
+  };
+  if (lattice.scene.has_pore_pressure)
+  {
+    for (const SofteningBond &bond : softening_bonds)
+      if (rounded(lattice.softening.damage(bond.trial)) > 0.)
+        reach(bond.view);
+    for (const BondView &view : about_to_soften)
+      reach(view);
+  }
+  return farthest;
+}
+
+
+/// Where a way meets another path, the bonds across both belong to that one, so its last part takes
+/// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
+/// has broken.
+template <int dim>
+bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_to_soften) const
+{
+  const OfEnds dissipated = energy(paths);
+  const double h = lattice.zone.spacing(), unit = h * lattice.scene.rock.main().energy_release_rate;
+  const OfEnds fluid = fluid_ahead(paths, about_to_soften);
+  return paths.set_advances(
+    [&](const TrackedPaths::End &end)
+    {
+      const double by_energy = h * rounded(dissipated[end.path][end.side] / unit);
+      if (!paths.has_met(end))
+        return by_energy;
+      const double way = paths.way(end),
+                   missing = way - h * rounded(energy_of_way(paths, end) / unit);
+      if (missing <= 0.)
+        return by_energy;
+      const double reach = lattice.parameters.horizon * h,
+                   begin = std::max(0., way - reach - missing);
+      return by_energy <= begin
+               ? by_energy
+               : begin + (by_energy - begin) * (way - begin) / std::max(h, way - begin - missing);
+    },
+    [&](const TrackedPaths::End &end) { return fluid[end.path][end.side]; });
+}
+
+
+template <int dim>
+double Tips<dim>::energy_of_way(const TrackedPaths &paths, const TrackedPaths::End &end) const
+{
+  double energy = 0.;
+  for (const BondAcross<dim> &bond : crossing_bonds)
+    if (bond.crossing.path == end.path && !bond.was_cut &&
+        lattice.bonds.views_of(bond.view.first, bond.view.second).front() == bond.view)
+      if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
+        energy += lattice.energy_at_unit_stretch(bond.view) *
+                  lattice.softening.dissipated(lattice.softening.last);
+  return energy;
+}
+
+template class Tips<2>;
+template class Tips<3>;
+} // namespace stockwork::peridynamics

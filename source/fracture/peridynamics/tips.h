@@ -1,0 +1,67 @@
+#pragma once
+
+#include "fracture/peridynamics/crossing_bonds.h"
+#include "fracture/peridynamics/softening_bonds.h"
+#include "fracture/peridynamics/tracked_paths.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace stockwork::peridynamics
+{
+/// `Tracking = path`: how far tips have come, by the energy that the bonds across their ways have
+/// dissipated, and fluid with them.
+template <int dim>
+class Tips
+{
+public:
+  /// Of both ends of each path.
+  using OfEnds = std::vector<std::array<double, 2>>;
+
+  Tips(const Lattice<dim> &lattice,
+       const SofteningBonds<dim> &softening_bonds,
+       const CrossingBonds<dim> &crossing_bonds);
+
+  /// Find whose ways the softening bonds cross, by the bonds that cross these paths.
+  void look_at(const TrackedPaths &paths);
+
+  /// Whether a softening bond crosses the way of an end; by its number.
+  bool is_across_way(const unsigned int bond) const
+  {
+    return bond < ends.size() && ends[bond].has_value();
+  }
+
+  /// What bonds across the way of each end have dissipated [J/m].
+  OfEnds energy(const TrackedPaths &paths) const;
+
+  /// Whether nothing has softened across the way of an end. @param energy see above
+  bool is_untouched(const TrackedPaths::End &end, const OfEnds &energy) const;
+
+  /// From tips, as far as they have come by the energy dissipated, to the farthest bonds that have
+  /// softened; all tips together. By as much process zones reach back [m].
+  double half_process_zones(const TrackedPaths &paths) const;
+
+  /// Tips go on, and the fluid with them.
+  /// @param about_to_soften bonds besides those that have begun to
+  /// @return whether fluid has reached another piece
+  bool advance(TrackedPaths &paths, const std::vector<BondView> &about_to_soften) const;
+
+  void commit(const TrackedPaths &paths);
+
+  OfEnds committed_energy; ///< at the last step [J/m]
+
+private:
+  /// What all bonds take across the way of an end [J/m].
+  double energy_of_way(const TrackedPaths &paths, const TrackedPaths::End &end) const;
+
+  /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
+  /// porous rock in all of the process zone, with what is about to soften.
+  OfEnds fluid_ahead(const TrackedPaths &paths, const std::vector<BondView> &about_to_soften) const;
+
+  const Lattice<dim> &lattice;
+  const SofteningBonds<dim> &softening_bonds;
+  const CrossingBonds<dim> &crossing_bonds;
+  std::vector<std::optional<TrackedPaths::End>> ends; ///< of each softening bond
+};
+} // namespace stockwork::peridynamics
