@@ -47,16 +47,9 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
                    (lattice.softening.separation(softening_bonds[n].trial) -
                     lattice.softening.dissipated(softening_bonds[n].trial)) /
                    scene.rock.main().energy_release_rate;
-    const double half_zones = tips.half_process_zones(paths);
-    result.length = paths.length() + half_zones;
+    result.length = paths.length() + tips.half_process_zones(paths);
     result.equivalent_length = elastic - 0.5 * length_that_holds();
-    // Process zones reach as far back from the tips, but not into what was open from the start.
-    double open = 0.;
-    for (const InitialCrack<dim> &crack : scene.cracks)
-      if (crack.kind != InitialCrack<dim>::Kind::cohesive)
-        open += crack.size();
-    result.broken_length = std::max(
-      {std::min(open, paths.length()), paths.length() - half_zones - length_that_holds(), 0.});
+    result.broken_length = std::max(0., tips.broken_length(paths) - length_that_holds());
   }
   result.dissipated_energy = dissipated;
   result.stored_energy =

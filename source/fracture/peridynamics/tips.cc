@@ -141,16 +141,37 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
 
 
 template <int dim>
+double Tips<dim>::energy_of_bond(const BondAcross<dim> &bond) const
+{
+  if (bond.was_cut ||
+      lattice.bonds.views_of(bond.view.first, bond.view.second).front() != bond.view)
+    return 0.;
+  return lattice.energy_at_unit_stretch(bond.view) *
+         lattice.softening.dissipated(lattice.softening.last);
+}
+
+
+template <int dim>
 double Tips<dim>::energy_of_way(const TrackedPaths &paths, const TrackedPaths::End &end) const
 {
   double energy = 0.;
   for (const BondAcross<dim> &bond : crossing_bonds)
-    if (bond.crossing.path == end.path && !bond.was_cut &&
-        lattice.bonds.views_of(bond.view.first, bond.view.second).front() == bond.view)
+    if (bond.crossing.path == end.path)
       if (const auto of = paths.end_at(bond.crossing); of && of->side == end.side)
-        energy += lattice.energy_at_unit_stretch(bond.view) *
-                  lattice.softening.dissipated(lattice.softening.last);
+        energy += energy_of_bond(bond);
   return energy;
+}
+
+
+template <int dim>
+double Tips<dim>::broken_length(const TrackedPaths &paths) const
+{
+  double energy = 0.;
+  for (const BondAcross<dim> &bond : crossing_bonds)
+    if (paths.end_at(bond.crossing) &&
+        softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
+      energy += energy_of_bond(bond);
+  return paths.initial_length() + energy / lattice.scene.rock.main().energy_release_rate;
 }
 
 template class Tips<2>;

@@ -42,6 +42,10 @@ public:
   /// softened; all tips together. By as much process zones reach back [m].
   double half_process_zones(const TrackedPaths &paths) const;
 
+  /// What was there from the start, and of the ways as much as the energy of the bonds that have
+  /// broken across them makes up for [m].
+  double broken_length(const TrackedPaths &paths) const;
+
   /// Tips go on, and the fluid with them.
   /// @param about_to_soften bonds besides those that have begun to
   /// @return whether fluid has reached another piece
@@ -54,6 +58,10 @@ public:
 private:
   /// What all bonds take across the way of an end [J/m].
   double energy_of_way(const TrackedPaths &paths, const TrackedPaths::End &end) const;
+
+  /// What a bond takes that crosses the way of an end; nil across another crack, which is open, and
+  /// as seen from its other ends [J/m].
+  double energy_of_bond(const BondAcross<dim> &bond) const;
 
   /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
   /// porous rock in all of the process zone, with what is about to soften.

@@ -543,15 +543,21 @@ double TrackedPaths::distance(const Point<2> &point) const
 }
 
 
-double TrackedPaths::length() const
+double TrackedPaths::initial_length() const
 {
   double sum = 0.;
   for (const Path &path : paths)
-  {
     for (unsigned int i = path.ends[0].n_points; i < path.n_pieces() - path.ends[1].n_points; ++i)
       sum += path.length(i);
+  return sum;
+}
+
+
+double TrackedPaths::length() const
+{
+  double sum = initial_length();
+  for (const Path &path : paths)
     sum += path.ends[0].advance + path.ends[1].advance;
-  }
   return sum;
 }
 } // namespace stockwork::peridynamics

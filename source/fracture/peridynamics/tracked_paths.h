@@ -210,6 +210,9 @@ public:
   /// Length of the initial cracks and of what tips have advanced by [m].
   double length() const;
 
+  /// Of what the deck gives [m].
+  double initial_length() const;
+
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {
