@@ -336,7 +336,7 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
 
 
 template <int dim>
-bool Peridynamics<dim>::commit(const StepContext &, const State &state)
+bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
 {
   if (passes > 0 && !parameters.explicit_steps) // no such step is taken back, see save()
     keep_bonds();
@@ -351,7 +351,7 @@ bool Peridynamics<dim>::commit(const StepContext &, const State &state)
       lattice.energy_at_unit_stretch(bond.view) *
       (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
   softening_bonds.commit();
-  if (cells.size() > n_segments_before)
+  if (context.attempt == 0 || cells.size() > n_segments_before)
     stops_at_rim = 0;
   if (parameters.in_bonds)
   {

@@ -486,8 +486,9 @@ private:
   std::size_t n_segments_before = 0, n_tips_before = 0;
   double extent_before = 0.;
   unsigned int passes = 0;
-  bool has_rejected = false;        ///< the last attempt
-  unsigned int stops_at_rim = 0;    ///< rejected by that of the zone, since the fracture grew
+  bool has_rejected = false; ///< the last attempt
+  /// Attempts rejected at the rim of the zone, since a step was taken at once or the fracture grew.
+  unsigned int stops_at_rim = 0;
   std::vector<double> displacement; ///< of all sites, at the last call of advance()
   double dissipated = 0.;           ///< since the start [J/m]
   bool told_of_rim_before = false, told_of_pressure_before = false;
