@@ -21,9 +21,8 @@ double unknowns_per_cell(const Case<dim> &the_case)
   const auto &d = the_case.elements;
   return dim * std::pow(d.displacement_degree, dim) + d.has_pore_pressure;
 }
-} // namespace
 
-
+/// The error of a mesh that takes so much memory, of so much [bytes].
 template <int dim>
 EntryError too_large(const Case<dim> &the_case,
                      const parallel::distributed::Triangulation<dim> &triangulation,
@@ -36,6 +35,7 @@ EntryError too_large(const Case<dim> &the_case,
       std::to_string(triangulation.n_global_active_cells()) + " cells and would take about " +
       in_bytes(needed) + ", there are " + in_bytes(available));
 }
+} // namespace
 
 
 template <int dim>
@@ -55,6 +55,22 @@ void refuse_too_large(const RunContext &run,
   const double available = physical_memory(run.communicator);
   if (needed > available)
     throw too_large(the_case, triangulation, needed, available);
+}
+
+
+template <int dim>
+void compare_with_memory(RunContext &run,
+                         const Case<dim> &the_case,
+                         const parallel::distributed::Triangulation<dim> &triangulation,
+                         const double estimate)
+{
+  constexpr double within = 3.; // CostEstimate
+  const double available = physical_memory(run.communicator);
+  if (estimate > within * available)
+    throw too_large(the_case, triangulation, estimate, available);
+  if (estimate > available)
+    run.warn("The run may not fit into memory: it would take roughly " + in_bytes(estimate) +
+             ", and there are " + in_bytes(available) + ".");
 }
 
 
@@ -85,8 +101,10 @@ std::pair<CostEstimate, ExpectedSteps> expected_cost(const RunContext &run,
 }
 
 
-template EntryError
-too_large<2>(const Case<2> &, const parallel::distributed::Triangulation<2> &, double, double);
+template void compare_with_memory<2>(RunContext &,
+                                     const Case<2> &,
+                                     const parallel::distributed::Triangulation<2> &,
+                                     double);
 template void refuse_too_large<2>(const RunContext &,
                                   const Case<2> &,
                                   const parallel::distributed::Triangulation<2> &);
@@ -96,8 +114,10 @@ template std::pair<CostEstimate, ExpectedSteps> expected_cost<2>(const RunContex
                                                                  const CoupledSystem<2> &,
                                                                  Stepper<2> &,
                                                                  const Clock &);
-template EntryError
-too_large<3>(const Case<3> &, const parallel::distributed::Triangulation<3> &, double, double);
+template void compare_with_memory<3>(RunContext &,
+                                     const Case<3> &,
+                                     const parallel::distributed::Triangulation<3> &,
+                                     double);
 template void refuse_too_large<3>(const RunContext &,
                                   const Case<3> &,
                                   const parallel::distributed::Triangulation<3> &);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "case.h"
+#include "clock.h"
 #include "output/checkpoint.h"
 #include "output/field_output.h"
 #include "report.h"
@@ -10,28 +11,6 @@
 
 namespace stockwork
 {
-/// Where a run stands between two steps.
-struct Clock
-{
-  double time = 0.;      ///< [s]
-  double dt = 0.;        ///< proposed for the next step [s]
-  unsigned int step = 0; ///< the last one
-
-  template <class Archive>
-  void serialize(Archive &archive, const unsigned int)
-  {
-    archive &time &dt &step;
-  }
-};
-
-
-/// But for the rounding of a sum of steps.
-inline bool has_ended(const Clock &clock, const StepControl &control)
-{
-  return clock.time >= control.end_time * (1. - 1e-12);
-}
-
-
 /// The checkpoint of a run: what belongs to it, and in which order. All functions are collective.
 template <int dim>
 class RunCheckpoint

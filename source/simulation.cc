@@ -22,7 +22,6 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -238,13 +237,7 @@ void Simulation<dim>::announce()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   const auto [cost, steps] = expected_cost(run, the_case, mesh, system, stepper, clock);
   run.out << "  " << in_words(cost, steps, run.n_ranks) << std::endl;
-  // Within a factor of three, the estimate says: what takes more than that does not fit.
-  const double available = physical_memory(run.communicator);
-  if (cost.memory > 3. * available)
-    throw too_large(the_case, triangulation, cost.memory, available);
-  if (cost.memory > available)
-    run.warn("The run may not fit into memory: it would take roughly " + in_bytes(cost.memory) +
-             ", and there are " + in_bytes(available) + ".");
+  compare_with_memory(run, the_case, triangulation, cost.memory);
 }
 
 

@@ -103,8 +103,9 @@ public:
   {
     const auto solve_with = [&](LinearSolver &solver, unsigned int &n_systems)
     {
-      ++n_systems;
-      return solver.solve(system, stamps, tolerance, dx_bulk, dx_extra);
+      const LinearReport report = solver.solve(system, stamps, tolerance, dx_bulk, dx_extra);
+      n_systems += report.is_good_enough();
+      return report;
     };
     if (wants_hierarchy(system.residual_bulk.size()))
       return solve_with(get<BlockAmgSolver>(iterative, parameters, communicator), n_iterative);
