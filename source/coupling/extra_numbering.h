@@ -2,6 +2,7 @@
 
 #include "stockwork/fracture/model.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
@@ -51,6 +52,13 @@ public:
       if (unknowns[i].key != other.unknowns[i].key)
         return false;
     return true;
+  }
+
+  /// Whether the other knows all of these unknowns.
+  bool is_within(const ExtraNumbering &other) const
+  {
+    return std::all_of(unknowns.begin(), unknowns.end(),
+                       [&](const ExtraUnknown &unknown) { return other.index.count(unknown.key); });
   }
 
   /// Values in this numbering from values in another: by key, and the initial value of an unknown

@@ -323,7 +323,8 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       // The history follows the numbering that has come out of the step.
       for (std::vector<double> *history : scheme.extra_history())
         *history = system.extra_numbering().transfer(committed_numbering, *history, 0.);
-      scheme.accept(context, before, current);
+      scheme.accept(context, before, current,
+                    !system.extra_numbering().is_within(committed_numbering));
       committed = current;
 
       const double dt_limit = step_limit(verdict, dt, first_dt);

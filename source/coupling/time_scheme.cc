@@ -34,18 +34,6 @@ void combine(Unknowns &result, const double a, const Unknowns &x, const double b
   for (unsigned int i = 0; i < result.extra.size(); ++i)
     result.extra[i] = a * result.extra[i] + (b != 0. ? b * y.extra[i] : 0.);
 }
-
-/// Whether an extra unknown has appeared in the last step: it has no past to be extrapolated from,
-/// and in elastic rock, where all follows the fracture, neither has the rest.
-bool has_appeared(const Unknowns &previous, const Unknowns &now)
-{
-  if (now.bulk.n_blocks() > 1)
-    return false;
-  for (unsigned int i = 0; i < now.extra.size(); ++i)
-    if (previous.extra[i] == 0. && now.extra[i] != 0.)
-      return true;
-  return false;
-}
 } // namespace
 
 
@@ -216,8 +204,10 @@ TrilinosWrappers::MPI::Vector owned(const TrilinosWrappers::MPI::Vector &vector)
 
 void TimeScheme::accept(const StepContext &context,
                         const Unknowns &committed,
-                        const Unknowns &current)
+                        const Unknowns &current,
+                        const bool new_unknowns)
 {
+  has_new_unknowns = new_unknowns;
   if (scheme == Kind::newmark && !explicit_steps)
   {
     Unknowns rate_reference, acceleration_reference;
@@ -287,8 +277,10 @@ void TimeScheme::predict(const StepContext &context, Unknowns &unknowns) const
     combine(start, 1., unknowns, context.dt, velocity);
     combine(unknowns, 1., start, 0.5 * context.dt * context.dt, acceleration);
   }
-  else if (n_accepted > 1 && !has_appeared(previous, unknowns))
+  else if (n_accepted > 1 && (unknowns.bulk.n_blocks() > 1 || !has_new_unknowns))
   {
+    // What has appeared in the last step has no past to be extrapolated from, and in elastic rock,
+    // where all follows the fracture, neither has the rest.
     const double r = context.dt / previous_dt;
     combine(unknowns, 1. + r, unknowns, -r, previous);
   }

@@ -40,7 +40,11 @@ public:
                   Unknowns &acceleration_reference) const;
 
   /// The step is accepted; `committed` is the state at its start, `current` at its end.
-  void accept(const StepContext &context, const Unknowns &committed, const Unknowns &current);
+  /// @param new_unknowns extra ones have appeared in it
+  void accept(const StepContext &context,
+              const Unknowns &committed,
+              const Unknowns &current,
+              bool new_unknowns);
 
   /// The local error of the step relative to the size of the solution, the greater of displacement
   /// and pressure; relative to 1e-4 of the greatest size so far where less is left. Of order
@@ -102,7 +106,7 @@ public:
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &previous_dt &earlier_dt &n_accepted &maximum_size;
+    archive &previous_dt &earlier_dt &n_accepted &has_new_unknowns &maximum_size;
   }
 
 private:
@@ -115,6 +119,7 @@ private:
 
   double previous_dt = 0., earlier_dt = 0.;
   unsigned int n_accepted = 0;
+  bool has_new_unknowns = false;     ///< since the last step
   double maximum_size[2] = {0., 0.}; ///< of displacement and pressure so far, as norms (BDF2)
 
   Unknowns previous;     ///< the state before the committed one (not Newmark)

@@ -3,6 +3,8 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include "base/kink.h"
+
 #include <algorithm>
 
 namespace stockwork
@@ -56,7 +58,7 @@ struct ContactLaw
       response.tangent = stiffness * across;
     const double bound = -broken * friction * response.normal;
     const dealii::Tensor<1, dim> shear_gap = along * jump, trial = stiffness * (shear_gap - slip);
-    if (trial.norm() < bound)
+    if (trial.norm() < (1. - kink_width) * bound)
     {
       response.shear = trial;
       response.tangent += stiffness * along;

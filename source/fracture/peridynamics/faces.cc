@@ -1,5 +1,7 @@
 #include "fracture/peridynamics/faces.h"
 
+#include "base/kink.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -110,7 +112,7 @@ void Faces::add_contact(const State &state, Rows &rows) const
   // The traction by the balance of forces, and that of the law.
   const double balanced = fluid - local.residual(w) / area;
   const double kept = 1. - softness, normal = kept * balanced + c * now.extra[modes[0].jump];
-  if (normal >= 0.)
+  if (normal >= -kink_width * (std::abs(fluid) + std::abs(balanced - fluid)))
     return;
   // By each unknown.
   std::vector<std::pair<unsigned int, double>> slope{{w, c}, {rows.traction(0), -kept * unit}};
@@ -127,7 +129,7 @@ void Faces::add_contact(const State &state, Rows &rows) const
   const unsigned int s = rows.jump(1);
   const double trial = -unit * now.extra[modes[1].traction] +
                        c * (now.extra[modes[1].jump] - state.committed.extra[modes[1].jump]);
-  if (std::abs(trial) < -friction * normal)
+  if (std::abs(trial) < -(1. - kink_width) * friction * normal)
   {
     local.residual(s) += area * trial;
     local.matrix(s, s) += area * c;

@@ -6,6 +6,7 @@
 //
 // Both x = D e and the force that is lost, over k, y = D A V g (theta + theta')/k, are unknowns, so
 // that the matrix of bonds that hold stays as it is.
+#include "base/kink.h"
 #include "fracture/peridynamics/peridynamics.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ typename Peridynamics<dim>::Softened Peridynamics<dim>::softened(const Softening
     by_elongation * (elongated + soft.offset * lattice.coefficients[bond].length);
   const double kappa = softening_bonds.maximum_stretch(soft, stretch);
   const double damage = lattice.softening.damage(kappa);
-  const bool softens = stretch > soft.committed;
+  const bool softens = stretch > soft.committed - kink_width;
   return {damage, softens ? (lattice.softening.slope(kappa) - damage) / kappa *
                               softening_bonds.relaxation() * by_elongation
                           : 0.};

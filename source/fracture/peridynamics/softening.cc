@@ -1,3 +1,4 @@
+#include "base/kink.h"
 #include "fracture/peridynamics/peridynamics.h"
 #include "stockwork/mesh/key.h"
 
@@ -134,8 +135,8 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     // What an in-situ stress adds to the stretch is not the bond's to carry, unless it is part of
     // its law.
     const double carried = parameters.in_bonds ? total : elongation;
-    // Of damage times this elongation by the elongation.
-    const double slope = stretch > committed && total != 0.
+    // Of damage times this elongation by the elongation. What has softened goes on.
+    const double slope = stretch > committed - kink_width && total != 0.
                            ? damage + (lattice.softening.slope(kappa) - damage) *
                                         softening_bonds.relaxation() * stretch / kappa * carried /
                                         total
