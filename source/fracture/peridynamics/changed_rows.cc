@@ -51,8 +51,8 @@ void Peridynamics<dim>::find_changed_rows(const std::vector<double> &damage_befo
   };
   if (scene.has_pore_pressure && !parameters.in_bonds)
   {
-    add_corners(cells_before, cells);
-    add_corners(cells, cells_before);
+    add_corners(cells_before, fracture.cells);
+    add_corners(fracture.cells, cells_before);
   }
   row_versions.change(changed);
 }

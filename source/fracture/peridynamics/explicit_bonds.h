@@ -18,7 +18,7 @@ namespace stockwork::peridynamics
 /// what has broken.
 ///
 /// Brittle bonds may have fluid of a given pressure in all cracks: it is part of their law, see
-/// pressure_in_bonds.cc. Of whole bonds it counts for those of *wet* sites, which have a broken
+/// pressure_in_bonds.h. Of whole bonds it counts for those of *wet* sites, which have a broken
 /// one.
 template <int dim>
 class ExplicitBonds : public ExplicitRock

@@ -56,7 +56,7 @@ void Peridynamics<dim>::make_explicit_bonds()
 template <int dim>
 void Peridynamics<dim>::open_explicit_bonds(const Collectives &collectives)
 {
-  std::vector<double> volumes(cells.size(), 0.);
+  std::vector<double> volumes(fracture.cells.size(), 0.);
   for (const unsigned int i : lattice.bonds.damaged_sites())
     if (lattice.zone.sites()[i].owner == rank)
       lattice.bonds.for_each_broken(
@@ -71,15 +71,16 @@ void Peridynamics<dim>::open_explicit_bonds(const Collectives &collectives)
                        volume = 0.5 * lattice.zone.sites()[i].share *
                                 lattice.uncorrected_stiffness(i, b) * length * effective *
                                 lattice.strain_of_pressure;
-          for (const auto &[cell, share] : crossed.of(i, b, true))
+          for (const auto &[cell, share] : pressure_in_bonds.shares(i, b, true))
             volumes[cell] += share * volume;
         });
   collectives.sum(volumes);
-  for (unsigned int k = 0; k < owned_segments.size(); ++k)
+  for (unsigned int k = 0; k < fracture.owned_segments.size(); ++k)
   {
     // What it does to the rock, bonds do.
-    owned_segments[k].opening = LinearFunctional();
-    owned_segments[k].opening.constant = volumes[owned_cells[k]] / owned_segments[k].area;
+    fracture.owned_segments[k].opening = LinearFunctional();
+    fracture.owned_segments[k].opening.constant =
+      volumes[fracture.owned_cells[k]] / fracture.owned_segments[k].area;
   }
 }
 
@@ -143,7 +144,7 @@ bool Peridynamics<dim>::follow_explicit_bonds(const State &state, const Collecti
   if (lattice.stretch_of_given_pressure() == 0.)
     return changed;
   if (changed)
-    crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
+    pressure_in_bonds.find_crossed();
   open_explicit_bonds(collectives);
   warn_of_pressure(state);
   return true;

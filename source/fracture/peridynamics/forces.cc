@@ -256,18 +256,18 @@ void Peridynamics<dim>::assemble(const StepContext &context, const State &state,
     assemble_tensor_fluid(context, state, sink);
   if (parameters.tensor_fluid && parameters.as_published)
     assemble_published_closure(context, state, sink);
-  for (const Faces &own : faces)
-    own.assemble(state, sink);
+  if (parameters.in_bonds)
+    pressure_in_bonds.assemble(state, sink);
   if (lattice.in_situ_is_zero || parameters.in_bonds)
     return;
   LocalSystem local;
-  for (const unsigned int i : owned_cells)
+  for (const unsigned int i : fracture.owned_cells)
   {
-    local.bulk = all_segments[i].opening.bulk;
+    local.bulk = fracture.segments[i].opening.bulk;
     local.reinit();
-    const std::vector<Tensor<1, dim>> of_corners = jumps(lattice.zone, cells[i]);
-    add_released_traction<dim>(scene, all_segments[i].centre, cells[i].normal, all_segments[i].area,
-                               of_corners, local.residual);
+    const std::vector<Tensor<1, dim>> of_corners = jumps(lattice.zone, fracture.cells[i]);
+    add_released_traction<dim>(scene, fracture.segments[i].centre, fracture.cells[i].normal,
+                               fracture.segments[i].area, of_corners, local.residual);
     sink.add(local);
   }
 }

@@ -32,25 +32,26 @@ typename Peridynamics<dim>::OfCells
 Peridynamics<dim>::pressure_stretch(const State &state, const Collectives &collectives) const
 {
   if (parameters.in_bonds)
-    return {{}, strain_of_faces(state)};
-  std::vector<double> result(cells.size(), 0.);
+    return {{}, pressure_in_bonds.strain(state)};
+  std::vector<double> result(fracture.cells.size(), 0.);
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
   const double by_fluid = state.segment_pressure ? lattice.relief_by_fluid : 0.;
   if (by_fluid > 0. && scene.has_pore_pressure)
   {
-    for (unsigned int i = 0; i < owned_cells.size(); ++i)
-      result[owned_cells[i]] = -biot_coefficient(owned_cells[i]) * by_fluid *
-                               value(owned_segments[i].pore_pressure, state.current);
+    for (unsigned int i = 0; i < fracture.owned_cells.size(); ++i)
+      result[fracture.owned_cells[i]] =
+        -lattice.rock_at(fracture.cells[fracture.owned_cells[i]].place).biot_coefficient *
+        by_fluid * value(fracture.owned_segments[i].pore_pressure, state.current);
     collectives.sum(result);
   }
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
   {
-    const auto &n = cells[i].normal;
-    const double in_situ = n * (scene.in_situ_stress(all_segments[i].centre) * n);
+    const auto &n = fracture.cells[i].normal;
+    const double in_situ = n * (scene.in_situ_stress(fracture.segments[i].centre) * n);
     result[i] -= compliance * in_situ;
     if (by_fluid > 0.)
-      result[i] += by_fluid * (state.segment_pressure(all_segments[i].key) + in_situ);
+      result[i] += by_fluid * (state.segment_pressure(fracture.segments[i].key) + in_situ);
   }
   return {result, {}};
 }
@@ -68,12 +69,13 @@ double Peridynamics<dim>::relief_at(const unsigned int site,
     middle[d] = lattice.zone.sites()[site].place[d] + half[d];
   }
   double nearest = parameters.horizon + 1., result = 0.;
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
   {
     Tensor<1, dim> away = middle;
     for (unsigned int d = 0; d < dim; ++d)
-      away[d] -= cells[i].place[d] + 0.5;
-    if (std::abs(away * cells[i].normal) > std::abs(half * cells[i].normal) - same_place)
+      away[d] -= fracture.cells[i].place[d] + 0.5;
+    if (std::abs(away * fracture.cells[i].normal) >
+        std::abs(half * fracture.cells[i].normal) - same_place)
       continue; // the plane of the fracture does not cross it
     // Of several equally near, the one that relieves most, whatever their order.
     const double distance = away.norm();
@@ -93,7 +95,8 @@ double Peridynamics<dim>::added_stretch(const unsigned int site,
                                         const OfCells &of_cells) const
 {
   return parameters.in_bonds
-           ? fractured_stretch(site, bond, shares_of(site, bond, false), of_cells.strain)
+           ? pressure_in_bonds.stretch(site, bond, pressure_in_bonds.shares(site, bond, false),
+                                       of_cells.strain)
            : lattice.in_situ_stretch(site, bond) +
                relief_at(site, bond, of_cells.relief) / lattice.rock_of_bonds.modulus(site, bond);
 }
@@ -246,7 +249,7 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     warn_of_pressure(state); // on a path, bonds break nowhere else
 
   const unsigned int n_tips = std::max<std::size_t>(n_tips_before, 1);
-  const unsigned int n_new = cells.size() - n_segments_before;
+  const unsigned int n_new = fracture.cells.size() - n_segments_before;
   const bool changed = lattice.softening.brittle()
                          ? !candidates.empty()
                          : soften_bonds(displacement, of_cells, candidates);

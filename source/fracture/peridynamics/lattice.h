@@ -32,6 +32,12 @@ public:
   /// Append the sites that a site's bonds lead to.
   void append_family(unsigned int site, std::vector<unsigned int> &sites) const;
 
+  /// In the cell at a place.
+  const RockProperties &rock_at(const Place<dim> &place) const
+  {
+    return scene.rock(regions[zone.active_cell_index(place)]);
+  }
+
   /// A bond of a site in 'Unbreakable'.
   bool never_breaks(unsigned int site, unsigned int bond) const
   {

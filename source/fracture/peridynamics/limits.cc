@@ -40,7 +40,7 @@ void Peridynamics<dim>::warn_of_pressure(const State &state)
   if (told_of_pressure || !state.segment_pressure)
     return;
   double pressure = 0.;
-  for (const Segment<dim> &segment : all_segments)
+  for (const Segment<dim> &segment : fracture.segments)
     pressure = std::max(pressure,
                         state.segment_pressure(segment.key) +
                           segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
@@ -118,8 +118,8 @@ template <int dim>
 double Peridynamics<dim>::fracture_volume(const State &state, const Collectives &collectives) const
 {
   std::vector<double> volume(1, 0.);
-  for (unsigned int k = 0; k < owned_segments.size(); ++k)
-    volume[0] += owned_segments[k].area * aperture(k, state);
+  for (unsigned int k = 0; k < fracture.owned_segments.size(); ++k)
+    volume[0] += fracture.owned_segments[k].area * fracture.aperture(k, state);
   collectives.sum(volume);
   return volume[0];
 }
@@ -132,11 +132,11 @@ double Peridynamics<dim>::extent() const
   if (parameters.tracked)
     return paths.length();
   double greatest = 0.;
-  for (unsigned int d = 0; d < dim && !all_segments.empty(); ++d)
+  for (unsigned int d = 0; d < dim && !fracture.segments.empty(); ++d)
   {
-    const auto [first, last] = std::minmax_element(all_segments.begin(), all_segments.end(),
-                                                   [d](const Segment<dim> &a, const Segment<dim> &b)
-                                                   { return a.centre[d] < b.centre[d]; });
+    const auto [first, last] = std::minmax_element(
+      fracture.segments.begin(), fracture.segments.end(),
+      [d](const Segment<dim> &a, const Segment<dim> &b) { return a.centre[d] < b.centre[d]; });
     greatest = std::max(greatest, last->centre[d] - first->centre[d] + lattice.zone.spacing());
   }
   return greatest;
@@ -149,10 +149,10 @@ Verdict Peridynamics<dim>::verdict_on(const StepContext &context,
                                       const Collectives &collectives) const
 {
   Verdict verdict;
-  if (all_segments.empty())
+  if (fracture.segments.empty())
     return verdict;
   double area = 0.;
-  for (const Segment<dim> &segment : all_segments)
+  for (const Segment<dim> &segment : fracture.segments)
     area += segment.area;
   const double volume = fracture_volume(state, collectives), reach = extent();
   if (!parameters.in_bonds && volume < -overlap * area * reach)

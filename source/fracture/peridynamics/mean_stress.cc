@@ -21,7 +21,7 @@ Peridynamics<dim>::stress_of_bonds(const unsigned int site,
     const Tensor<1, dim> &e = lattice.coefficients[b].direction;
     double force = 0.;
     if (lattice.bonds.is_broken(site, b))
-      for (const auto &[cell, share] : shares_of(site, b, false))
+      for (const auto &[cell, share] : pressure_in_bonds.shares(site, b, false))
         force -= lattice.coefficients[b].stiffness * lattice.coefficients[b].length * share *
                  (e * (of_cells.strain[cell] * e));
     else

@@ -14,21 +14,21 @@ template <int dim>
 FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives &collectives) const
 {
   FractureSummary result;
-  std::vector<double> apertures(cells.size(), 0.);
-  for (unsigned int k = 0; k < owned_cells.size(); ++k)
-    apertures[owned_cells[k]] = aperture(k, state);
+  std::vector<double> apertures(fracture.cells.size(), 0.);
+  for (unsigned int k = 0; k < fracture.owned_cells.size(); ++k)
+    apertures[fracture.owned_cells[k]] = fracture.aperture(k, state);
   collectives.sum(apertures);
   std::vector<double> sums(3, 0.); // length, broken length, tips
-  for (const unsigned int i : owned_cells)
+  for (const unsigned int i : fracture.owned_cells)
   {
-    const double broken = broken_share<dim>(lattice.zone, lattice.stencil, cells[i],
+    const double broken = broken_share<dim>(lattice.zone, lattice.stencil, fracture.cells[i],
                                             [this](const unsigned int site, const unsigned int bond)
                                             { return softening_bonds.damage(site, bond); });
-    if (broken < 0.5 && is_beside(cells, apertures, parameters.horizon + 1., i))
+    if (broken < 0.5 && is_beside(fracture.cells, apertures, parameters.horizon + 1., i))
       continue; // it has softened without opening
-    sums[0] += all_segments[i].area;
-    sums[1] += broken * all_segments[i].area;
-    sums[2] += all_segments[i].at_tip;
+    sums[0] += fracture.segments[i].area;
+    sums[1] += broken * fracture.segments[i].area;
+    sums[2] += fracture.segments[i].at_tip;
   }
   collectives.sum(sums);
   result.length = sums[0];
@@ -127,10 +127,10 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
   sink.add_cell_field("damage", mean_damage);
 
   if constexpr (dim == 2)
-    for (unsigned int k = 0; k < owned_segments.size(); ++k)
+    for (unsigned int k = 0; k < fracture.owned_segments.size(); ++k)
     {
-      const Segment<dim> &segment = owned_segments[k];
-      std::vector<std::pair<std::string, double>> values{{"aperture", aperture(k, state)},
+      const Segment<dim> &segment = fracture.owned_segments[k];
+      std::vector<std::pair<std::string, double>> values{{"aperture", fracture.aperture(k, state)},
                                                          {"damage", 1.}};
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(segment.key));

@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/peridynamics.h"
 
+#include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
 #include "fracture/peridynamics/foresight.h"
 #include "fracture/peridynamics/wording.h"
@@ -40,6 +41,7 @@ Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<d
   , new_paths(lattice)
   , crossing_bonds(lattice)
   , tips(lattice, softening_bonds, crossing_bonds)
+  , pressure_in_bonds(lattice, softening_bonds, paths, crossing_bonds, fracture)
 {
   if (parameters.growth)
     needs::energy_release_rate(scene.rock, "peridynamics", "or 'Growth = false'");
@@ -177,7 +179,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     make_explicit_bonds();
   if (explicit_bonds && lattice.stretch_of_given_pressure() != 0.)
   {
-    crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
+    pressure_in_bonds.find_crossed();
     open_explicit_bonds(collectives);
   }
 }
@@ -218,6 +220,25 @@ std::vector<FractureCell<dim>> Peridynamics<dim>::fracture_cells() const
 
 
 template <int dim>
+void Peridynamics<dim>::keep_committed_cells()
+{
+  std::vector<Place<dim>> found;
+  for (const FractureCell<dim> &cell : fracture.cells)
+    found.push_back(cell.place);
+  for (const auto &[place, normal] : committed_cells)
+    if (!std::binary_search(found.begin(), found.end(), place))
+    {
+      FractureCell<dim> kept{place, {}};
+      for (unsigned int d = 0; d < dim; ++d)
+        kept.normal[d] = normal[d];
+      fracture.cells.push_back(kept);
+    }
+  std::sort(fracture.cells.begin(), fracture.cells.end(),
+            [](const auto &a, const auto &b) { return a.place < b.place; });
+}
+
+
+template <int dim>
 void Peridynamics<dim>::refresh_segments()
 {
   const std::vector<double> damage_before = lattice.damage,
@@ -231,87 +252,79 @@ void Peridynamics<dim>::refresh_segments()
           i != dealii::numbers::invalid_unsigned_int)
         lattice.corrected_damage[i] = corrected;
   }
-  const std::vector<FractureCell<dim>> cells_before = cells;
+  const std::vector<FractureCell<dim>> cells_before = fracture.cells;
   if (parameters.tracked)
     follow_paths();
   else
   {
-    cells = fracture_cells();
-    align_normals<dim>(cells, parameters.horizon + 1,
+    fracture.cells = fracture_cells();
+    align_normals<dim>(fracture.cells, parameters.horizon + 1,
                        [this](const Place<dim> &place)
                        { return committed_normals.count(place) != 0; });
-    for (FractureCell<dim> &cell : cells)
+    for (FractureCell<dim> &cell : fracture.cells)
       if (const auto old = committed_normals.find(cell.place); old != committed_normals.end())
         for (unsigned int d = 0; d < dim; ++d)
           cell.normal[d] = old->second[d];
     if (parameters.in_bonds)
       keep_committed_cells();
-    all_segments = make_segments(lattice.zone, cells);
+    fracture.segments = make_segments(lattice.zone, fracture.cells);
   }
-  at_front.clear();
+  fracture.at_front.clear();
   published.clear();
   if (parameters.as_published && !parameters.tensor_fluid)
   {
     const RockProperties &rock = scene.rock.main();
     const double stretch_of_pressure = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
     const auto loads = published_loads(lattice.zone, lattice.bonds, lattice.coefficients,
-                                       stretch_of_pressure, cells);
-    for (unsigned int i = 0; i < cells.size(); ++i)
-      if (lattice.zone.owns(cells[i].place))
-        published.emplace_back(all_segments[i], loads[i]);
+                                       stretch_of_pressure, fracture.cells);
+    for (unsigned int i = 0; i < fracture.cells.size(); ++i)
+      if (lattice.zone.owns(fracture.cells[i].place))
+        published.emplace_back(fracture.segments[i], loads[i]);
   }
-  owned_segments.clear();
-  owned_cells.clear();
+  fracture.owned_segments.clear();
+  fracture.owned_cells.clear();
   normals.clear();
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
   {
-    Segment<dim> &segment = all_segments[i];
-    at_front.push_back(parameters.tracked ? segment.at_tip
-                                          : is_at_front(lattice.zone, cells[i], segment));
-    if (scene.has_pore_pressure && lattice.zone.owns(cells[i].place))
+    Segment<dim> &segment = fracture.segments[i];
+    fracture.at_front.push_back(
+      parameters.tracked ? segment.at_tip : is_at_front(lattice.zone, fracture.cells[i], segment));
+    if (scene.has_pore_pressure && lattice.zone.owns(fracture.cells[i].place))
     {
-      segment.region = lattice.regions[lattice.zone.active_cell_index(cells[i].place)];
-      segment.share_of_pores = biot_coefficient(i);
+      segment.region = lattice.regions[lattice.zone.active_cell_index(fracture.cells[i].place)];
+      segment.share_of_pores = lattice.rock_at(fracture.cells[i].place).biot_coefficient;
     }
     // Unknowns are measured from the in-situ pressure.
     segment.pore_pressure.constant = scene.in_situ_pore_pressure(segment.centre);
-    if (lattice.zone.owns(cells[i].place))
+    if (lattice.zone.owns(fracture.cells[i].place))
     {
-      owned_cells.push_back(i);
+      fracture.owned_cells.push_back(i);
       if (scene.has_pore_pressure && !parameters.as_published && !parameters.in_bonds)
-        normals[lattice.zone.active_cell_index(cells[i].place)] = cells[i].normal;
-      owned_segments.push_back(segment);
+        normals[lattice.zone.active_cell_index(fracture.cells[i].place)] = fracture.cells[i].normal;
+      fracture.owned_segments.push_back(segment);
       if (parameters.tensor_fluid)
       {
-        permeability_tensor::leave_to_pores(owned_segments.back());
+        permeability_tensor::leave_to_pores(fracture.owned_segments.back());
         // As published, its load is the bonds' affair, and its opening makes no room.
         if (parameters.as_published)
         {
-          owned_segments.back().share_of_pores = 1.;
+          fracture.owned_segments.back().share_of_pores = 1.;
           published.emplace_back(segment, LinearFunctional());
         }
       }
     }
   }
   if (parameters.in_bonds)
-    open_by_bonds();
+    pressure_in_bonds.follow();
   if (!parameters.explicit_steps) // there is no matrix
     find_changed_rows(damage_before, corrected_before, cells_before);
 }
 
 
 template <int dim>
-double Peridynamics<dim>::biot_coefficient(const unsigned int cell) const
-{
-  return scene.rock(lattice.regions[lattice.zone.active_cell_index(cells[cell].place)])
-    .biot_coefficient;
-}
-
-
-template <int dim>
 dealii::ArrayView<const Segment<dim>> Peridynamics<dim>::segments() const
 {
-  return dealii::make_array_view(owned_segments);
+  return dealii::make_array_view(fracture.owned_segments);
 }
 
 
@@ -327,10 +340,10 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
   told_of_rim_before = told_of_rim;
   told_of_pressure_before = told_of_pressure;
   told_of_new_paths_before = new_paths.told;
-  n_segments_before = cells.size();
+  n_segments_before = fracture.cells.size();
   extent_before = extent();
   n_tips_before = 0;
-  for (const bool at_end : at_front)
+  for (const bool at_end : fracture.at_front)
     n_tips_before += at_end;
 }
 
@@ -351,13 +364,18 @@ bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
       lattice.energy_at_unit_stretch(bond.view) *
       (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
   softening_bonds.commit();
-  if (context.attempt == 0 || cells.size() > n_segments_before)
+  if (context.attempt == 0 || fracture.cells.size() > n_segments_before)
     stops_at_rim = 0;
   if (parameters.in_bonds)
   {
-    commit_contact(state);
+    dissipated += pressure_in_bonds.work_of_friction(state);
+    if (!told_of_contact && pressure_in_bonds.touches(state))
+    {
+      messages.push_back(faces_touch(parameters.friction));
+      told_of_contact = true;
+    }
     committed_cells.clear();
-    for (const FractureCell<dim> &cell : cells)
+    for (const FractureCell<dim> &cell : fracture.cells)
       if (!parameters.tracked)
         committed_cells.emplace_back(
           cell.place, std::vector<double>(cell.normal.begin_raw(), cell.normal.end_raw()));
@@ -365,16 +383,17 @@ bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
   committed_energy = dissipated;
   const double settled = (parameters.horizon + 1.5) * lattice.zone.spacing();
   std::vector<Point<dim>> front;
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    if (at_front[i])
-      front.push_back(all_segments[i].centre);
-  for (unsigned int i = 0; i < cells.size() && !parameters.tracked; ++i)
-    if (committed_normals.count(cells[i].place) == 0 &&
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
+    if (fracture.at_front[i])
+      front.push_back(fracture.segments[i].centre);
+  for (unsigned int i = 0; i < fracture.cells.size() && !parameters.tracked; ++i)
+    if (committed_normals.count(fracture.cells[i].place) == 0 &&
         std::none_of(front.begin(), front.end(),
                      [&](const Point<dim> &end)
-                     { return end.distance(all_segments[i].centre) < settled; }))
-      committed_normals.emplace(cells[i].place, std::vector<double>(cells[i].normal.begin_raw(),
-                                                                    cells[i].normal.end_raw()));
+                     { return end.distance(fracture.segments[i].centre) < settled; }))
+      committed_normals.emplace(fracture.cells[i].place,
+                                std::vector<double>(fracture.cells[i].normal.begin_raw(),
+                                                    fracture.cells[i].normal.end_raw()));
   correct_faces();
   return !parameters.explicit_steps && enlarge_zone(); // it is all of the rock already
 }

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "fracture/peridynamics/crossed_cells.h"
 #include "fracture/peridynamics/crossing_bonds.h"
 #include "fracture/peridynamics/explicit_bonds.h"
-#include "fracture/peridynamics/faces.h"
-#include "fracture/peridynamics/fracture_cells.h"
+#include "fracture/peridynamics/fracture.h"
 #include "fracture/peridynamics/lattice.h"
 #include "fracture/peridynamics/new_paths.h"
+#include "fracture/peridynamics/pressure_in_bonds.h"
 #include "fracture/peridynamics/published_load.h"
 #include "fracture/peridynamics/row_versions.h"
 #include "fracture/peridynamics/softening_bonds.h"
@@ -152,9 +151,6 @@ private:
                          const std::vector<double> &corrected_before,
                          const std::vector<FractureCell<dim>> &cells_before);
 
-  /// In the cell of a segment that this rank owns.
-  double biot_coefficient(unsigned int cell) const;
-
   /// What cells do to the bonds around them besides elongating them.
   struct OfCells
   {
@@ -169,9 +165,6 @@ private:
     double stretch; ///< an intact one of the same energy has it, over the critical one, rounded
     unsigned int site, bond;
   };
-
-  /// Those that cross a path; without paths the broken ones.
-  std::vector<BondAcross<dim>> bonds_across() const;
 
   /// Break the most stretched bonds.
   void break_bonds(const std::vector<Candidate> &candidates);
@@ -226,69 +219,10 @@ private:
     return softening_bonds.size() + bond;
   }
 
-  // With the pressure in the bonds (pressure_in_bonds.cc).
-
-  /// Strain that the lattice has by the in-situ stress on a cell's plane.
-  dealii::SymmetricTensor<2, dim> released_strain(unsigned int cell) const;
-
-  /// Of all cells, the same of unit tractions of the modes [1/Pa]: across the fracture and along
-  /// it, combined so that bonds read no slip as an opening, nor the other way round.
-  void find_modes(const std::vector<BondAcross<dim>> &across);
-
-  /// Of all cells.
-  std::vector<dealii::SymmetricTensor<2, dim>> strain_of_faces(const State &state) const;
-
-  /// What a step has brought: faces that touch, and the work of their friction.
-  void commit_contact(const State &state);
-
-  /// Modes in which faces have unknowns: across the fracture, and along it if they rub.
-  unsigned int n_modes() const
-  {
-    return parameters.friction > 0. ? 2 : 1;
-  }
-
-  /// Number of the jump of a cell's faces among the extra unknowns; that of the traction is the
-  /// next one. See Faces.
-  unsigned int unknown_of_faces(const unsigned int cell, const unsigned int mode) const
-  {
-    return softening_bonds.size() + 2 * (cell * n_modes() + mode);
-  }
-
-  /// The unknowns of all cells.
-  std::vector<ExtraUnknown> unknowns_of_faces() const;
-
-  /// Of a bond that holds, the stretch that it would have by the tractions that the faces have lost
-  /// of the cells that it belongs to.
-  /// @param strain strain_of_faces()
-  double fractured_stretch(unsigned int site,
-                           unsigned int bond,
-                           const CellShares &shares,
-                           const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
-
-  /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
-  /// @param always of a bond that has lost something; else only where it feels the fluid
-  CellShares shares_of(unsigned int site, unsigned int bond, bool always) const;
-
-  /// Whether brittle bonds feel a given pressure: one of the two sites has a broken bond, as in
-  /// ExplicitBonds. That is the same in all directions, and so does not keep a fracture straight,
-  /// as it does to count bonds across the plane ahead of its tip only.
-  bool is_wet_bond(const unsigned int site, const unsigned int bond) const
-  {
-    return lattice.damage[site] > 0. || lattice.damage[lattice.zone.far_end(site, bond).site] > 0.;
-  }
-
-  /// The same for what a cell's faces have moved by: bonds ahead of the fluid belong to its last
-  /// piece, but not to that one's jump.
-  CellShares shares_of_jump(const BondAcross<dim> &bond) const;
-
   // With tracked paths (tracking.cc).
 
   /// Find the bonds that cross paths, if these are others than before.
   void find_crossing_bonds();
-
-  /// Of a bond across a path that fluid has not reached: by the effective in-situ traction there,
-  /// which the fracture would release.
-  double dry_stretch(unsigned int site, unsigned int bond) const;
 
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
@@ -299,9 +233,6 @@ private:
 
   /// Paths go on ahead of tips that have come near to their ends.
   void track(const State &state, const OfCells &of_cells);
-
-  /// Of a piece in porous rock, see Segment [m].
-  double bare_aperture(unsigned int cell) const;
 
   /// Of a peridynamic site, but for what it is in situ [Pa].
   /// @param softened what has become of the elongation of bonds without any force [m]
@@ -327,12 +258,6 @@ private:
                                                const dealii::Tensor<1, dim> &ahead,
                                                const State &state,
                                                const OfCells &of_cells) const;
-
-  /// Segments open by what bonds have lost of their elongation.
-  void open_by_bonds();
-
-  /// Of an owned segment [m].
-  double aperture(unsigned int owned, const State &state) const;
 
   /// What fracture cells conduct along the fracture, in the elements of the pore pressure.
   void assemble_tensor_fluid(const StepContext &context, const State &state, Sink &sink) const;
@@ -362,7 +287,7 @@ private:
   /// The same of a bond that softens.
   double added_stretch(const SofteningBond &bond, const OfCells &of_cells) const;
 
-  /// With the pressure in the bonds, strain_of_faces(). Else, of each fracture cell, the stretch
+  /// With the pressure in the bonds, its strain(). Else, of each fracture cell, the stretch
   /// that bonds ahead of it are relieved of: by the in-situ stress normal to the fracture, which
   /// its faces release; and by the fluid. For a cell that fluid enters is open already, by its
   /// rock's stretch w_0 / h. The fluid fills this volume, but its work, p w_0 per area, does not
@@ -450,22 +375,13 @@ private:
   BondSet<dim> cracked; ///< broken ones and those that have begun to soften
   SofteningBonds<dim> softening_bonds;
   std::vector<unsigned int> n_broken; ///< bonds of all sites
-  std::vector<FractureCell<dim>> cells;
-  std::vector<Segment<dim>> all_segments;    ///< of all ranks
-  std::vector<bool> at_front;                ///< which of them the fracture ends at
+  Fracture<dim> fracture;
   std::vector<PublishedLoad<dim>> published; ///< of owned segments
-  CrossedCells<dim> crossed;
-  std::vector<dealii::SymmetricTensor<2, dim>> released; ///< strain of each cell, if not all zero
-  std::vector<Faces> faces;                              ///< of owned segments
-  std::vector<LinearFunctional> pores_of_pieces;         ///< of all ranks, see pores_across()
-  std::vector<std::array<dealii::SymmetricTensor<2, dim>, 2>> modes; ///< see find_modes()
-  std::vector<CellShares> softening_shares;                          ///< of the softening bonds
   TrackedPaths paths, committed_paths;
   NewPaths<dim> new_paths;
   CrossingBonds<dim> crossing_bonds;
   Tips<dim> tips;
-  std::vector<Segment<dim>> owned_segments;               ///< their openings are known here
-  std::vector<unsigned int> owned_cells;                  ///< indices of the same among `cells`
+  PressureInBonds<dim> pressure_in_bonds;
   std::map<unsigned int, dealii::Tensor<1, dim>> normals; ///< by active cell index, in porous rock
   std::vector<std::string> messages;
   RowVersions row_versions;                           ///< by whole bonds and cells' normals

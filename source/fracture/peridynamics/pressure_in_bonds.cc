@@ -1,23 +1,11 @@
-// `Closure = in bonds`: the fluid's pressure is part of the law of bonds. A crack under a net
-// pressure p is one without load in rock under a uniform stress p, less the uniform field. So what
-// counts for a bond of length l is its elongation under both, the effective one
-//
-//   e* = e + l p / (C11 + (d-1) C12),
-//
-// in which it softens and breaks; and its force is k (e - D e*): none of the pressure while it is
-// whole, a push of k l p / (C11 + (d-1) C12) on its ends when it is broken. The volume adjoint to
-// that is the sum of k l D e* / (C11 + (d-1) C12), and each bond's goes to the cell where it
-// crosses the fracture. What stress in situ acts on the plane of the fracture belongs to p; what
-// shear does, is a uniform field of its own.
-#include "fracture/peridynamics/peridynamics.h"
+#include "fracture/peridynamics/pressure_in_bonds.h"
 
-#include "discontinuity/contact.h"
-#include "fracture/peridynamics/lattice_moduli.h"
+#include "fracture/peridynamics/pores_across.h"
 #include "stockwork/mesh/key.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 
 namespace stockwork::peridynamics
 {
@@ -26,8 +14,8 @@ using dealii::Tensor;
 
 namespace
 {
-/// Faces that are nearer to one another touch [m].
-constexpr double closed = 1e-12;
+/// Faces that are nearer to one another touch, in lattice spacings.
+constexpr double closed = 1e-11;
 /// What bonds of a piece read of a jump, less all of it, from which on too few are there to tell.
 constexpr double too_few_bonds = 0.5;
 /// Of the opening at which nothing holds faces together any more, from which on they leak as bare
@@ -38,10 +26,27 @@ constexpr double share_when_bare = 0.25;
 
 
 template <int dim>
-SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int cell) const
+PressureInBonds<dim>::PressureInBonds(const Lattice<dim> &lattice,
+                                      const SofteningBonds<dim> &softening_bonds,
+                                      const TrackedPaths &paths,
+                                      const CrossingBonds<dim> &crossing_bonds,
+                                      Fracture<dim> &fracture)
+  : lattice(lattice)
+  , parameters(lattice.parameters)
+  , scene(lattice.scene)
+  , softening_bonds(softening_bonds)
+  , paths(paths)
+  , crossing_bonds(crossing_bonds)
+  , fracture(fracture)
 {
-  const Tensor<1, dim> &n = cells[cell].normal,
-                       traction = scene.in_situ_stress(all_segments[cell].centre) * n;
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim> PressureInBonds<dim>::released_strain(const unsigned int cell) const
+{
+  const Tensor<1, dim> &n = fracture.cells[cell].normal,
+                       traction = scene.in_situ_stress(fracture.segments[cell].centre) * n;
   if constexpr (dim == 2)
     return (traction * n) * modes[cell][0] + (traction * cross_product_2d(n)) * modes[cell][1];
   else
@@ -50,25 +55,25 @@ SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(const unsigned int ce
 
 
 template <int dim>
-std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const State &state) const
+std::vector<SymmetricTensor<2, dim>> PressureInBonds<dim>::strain(const State &state) const
 {
   std::vector<SymmetricTensor<2, dim>> strain;
   const double unit = 1. / (lattice.strain_of_pressure * lattice.zone.spacing());
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
   {
     strain.push_back(lattice.in_situ_is_zero ? SymmetricTensor<2, dim>() : released[i]);
     for (unsigned int m = 0; m < n_modes(); ++m)
-      strain.back() += unit * state.current.extra[unknown_of_faces(i, m) + 1] * modes[i][m];
+      strain.back() += unit * state.current.extra[unknown_of_traction(i, m)] * modes[i][m];
   }
   return strain;
 }
 
 
 template <int dim>
-std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const
+std::vector<ExtraUnknown> PressureInBonds<dim>::unknowns() const
 {
   std::vector<ExtraUnknown> unknowns;
-  for (const Segment<dim> &segment : all_segments)
+  for (const Segment<dim> &segment : fracture.segments)
     for (unsigned int m = 0; m < n_modes(); ++m)
     {
       // As the pressure of the fluid starts.
@@ -84,8 +89,7 @@ std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const
 
 
 template <int dim>
-double
-Peridynamics<dim>::fractured_stretch(const unsigned int site,
+double PressureInBonds<dim>::stretch(const unsigned int site,
                                      const unsigned int bond,
                                      const CellShares &shares,
                                      const std::vector<SymmetricTensor<2, dim>> &strain) const
@@ -102,7 +106,29 @@ Peridynamics<dim>::fractured_stretch(const unsigned int site,
 
 
 template <int dim>
-CellShares Peridynamics<dim>::shares_of(const unsigned int site,
+double PressureInBonds<dim>::stretch_of_traction(const unsigned int cell,
+                                                 const unsigned int mode,
+                                                 const unsigned int bond) const
+{
+  const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
+  return e * (modes[cell][mode] * e) / (lattice.strain_of_pressure * lattice.zone.spacing());
+}
+
+
+template <int dim>
+double PressureInBonds<dim>::dry_stretch(const unsigned int site, const unsigned int bond) const
+{
+  if constexpr (dim == 2)
+    if (!lattice.in_situ_is_zero)
+      if (const auto crossing = crossing_bonds.crossing(site, bond);
+          crossing && !paths.is_wet(crossing->path))
+        return lattice.dry_stretch(site, bond, paths.point(*crossing), paths.left(*crossing));
+  return 0.;
+}
+
+
+template <int dim>
+CellShares PressureInBonds<dim>::shares(const unsigned int site,
                                         const unsigned int bond,
                                         const bool always) const
 {
@@ -120,15 +146,15 @@ CellShares Peridynamics<dim>::shares_of(const unsigned int site,
 
 
 template <int dim>
-CellShares Peridynamics<dim>::shares_of_jump(const BondAcross<dim> &bond) const
+CellShares PressureInBonds<dim>::shares_of_jump(const BondAcross<dim> &bond) const
 {
   return parameters.tracked ? paths.shares(bond.crossing, same_place * lattice.zone.spacing())
-                            : shares_of(bond.view.first, bond.view.second, true);
+                            : shares(bond.view.first, bond.view.second, true);
 }
 
 
 template <int dim>
-std::vector<BondAcross<dim>> Peridynamics<dim>::bonds_across() const
+std::vector<BondAcross<dim>> PressureInBonds<dim>::bonds_across() const
 {
   if (parameters.tracked)
     return crossing_bonds.all();
@@ -150,21 +176,22 @@ std::vector<BondAcross<dim>> Peridynamics<dim>::bonds_across() const
 /// one side, and what makes up for that alone pulls at the others by what the pores press with,
 /// which is more than their strength (doc/laboratory/peridynamics_paths.md).
 template <int dim>
-void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &across)
+void PressureInBonds<dim>::find_modes(const std::vector<BondAcross<dim>> &across)
 {
-  modes.assign(cells.size(), {});
-  for (unsigned int i = 0; i < cells.size(); ++i)
+  modes.assign(fracture.cells.size(), {});
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
   {
-    modes[i][0] = lattice.strain_of_traction(cells[i].normal, cells[i].normal);
+    modes[i][0] = lattice.strain_of_traction(fracture.cells[i].normal, fracture.cells[i].normal);
     if constexpr (dim == 2)
-      modes[i][1] = lattice.strain_of_traction(cells[i].normal, cross_product_2d(cells[i].normal));
+      modes[i][1] = lattice.strain_of_traction(fracture.cells[i].normal,
+                                               cross_product_2d(fracture.cells[i].normal));
   }
   if constexpr (dim == 2)
   {
     if (!parameters.tracked && n_modes() == 1)
       return;
     // What modes read of jumps across the fracture and along it, over its area.
-    std::vector<Tensor<2, dim>> reading(cells.size());
+    std::vector<Tensor<2, dim>> reading(fracture.cells.size());
     for (const BondAcross<dim> &bond : across)
     {
       const auto &[site, b] = bond.view;
@@ -176,7 +203,7 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &across)
                            lattice.coefficients[b].stiffness * lattice.coefficients[b].length;
       for (const auto &[cell, share] : shares_of_jump(bond))
       {
-        const Tensor<1, dim> &n = cells[cell].normal;
+        const Tensor<1, dim> &n = fracture.cells[cell].normal;
         bool leads_up = e * n > 0.;
         if (parameters.tracked)
         {
@@ -184,7 +211,7 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &across)
           const bool normal_is_left = cross_product_2d(n) * (piece.to - piece.from) > 0.;
           leads_up = (e * paths.left(bond.crossing) > 0.) == normal_is_left;
         }
-        const double elongated = (leads_up ? share : -share) * force / all_segments[cell].area;
+        const double elongated = (leads_up ? share : -share) * force / fracture.segments[cell].area;
         for (unsigned int m = 0; m < 2; ++m)
         {
           const double read = elongated * (e * (modes[cell][m] * e));
@@ -193,7 +220,7 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &across)
         }
       }
     }
-    for (unsigned int i = 0; i < cells.size(); ++i)
+    for (unsigned int i = 0; i < fracture.cells.size(); ++i)
     {
       if (std::abs(reading[i][0][0] - 1.) > too_few_bonds ||
           std::abs(reading[i][1][1] - 1.) > too_few_bonds)
@@ -208,50 +235,76 @@ void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &across)
 
 
 template <int dim>
-void Peridynamics<dim>::open_by_bonds()
+void PressureInBonds<dim>::find_crossed()
+{
+  crossed.reinit(lattice.zone, lattice.stencil, fracture.cells, parameters.horizon);
+}
+
+
+template <int dim>
+void PressureInBonds<dim>::follow()
 {
   if (!parameters.tracked)
-    crossed.reinit(lattice.zone, lattice.stencil, cells, parameters.horizon);
+    find_crossed();
   const std::vector<BondAcross<dim>> across = bonds_across();
   find_modes(across);
   released.clear();
   if (!lattice.in_situ_is_zero)
-    for (unsigned int i = 0; i < cells.size(); ++i)
+    for (unsigned int i = 0; i < fracture.cells.size(); ++i)
       released.push_back(released_strain(i));
+  pores_of_pieces.clear();
+  if (scene.has_pore_pressure && parameters.tracked)
+    for (const Segment<dim> &segment : fracture.segments)
+      pores_of_pieces.push_back(pores_across(lattice.zone, segment));
+  make_faces(broken_shares(across));
+  add_broken(across);
+  add_softening();
+}
 
-  // Of the bonds across a piece. The last piece of a fracture may have lost a single one, which
-  // reads the same of both modes: faces that stick would be held twice by it.
-  std::vector<double> broken_share(cells.size(), 0.), all_bonds(cells.size(), 0.);
+
+template <int dim>
+std::vector<double>
+PressureInBonds<dim>::broken_shares(const std::vector<BondAcross<dim>> &across) const
+{
+  std::vector<double> broken(fracture.cells.size(), 0.), all(fracture.cells.size(), 0.);
   for (const BondAcross<dim> &bond : across)
     for (const auto &[cell, share] : shares_of_jump(bond))
     {
       const double part = share * lattice.coefficients[bond.view.second].stiffness;
-      all_bonds[cell] += part;
+      all[cell] += part;
       if (lattice.bonds.is_broken(bond.view.first, bond.view.second))
-        broken_share[cell] += part;
+        broken[cell] += part;
     }
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    broken_share[i] = all_bonds[i] > 0. ? broken_share[i] / all_bonds[i] : 0.;
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
+    broken[i] = all[i] > 0. ? broken[i] / all[i] : 0.;
+  return broken;
+}
 
+
+template <int dim>
+void PressureInBonds<dim>::make_faces(const std::vector<double> &broken_share)
+{
   const unsigned int n = n_modes();
-  std::vector<Faces *> faces_of(cells.size(), nullptr);
-  faces.assign(owned_cells.size(), Faces());
-  for (unsigned int k = 0; k < owned_cells.size(); ++k)
+  faces_of.assign(fracture.cells.size(), nullptr);
+  faces.assign(fracture.owned_cells.size(), Faces());
+  for (unsigned int k = 0; k < fracture.owned_cells.size(); ++k)
   {
-    const unsigned int i = owned_cells[k];
-    Segment<dim> &segment = owned_segments[k];
+    const unsigned int i = fracture.owned_cells[k];
+    Segment<dim> &segment = fracture.owned_segments[k];
     Faces &own = faces[k];
     faces_of[i] = &own;
     own.area = std::pow(lattice.zone.spacing(), dim - 1);
     own.unit = 1. / (lattice.strain_of_pressure * lattice.zone.spacing());
     own.segment = segment.key;
     own.friction = parameters.friction;
+    // The last piece of a fracture may have lost a single bond, which reads the same of both modes:
+    // faces that stick would be held twice by it.
     own.rub = broken_share[i] > too_few_bonds;
     for (unsigned int m = 0; m < n; ++m)
     {
       own.modes.emplace_back();
-      own.modes[m].jump = unknown_of_faces(i, m);
-      own.modes[m].traction = own.modes[m].jump + 1;
+      own.modes[m].traction = unknown_of_traction(i, m);
+      own.modes[m].jump = own.modes[m].traction - 1;
       own.modes[m].of_tractions.assign(n, 0.);
     }
     segment.opening = LinearFunctional();
@@ -260,13 +313,21 @@ void Peridynamics<dim>::open_by_bonds()
     segment.share_of_pores = 0.;
     if (!scene.has_pore_pressure)
       continue;
-    segment.taken_from_pores = own.biot_coefficient = biot_coefficient(i);
+    segment.taken_from_pores = own.biot_coefficient =
+      lattice.rock_at(fracture.cells[i].place).biot_coefficient;
     segment.bare_aperture = bare_aperture(i);
     own.pores = parameters.tracked ? &pores_of_pieces[i] : &segment.pore_pressure;
   }
+}
+
+
+template <int dim>
+void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across)
+{
+  const unsigned int n = n_modes();
   // Of each dof, what it adds to the jumps, and the force of the stress in situ.
   std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>> by_dof(
-    cells.size());
+    fracture.cells.size());
 
   // A bond right across a piece reads nothing of its slip. Rounding errors in place of that would
   // be all that stands on a diagonal, and systems of equations are scaled by their diagonals.
@@ -286,7 +347,7 @@ void Peridynamics<dim>::open_by_bonds()
                  force =
                    0.5 * lattice.zone.sites()[i].share * lattice.coefficients[b].stiffness * length;
     const FarEnd end = lattice.zone.far_end(i, b);
-    for (const auto &[cell, share] : shares_of(i, b, true))
+    for (const auto &[cell, share] : shares(i, b, true))
     {
       if (faces_of[cell] == nullptr)
         continue;
@@ -315,26 +376,31 @@ void Peridynamics<dim>::open_by_bonds()
       }
     }
   }
-  for (unsigned int k = 0; k < owned_cells.size(); ++k)
-    for (const auto &[dof, sums] : by_dof[owned_cells[k]])
+  for (unsigned int k = 0; k < fracture.owned_cells.size(); ++k)
+    for (const auto &[dof, sums] : by_dof[fracture.owned_cells[k]])
     {
       faces[k].ends.push_back(dof);
       faces[k].in_situ.push_back(sums[2]);
       for (unsigned int m = 0; m < n; ++m)
         faces[k].modes[m].of_ends.push_back(sums[m]);
     }
+}
 
+
+template <int dim>
+void PressureInBonds<dim>::add_softening()
+{
   softening_shares.clear();
   for (unsigned int number = 0; number < softening_bonds.size(); ++number)
   {
     const auto &[site, bond] = softening_bonds[number].view;
     const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
-    softening_shares.push_back(shares_of(site, bond, false));
+    softening_shares.push_back(shares(site, bond, false));
     for (const auto &[cell, share] : softening_shares.back())
       if (Faces *own = faces_of[cell])
       {
         own->bonds.push_back(number);
-        for (unsigned int m = 0; m < n; ++m)
+        for (unsigned int m = 0; m < n_modes(); ++m)
           own->modes[m].of_bonds.push_back(share * lattice.push(softening_bonds[number].view) *
                                            (e * (modes[cell][m] * e)));
       }
@@ -345,15 +411,14 @@ void Peridynamics<dim>::open_by_bonds()
 /// The force that softens linearly parts at 2 G_c over the strength, which goes with the root of
 /// G_c and of the modulus.
 template <int dim>
-double Peridynamics<dim>::bare_aperture(const unsigned int cell) const
+double PressureInBonds<dim>::bare_aperture(const unsigned int cell) const
 {
   if constexpr (dim == 2)
     if (parameters.tracked)
     {
       const TrackedPaths::Piece &piece = paths.wet_pieces()[cell];
       const RockProperties &main = scene.rock.main(),
-                           &here = scene.rock(
-                             lattice.regions[lattice.zone.active_cell_index(cells[cell].place)]);
+                           &here = lattice.rock_at(fracture.cells[cell].place);
       if (paths.end_at({piece.path, 0.5 * (piece.begin + piece.end)}))
         return share_when_bare * 2. * main.energy_release_rate / lattice.strength() *
                std::sqrt(here.energy_release_rate / main.energy_release_rate *
@@ -364,68 +429,41 @@ double Peridynamics<dim>::bare_aperture(const unsigned int cell) const
 
 
 template <int dim>
-void Peridynamics<dim>::commit_contact(const State &state)
+void PressureInBonds<dim>::assemble(const State &state, Sink &sink) const
 {
+  for (const Faces &own : faces)
+    own.assemble(state, sink);
+}
+
+
+template <int dim>
+bool PressureInBonds<dim>::touches(const State &state) const
+{
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
+    if (state.current.extra[unknown_of_traction(i, 0) - 1] < closed * lattice.zone.spacing())
+      return true;
+  return false;
+}
+
+
+template <int dim>
+double PressureInBonds<dim>::work_of_friction(const State &state) const
+{
+  if (n_modes() == 1)
+    return 0.;
   const double force = std::pow(lattice.zone.spacing(), dim - 1) /
-                       (lattice.strain_of_pressure * lattice.zone.spacing()); // by y
-  for (unsigned int i = 0; i < cells.size(); ++i)
+                       (lattice.strain_of_pressure * lattice.zone.spacing()); // by the unknown
+  double work = 0.;
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
   {
-    if (state.current.extra[unknown_of_faces(i, 0)] < closed && !told_of_contact)
-    {
-      messages.push_back(faces_touch(parameters.friction));
-      told_of_contact = true;
-    }
-    if (n_modes() == 1)
-      continue;
-    const unsigned int slip = unknown_of_faces(i, 1);
-    dissipated -= force * state.current.extra[slip + 1] *
-                  (state.current.extra[slip] - state.committed.extra[slip]);
+    const unsigned int traction = unknown_of_traction(i, 1), slip = traction - 1;
+    work -= force * state.current.extra[traction] *
+            (state.current.extra[slip] - state.committed.extra[slip]);
   }
+  return work;
 }
 
 
-template <int dim>
-void Peridynamics<dim>::keep_committed_cells()
-{
-  std::vector<Place<dim>> found;
-  for (const FractureCell<dim> &cell : cells)
-    found.push_back(cell.place);
-  for (const auto &[place, normal] : committed_cells)
-    if (!std::binary_search(found.begin(), found.end(), place))
-    {
-      FractureCell<dim> kept{place, {}};
-      for (unsigned int d = 0; d < dim; ++d)
-        kept.normal[d] = normal[d];
-      cells.push_back(kept);
-    }
-  std::sort(cells.begin(), cells.end(),
-            [](const auto &a, const auto &b) { return a.place < b.place; });
-}
-
-
-template <int dim>
-double Peridynamics<dim>::aperture(const unsigned int owned, const State &state) const
-{
-  return value(owned_segments[owned].opening, state.current);
-}
-
-
-#define INSTANTIATE(dim)                                                                          \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::released_strain(unsigned int) const;        \
-  template std::vector<SymmetricTensor<2, dim>> Peridynamics<dim>::strain_of_faces(const State &) \
-    const;                                                                                        \
-  template double Peridynamics<dim>::fractured_stretch(                                           \
-    unsigned int, unsigned int, const CellShares &, const std::vector<SymmetricTensor<2, dim>> &) \
-    const;                                                                                        \
-  template CellShares Peridynamics<dim>::shares_of(unsigned int, unsigned int, bool) const;       \
-  template void Peridynamics<dim>::find_modes(const std::vector<BondAcross<dim>> &);              \
-  template void Peridynamics<dim>::open_by_bonds();                                               \
-  template double Peridynamics<dim>::bare_aperture(unsigned int) const;                           \
-  template void Peridynamics<dim>::commit_contact(const State &);                                 \
-  template void Peridynamics<dim>::keep_committed_cells();                                        \
-  template double Peridynamics<dim>::aperture(unsigned int, const State &) const;                 \
-  template std::vector<ExtraUnknown> Peridynamics<dim>::unknowns_of_faces() const;
-INSTANTIATE(2)
-INSTANTIATE(3)
-#undef INSTANTIATE
+template class PressureInBonds<2>;
+template class PressureInBonds<3>;
 } // namespace stockwork::peridynamics

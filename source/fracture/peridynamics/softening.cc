@@ -69,7 +69,7 @@ std::vector<ExtraUnknown> Peridynamics<dim>::extra_unknowns() const
     for (unsigned int n = 0; n < softening_bonds.size(); ++n)
       unknowns.push_back({Key().add(unknowns[n].key).add(1)});
   if (parameters.in_bonds)
-    for (const ExtraUnknown &unknown : unknowns_of_faces())
+    for (const ExtraUnknown &unknown : pressure_in_bonds.unknowns())
       unknowns.push_back(unknown);
   return unknowns;
 }
@@ -87,7 +87,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
   law_of_bond.bulk.resize(2 * dim);
   std::vector<dealii::SymmetricTensor<2, dim>> strain;
   if (parameters.in_bonds && !softening_bonds.empty())
-    strain = strain_of_faces(state);
+    strain = pressure_in_bonds.strain(state);
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
     const auto &[site, bond] = softening_bonds[n].view;
@@ -126,7 +126,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     double added = softening_bonds[n].offset * lattice.coefficients[bond].length;
     if (parameters.in_bonds)
       added = lattice.coefficients[bond].length *
-              fractured_stretch(site, bond, softening_shares[n], strain);
+              pressure_in_bonds.stretch(site, bond, pressure_in_bonds.shares(n), strain);
     const double total = elongation + added;
     const double stretch = equivalent_stretch(site, bond, total);
     const double committed = softening_bonds[n].committed;
@@ -143,20 +143,20 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
                            : damage;
     law_of_bond.extra.resize(1);
     if (parameters.in_bonds)
-      for (const auto &[cell, share] : softening_shares[n])
-        for (unsigned int m = 0; m < n_modes(); ++m)
-          law_of_bond.extra.push_back(unknown_of_faces(cell, m) + 1);
+      for (const auto &[cell, share] : pressure_in_bonds.shares(n))
+        for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
+          law_of_bond.extra.push_back(pressure_in_bonds.unknown_of_traction(cell, m));
     law_of_bond.reinit();
     law_of_bond.residual(2 * dim) = k * (x - damage * carried);
     law_of_bond.matrix(2 * dim, 2 * dim) = k;
     unsigned int column = 2 * dim;
     if (parameters.in_bonds)
-      for (const auto &[cell, share] : softening_shares[n])
-        for (unsigned int m = 0; m < n_modes(); ++m)
+      for (const auto &[cell, share] : pressure_in_bonds.shares(n))
+        for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
           law_of_bond.matrix(2 * dim, ++column) =
             -slope * share * lattice.coefficients[bond].stiffness *
-            lattice.coefficients[bond].length * (e * (modes[cell][m] * e)) /
-            (lattice.strain_of_pressure * lattice.zone.spacing());
+            lattice.coefficients[bond].length *
+            pressure_in_bonds.stretch_of_traction(cell, m, bond);
     for (unsigned int d = 0; d < dim; ++d)
     {
       law_of_bond.matrix(2 * dim, d) = k * slope * e[d];
@@ -174,7 +174,7 @@ bool Peridynamics<dim>::lets_fluid_in(const SofteningBond &bond) const
   if (damage <= SofteningLaw::wet_damage || damage > wet_damage_beside)
     return damage > SofteningLaw::wet_damage;
   const auto &[site, b] = bond.view;
-  for (const FractureCell<dim> &cell : cells)
+  for (const FractureCell<dim> &cell : fracture.cells)
   {
     Tensor<1, dim> away; // from the cell's centre to the bond's middle, in spacings
     for (unsigned int d = 0; d < dim; ++d)
@@ -230,7 +230,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   if (parameters.tracked)
     changed = tips.advance(paths, about_to_soften);
   else if (changed)
-    changed = find_fracture_cells(lattice.zone, cracked).size() != cells.size();
+    changed = find_fracture_cells(lattice.zone, cracked).size() != fracture.cells.size();
   if (!changed && about_to_soften.empty())
     return false;
 
@@ -239,7 +239,8 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)
     if (bond.committed >= lattice.softening.last &&
-        !(parameters.tracked && dry_stretch(bond.view.first, bond.view.second) != 0.))
+        !(parameters.tracked &&
+          pressure_in_bonds.dry_stretch(bond.view.first, bond.view.second) != 0.))
       lattice.bonds.set_broken(bond.view.first, bond.view.second);
     else
       softening_now.push_back(bond);

@@ -41,7 +41,7 @@ void Peridynamics<dim>::assemble_tensor_fluid(const StepContext &context,
                                               Sink &sink) const
 {
   const auto cell = cell_of_size<dim>(lattice.zone.spacing());
-  for (const Segment<dim> &segment : owned_segments)
+  for (const Segment<dim> &segment : fracture.owned_segments)
     permeability_tensor::add_flow(
       cell, segment,
       conductance(value(segment.opening, state.current), parameters.minimum_aperture,
@@ -92,11 +92,12 @@ void Peridynamics<dim>::assemble_published_closure(const StepContext &context,
     }
 
   const auto shape = cell_of_size<dim>(lattice.zone.spacing());
-  for (unsigned int i = 0; i < owned_segments.size(); ++i)
+  for (unsigned int i = 0; i < fracture.owned_segments.size(); ++i)
   {
-    const Segment<dim> &segment = owned_segments[i];
+    const Segment<dim> &segment = fracture.owned_segments[i];
     const auto region =
-      lattice.regions[lattice.zone.active_cell_index(cells[owned_cells[i]].place)];
+      lattice
+        .regions[lattice.zone.active_cell_index(fracture.cells[fracture.owned_cells[i]].place)];
     const double more_storage =
       (scene.rock.fluid().compressibility - scene.rock(region).inverse_biot_modulus) *
       context.pressure_rate / context.rate;

@@ -96,22 +96,10 @@ void Peridynamics<dim>::find_crossing_bonds()
 
 
 template <int dim>
-double Peridynamics<dim>::dry_stretch(const unsigned int site, const unsigned int bond) const
-{
-  if constexpr (dim == 2)
-    if (!lattice.in_situ_is_zero)
-      if (const auto crossing = crossing_bonds.crossing(site, bond);
-          crossing && !paths.is_wet(crossing->path))
-        return lattice.dry_stretch(site, bond, paths.point(*crossing), paths.left(*crossing));
-  return 0.;
-}
-
-
-template <int dim>
 void Peridynamics<dim>::follow_paths()
 {
-  cells.clear();
-  all_segments.clear();
+  fracture.cells.clear();
+  fracture.segments.clear();
   find_crossing_bonds();
   if constexpr (dim == 2)
   {
@@ -143,7 +131,7 @@ void Peridynamics<dim>::follow_paths()
         cell.place[d] = static_cast<int>(std::floor(
           (segment.centre[d] - lattice.zone.position(Place<dim>{})[d]) / h + same_place));
       cell.place = cell_of_zone<dim>(lattice.zone, cell.place);
-      cells.push_back(cell);
+      fracture.cells.push_back(cell);
       for (unsigned int v = 0; v < 1u << dim; ++v)
       {
         Place<dim> corner = cell.place;
@@ -162,17 +150,13 @@ void Peridynamics<dim>::follow_paths()
         segment.pore_distance +=
           weight * std::abs((lattice.zone.position(corner) - segment.centre) * segment.normal);
       }
-      all_segments.push_back(segment);
+      fracture.segments.push_back(segment);
     }
-    for (unsigned int i = 0; i < all_segments.size(); ++i)
+    for (unsigned int i = 0; i < fracture.segments.size(); ++i)
       for (const unsigned int other : paths.wet_pieces()[i].neighbours)
-        all_segments[i].neighbours.push_back(
-          {all_segments[other].key, 0.5 * all_segments[i].area, 1.});
+        fracture.segments[i].neighbours.push_back(
+          {fracture.segments[other].key, 0.5 * fracture.segments[i].area, 1.});
   }
-  pores_of_pieces.clear();
-  if (scene.has_pore_pressure)
-    for (const Segment<dim> &segment : all_segments)
-      pores_of_pieces.push_back(pores_across(lattice.zone, segment));
   tips.look_at(paths);
 }
 
@@ -261,7 +245,6 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
 
 #define INSTANTIATE(dim)                                                                  \
   template void Peridynamics<dim>::find_crossing_bonds();                                 \
-  template double Peridynamics<dim>::dry_stretch(unsigned int, unsigned int) const;       \
   template void Peridynamics<dim>::follow_paths();                                        \
   template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                       \
     const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;    \

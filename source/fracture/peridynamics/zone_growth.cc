@@ -81,9 +81,9 @@ bool Peridynamics<dim>::enlarge_zone()
   const std::size_t n_boxes = shape.boxes.size();
   const double h = lattice.zone.spacing();
   std::vector<Point<dim>> active;
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    if (at_front[i])
-      active.push_back(all_segments[i].centre);
+  for (unsigned int i = 0; i < fracture.cells.size(); ++i)
+    if (fracture.at_front[i])
+      active.push_back(fracture.segments[i].centre);
   std::set<Place<dim>> middles; // of bonds, times two: many have the same
   for (const SofteningBond &bond : softening_bonds)
   {
@@ -105,15 +105,15 @@ bool Peridynamics<dim>::enlarge_zone()
     // Ahead is away from where the fracture is, along it.
     Tensor<1, dim> ahead, normal;
     double nearest = 2. * parameters.margin * h;
-    for (unsigned int i = 0; i < cells.size(); ++i)
+    for (unsigned int i = 0; i < fracture.cells.size(); ++i)
     {
-      const Tensor<1, dim> away = point - all_segments[i].centre;
+      const Tensor<1, dim> away = point - fracture.segments[i].centre;
       if (away.norm() < 2. * parameters.margin * h)
         ahead += away;
       if (away.norm() < nearest)
       {
         nearest = away.norm();
-        normal = cells[i].normal;
+        normal = fracture.cells[i].normal;
       }
     }
     ahead -= (ahead * normal) * normal;

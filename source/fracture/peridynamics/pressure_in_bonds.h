@@ -1,0 +1,155 @@
+#pragma once
+
+#include "fracture/peridynamics/crossed_cells.h"
+#include "fracture/peridynamics/crossing_bonds.h"
+#include "fracture/peridynamics/faces.h"
+#include "fracture/peridynamics/fracture.h"
+#include "fracture/peridynamics/lattice.h"
+#include "fracture/peridynamics/softening_bonds.h"
+#include "fracture/peridynamics/tracked_paths.h"
+#include "stockwork/exchange/extra_unknown.h"
+
+#include <array>
+#include <vector>
+
+namespace stockwork::peridynamics
+{
+/// `Closure = in bonds`: the fluid's pressure is part of the law of bonds. A crack under a net
+/// pressure p is one without load in rock under a uniform stress p, less the uniform field. So what
+/// counts for a bond of length l is its elongation under both, the effective one
+///
+///   e* = e + l p / (C11 + (d-1) C12),
+///
+/// in which it softens and breaks; and its force is k (e - D e*): none of the pressure while it is
+/// whole, a push of k l p / (C11 + (d-1) C12) on its ends when it is broken. The volume adjoint to
+/// that is the sum of k l D e* / (C11 + (d-1) C12), and each bond's goes to the cell where it
+/// crosses the fracture. What stress in situ acts on the plane of the fracture belongs to p; what
+/// shear does, is a uniform field of its own.
+template <int dim>
+class PressureInBonds
+{
+public:
+  /// @param softening_bonds,paths,crossing_bonds,fracture as they are whenever something is asked
+  PressureInBonds(const Lattice<dim> &lattice,
+                  const SofteningBonds<dim> &softening_bonds,
+                  const TrackedPaths &paths,
+                  const CrossingBonds<dim> &crossing_bonds,
+                  Fracture<dim> &fracture);
+
+  /// The cells are others. Needed where only shares() is asked for, see follow().
+  void find_crossed();
+
+  /// The fracture is another: its segments open by what bonds have lost of their elongation.
+  void follow();
+
+  /// Modes in which faces have unknowns: across the fracture, and along it if they rub.
+  unsigned int n_modes() const
+  {
+    return lattice.parameters.friction > 0. ? 2 : 1;
+  }
+
+  /// The unknowns of all cells. They follow those of the softening bonds.
+  std::vector<ExtraUnknown> unknowns() const;
+
+  /// Number of the traction of a cell's faces among the extra unknowns; that of the jump is the one
+  /// before. See Faces.
+  unsigned int unknown_of_traction(const unsigned int cell, const unsigned int mode) const
+  {
+    return softening_bonds.size() + 2 * (cell * n_modes() + mode) + 1;
+  }
+
+  /// Of all cells, strain of the lattice by the tractions that their faces have lost.
+  std::vector<dealii::SymmetricTensor<2, dim>> strain(const State &state) const;
+
+  /// Of a bond that holds, the stretch that it would have by the tractions that the faces have lost
+  /// of the cells that it belongs to.
+  /// @param strain see above
+  double stretch(unsigned int site,
+                 unsigned int bond,
+                 const CellShares &shares,
+                 const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
+
+  /// The same of a bond, by its number in the stencil, across one cell by a unit of the unknown of
+  /// its traction.
+  double stretch_of_traction(unsigned int cell, unsigned int mode, unsigned int bond) const;
+
+  /// Of a bond across a path that fluid has not reached: by the effective in-situ traction there,
+  /// which the fracture would release.
+  double dry_stretch(unsigned int site, unsigned int bond) const;
+
+  /// The fracture cells that a bond belongs to, see CrossedCells, or the pieces of a path.
+  /// @param always of a bond that has lost something; else only where it feels the fluid
+  CellShares shares(unsigned int site, unsigned int bond, bool always) const;
+
+  /// The same of a softening bond, by its number.
+  const CellShares &shares(const unsigned int softening_bond) const
+  {
+    return softening_shares[softening_bond];
+  }
+
+  /// What faces do. See Faces.
+  void assemble(const State &state, Sink &sink) const;
+
+  /// Whether faces touch anywhere.
+  bool touches(const State &state) const;
+
+  /// Work of friction in the step that has led to a state [J/m].
+  double work_of_friction(const State &state) const;
+
+private:
+  using Strain = dealii::SymmetricTensor<2, dim>;
+
+  /// Strain that the lattice has by the in-situ stress on a cell's plane.
+  Strain released_strain(unsigned int cell) const;
+
+  /// Of all cells, the same of unit tractions of the modes [1/Pa]: across the fracture and along
+  /// it, combined so that bonds read no slip as an opening, nor the other way round.
+  void find_modes(const std::vector<BondAcross<dim>> &across);
+
+  /// Of all cells: of the bonds across a piece, the share that is broken.
+  std::vector<double> broken_shares(const std::vector<BondAcross<dim>> &across) const;
+
+  /// Faces and segments of this rank, but for what bonds do to them.
+  void make_faces(const std::vector<double> &broken_share);
+
+  /// What broken bonds add to their jumps, and the force of the stress in situ.
+  void add_broken(const std::vector<BondAcross<dim>> &across);
+
+  /// What softening bonds add to their jumps.
+  void add_softening();
+
+  /// Those that cross a path; without paths the broken ones.
+  std::vector<BondAcross<dim>> bonds_across() const;
+
+  /// shares() for what a cell's faces have moved by: bonds ahead of the fluid belong to its last
+  /// piece, but not to that one's jump.
+  CellShares shares_of_jump(const BondAcross<dim> &bond) const;
+
+  /// Whether brittle bonds feel a given pressure: one of the two sites has a broken bond, as in
+  /// ExplicitBonds. That is the same in all directions, and so does not keep a fracture straight,
+  /// as it does to count bonds across the plane ahead of its tip only.
+  bool is_wet_bond(const unsigned int site, const unsigned int bond) const
+  {
+    return lattice.damage[site] > 0. || lattice.damage[lattice.zone.far_end(site, bond).site] > 0.;
+  }
+
+  /// Of a piece in porous rock, see Segment [m].
+  double bare_aperture(unsigned int cell) const;
+
+  const Lattice<dim> &lattice;
+  const Parameters<dim> &parameters;
+  const Scene<dim> &scene;
+  const SofteningBonds<dim> &softening_bonds;
+  const TrackedPaths &paths;
+  const CrossingBonds<dim> &crossing_bonds;
+  Fracture<dim> &fracture;
+
+  CrossedCells<dim> crossed;
+  std::vector<Strain> released;                  ///< of each cell, if not all zero
+  std::vector<std::array<Strain, 2>> modes;      ///< of each cell, see find_modes()
+  std::vector<LinearFunctional> pores_of_pieces; ///< of each cell, see pores_across()
+  std::vector<Faces> faces;                      ///< of owned segments
+  std::vector<Faces *> faces_of;                 ///< of each cell; null: another rank's
+  std::vector<CellShares> softening_shares;      ///< of the softening bonds
+};
+} // namespace stockwork::peridynamics
