@@ -93,6 +93,8 @@ TEST_CASE("pieces of a path read an opening that is the same everywhere alike, a
     const Point<2> centre(0.31, 0.17);
     TrackedPaths paths;
     paths.reinit({crack({centre - 12.5 * t, centre + 12.5 * t})}, 1., anywhere);
+    const unsigned int n_pieces = paths.wet_pieces().size();
+    constexpr double apart = 14.;
     TrackedPaths::Readings readings;
     for (int x = -16; x <= 16; ++x)
       for (int y = -16; y <= 16; ++y)
@@ -114,7 +116,7 @@ TEST_CASE("pieces of a path read an opening that is the same everywhere alike, a
         for (const auto &[piece, share] : shares)
           read[piece] += share * reading;
       }
-      const unsigned int first = 4, n = read.size() - 2 * first;
+      const unsigned int first = 4, n = n_pieces - 2 * first;
       double mean = 0., squares = 0.;
       for (unsigned int i = first; i < first + n; ++i)
         mean += read[i] / n;
@@ -123,8 +125,21 @@ TEST_CASE("pieces of a path read an opening that is the same everywhere alike, a
       return std::sqrt(squares);
     };
     most_before = std::max(most_before, deviation());
-    paths.share_evenly(readings);
-    CHECK(deviation() < 0.005);
+    paths.share_evenly(readings, apart);
+    const double even = deviation();
+    CHECK(even < 0.005);
+
+    // Another crack, that these bonds do not cross, changes nothing if it is far enough.
+    const Tensor<1, 2> n = cross_product_2d(t);
+    for (const double distance : {1.5 * apart, 0.5 * apart})
+    {
+      paths.reinit({crack({centre - 12.5 * t, centre + 12.5 * t}),
+                    crack({centre + distance * n - 12.5 * t, centre + distance * n + 12.5 * t})},
+                   1., anywhere);
+      const double before = deviation();
+      paths.share_evenly(readings, apart);
+      CHECK(deviation() == doctest::Approx(distance > apart ? even : before));
+    }
   }
   CHECK(most_before > 0.015);
 }

@@ -263,30 +263,61 @@ bool TrackedPaths::begins_along_lattice(const Path &path) const
 }
 
 
+bool TrackedPaths::is_apart(const unsigned int path, const double distance) const
+{
+  // Where fluid is, and not ways, which may still be others.
+  std::vector<std::vector<Point<2>>> places(paths.size());
+  for (const Piece &piece : wet)
+  {
+    places[piece.path].push_back(piece.from);
+    places[piece.path].push_back(piece.to);
+  }
+  for (unsigned int other = 0; other < paths.size(); ++other)
+  {
+    if (other == path)
+      continue;
+    if (places[other].empty())
+      for (unsigned int i = 0; i <= paths[other].n_pieces(); ++i)
+        places[other].push_back(paths[other].point(i));
+    for (const Point<2> &place : places[other])
+      for (const Point<2> &own : places[path])
+        if (own.distance(place) < distance)
+          return false;
+  }
+  return true;
+}
+
+
 /// Each bond is shared out wholly, so a uniform pressure remains one; and each piece shall have as
 /// much of bonds as it is long. Both by turns (iterative proportional fitting; Sinkhorn 1967).
-void TrackedPaths::share_evenly(const Readings &readings)
+void TrackedPaths::share_evenly(const Readings &readings, const double apart)
 {
   for (Piece &piece : wet)
     piece.weight = 1.;
   // Where paths meet, which of them a bond belongs to changes with ways that may still be others.
   // Along the lattice all pieces are crossed alike, whatever a way wanders by.
-  if (paths.size() != 1 || begins_along_lattice(paths.front()))
+  std::vector<bool> is_even(paths.size());
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    is_even[p] = !begins_along_lattice(paths[p]) && is_apart(p, apart);
+  if (std::none_of(is_even.begin(), is_even.end(), [](const bool even) { return even; }))
     return;
   for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
   {
-    std::vector<double> read(wet.size(), 0.);
+    std::vector<double> read(wet.size(), 0.), all_read(paths.size(), 0.), length(paths.size(), 0.);
     for (const auto &[crossing, reading] : readings)
-      for (const auto &[piece, share] : shares(crossing, same_spot * h))
-        read[piece] += share * reading;
-    double length = 0.;
+      if (is_even[crossing.path])
+        for (const auto &[piece, share] : shares(crossing, same_spot * h))
+        {
+          read[piece] += share * reading;
+          all_read[crossing.path] += share * reading;
+        }
     for (const Piece &piece : wet)
-      length += piece.end - piece.begin;
-    const double mean = std::accumulate(read.begin(), read.end(), 0.) / length;
+      length[piece.path] += piece.end - piece.begin;
     for (unsigned int i = 0; i < wet.size(); ++i)
-      if (const double wanted = mean * (wet[i].end - wet[i].begin);
-          std::abs(read[i] - wanted) < most_of_lattice * wanted)
-        wet[i].weight *= wanted / read[i];
+      if (const unsigned int p = wet[i].path; is_even[p])
+        if (const double wanted = all_read[p] / length[p] * (wet[i].end - wet[i].begin);
+            std::abs(read[i] - wanted) < most_of_lattice * wanted)
+          wet[i].weight *= wanted / read[i];
   }
 }
 

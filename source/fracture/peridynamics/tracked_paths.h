@@ -86,8 +86,9 @@ public:
 
   /// From now on share bonds out so that all wet pieces read such an opening alike. A path that is
   /// oblique to the lattice is crossed by up to 5 per cent more bonds here than there, in the mean
-  /// over two pieces. Of several paths shares stay as they are.
-  void share_evenly(const Readings &readings);
+  /// over two pieces. Of paths that are nearer to another one shares stay as they are.
+  /// @param apart farther than bonds and ways reach [m]
+  void share_evenly(const Readings &readings, double apart);
 
   /// The end whose way is crossed there; nothing on an initial crack.
   std::optional<End> end_at(const Crossing &crossing) const;
@@ -287,6 +288,9 @@ private:
 
   /// Whether the initial crack of a path runs along an axis, from its first to its last point.
   bool begins_along_lattice(const Path &path) const;
+
+  /// Whether all others are farther away.
+  bool is_apart(unsigned int path, double distance) const;
 
   /// Number of the piece that is crossed there.
   unsigned int piece_at(const Crossing &crossing) const;

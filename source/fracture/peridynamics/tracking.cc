@@ -113,7 +113,9 @@ void Peridynamics<dim>::follow_paths()
                                              lattice.coefficients[b].length *
                                              std::abs(bond.direction * paths.left(bond.crossing)));
     }
-    paths.share_evenly(readings);
+    // A way ends within a horizon of the tip, and bonds across it a horizon farther on; so do they
+    // on the other path, and some more.
+    paths.share_evenly(readings, (4. * parameters.horizon + 2.) * h);
     for (const TrackedPaths::Piece &piece : paths.wet_pieces())
     {
       Segment<dim> segment;
