@@ -133,7 +133,7 @@ public:
   struct Rounding
   {
     double fluid; ///< of the sum of the segments' residuals [m^dim]
-    double force; ///< of what the fluid presses the faces with [N], [N/m] in 2-D
+    double force; ///< of what presses the faces, fluid or stress in situ [N], [N/m] in 2-D
   };
 
   /// Collective.

@@ -88,7 +88,10 @@ typename Network<dim>::Rounding Network<dim>::rounding(const StepContext &contex
   for (unsigned int i = 0; i < network.size(); ++i)
   {
     closed += network[i].area * minimum_aperture;
-    thrust += network[i].area * std::abs(values.pressure[i]);
+    // Of dry faces that press on one another, the stress in situ and that of their contact.
+    const double in_situ =
+      in_situ_stress ? (in_situ_stress(network[i].centre) * network[i].normal).norm() : 0.;
+    thrust += network[i].area * std::max(std::abs(values.pressure[i]), in_situ);
     volume +=
       network[i].area * (std::abs(values.aperture[i]) + std::abs(values.aperture_reference[i]));
     for (const Edge &edge : edges[i])
