@@ -316,6 +316,7 @@ void Peridynamics<dim>::refresh_segments()
   }
   if (parameters.in_bonds)
     pressure_in_bonds.follow();
+  segments_lag = false;
   if (!parameters.explicit_steps) // there is no matrix
     find_changed_rows(damage_before, corrected_before, cells_before);
 }
@@ -395,6 +396,10 @@ bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
                                 std::vector<double>(fracture.cells[i].normal.begin_raw(),
                                                     fracture.cells[i].normal.end_raw()));
   correct_faces();
+  // Beside another path, which of them a bond crosses hangs on ways. The next step must not find
+  // those of an earlier pass, which a restart does not know.
+  if (segments_lag)
+    refresh_segments();
   return !parameters.explicit_steps && enlarge_zone(); // it is all of the rock already
 }
 
@@ -440,6 +445,7 @@ void Peridynamics<dim>::rollback()
   dissipated = committed_energy;
   paths = committed_paths;
   find_crossing_bonds();
+  segments_lag = false; // they are those of the last step, or are made anew
   if (passes == 0)
     return;
   passes = 0;

@@ -398,6 +398,7 @@ private:
   bool told_of_rim = false, told_of_pressure = false, told_of_contact = false;
 
   // Of the current step.
+  bool segments_lag = false; ///< other bonds cross paths since they were refreshed
   std::size_t n_messages_before = 0;
   std::size_t n_segments_before = 0, n_tips_before = 0;
   double extent_before = 0.;

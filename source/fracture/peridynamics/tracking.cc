@@ -91,7 +91,10 @@ void Peridynamics<dim>::find_crossing_bonds()
 {
   if constexpr (dim == 2)
     if (crossing_bonds.follow(paths))
+    {
       new_paths.look_beside(paths);
+      segments_lag = true;
+    }
 }
 
 
