@@ -21,6 +21,8 @@ struct Outcome
   double leaked = 0.;            ///< [m^2]
   double inlet_pressure = 0.;    ///< total, at the end [Pa]
   double minimum_pressure = 0.;  ///< total, of all segments at the end [Pa]
+  double least_pressure = 0.;    ///< the same at any step, if below zero [Pa]
+  double last_suction = 0.;      ///< when it was less than vacuum for the last time [s]
 
   double least_opening = 0., greatest_opening = 0.; ///< of faces of cracks, at any step [m]
   double energy_error = 0.; ///< of the balance of energy, over the work done, at the end; zero
@@ -42,11 +44,14 @@ struct Outcome
     last_time = time;
   }
 
+  /// This was the minimum pressure at this time.
+  void has_pressure(double pressure, double time);
+
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
     archive &maximum_tip_speed &last_length &last_time &kinetic_share &strength_used &least_opening
-      &greatest_opening;
+      &greatest_opening &least_pressure &last_suction;
   }
 
 private:

@@ -217,7 +217,8 @@ void Report<dim>::observe_fluid(const State &state, Values &values)
   if (!wells.empty() && !network.segments().empty())
   {
     const auto pressures = network.pressures(stepper.committed);
-    shown.minimum_pressure = *std::min_element(pressures.begin(), pressures.end());
+    shown.has_pressure(*std::min_element(pressures.begin(), pressures.end()),
+                       stepper.last_context().time);
     values["minimum_pressure"] = shown.minimum_pressure;
   }
   if (!wells.empty() && wells[0].inlet_segment)

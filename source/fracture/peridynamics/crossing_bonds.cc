@@ -78,7 +78,8 @@ bool CrossingBonds<dim>::follow(const TrackedPaths &paths)
             bond.crossing = *crossing;
             for (unsigned int c = 0; c < cracks.size(); ++c)
               bond.was_cut |=
-                c != crossing->path && cracks[c].kind == InitialCrack<dim>::Kind::open &&
+                (c != crossing->path || paths.end_at(*crossing)) &&
+                cracks[c].kind == InitialCrack<dim>::Kind::open &&
                 paths.crosses_initial(c, lattice.zone.position(first), lattice.zone.position(last));
             bonds.push_back(bond);
             break;

@@ -15,7 +15,7 @@ struct BondAcross
   BondView view;
   dealii::Tensor<1, dim> direction; ///< of the bond, or of its image that crosses the path
   TrackedPaths::Crossing crossing;  ///< where it crosses a path
-  bool was_cut = false;             ///< by another crack of the deck, which is open
+  bool was_cut = false;             ///< by an open crack of the deck, and crosses another or a way
 };
 
 

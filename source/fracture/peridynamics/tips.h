@@ -59,8 +59,8 @@ private:
   /// What all bonds take across the way of an end [J/m].
   double energy_of_way(const TrackedPaths &paths, const TrackedPaths::End &end) const;
 
-  /// What a bond takes that crosses the way of an end; nil across another crack, which is open, and
-  /// as seen from its other ends [J/m].
+  /// What a bond takes that crosses the way of an end; nil if an open crack of the deck has cut it,
+  /// and as seen from its other ends [J/m].
   double energy_of_bond(const BondAcross<dim> &bond) const;
 
   /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
