@@ -77,6 +77,32 @@ void foresee_stress(const Lattice<dim> &lattice,
 }
 
 
+/// With the pressure in the bonds, stress along a crack is not felt, but the shear stress on it is:
+/// it slides the faces. On a path that shears its way ahead; without, all bonds about the ends.
+template <int dim>
+void foresee_shear(const Lattice<dim> &lattice,
+                   const double spacing,
+                   std::vector<std::string> &messages)
+{
+  for (const InitialCrack<dim> &crack : lattice.scene.cracks)
+    for (const auto &[middle, normal] : flat_parts(crack))
+    {
+      const Tensor<1, dim> traction = lattice.scene.in_situ_stress(middle) * normal;
+      const double shear = (traction - (traction * normal) * normal).norm();
+      if (shear <= lattice.strength())
+        continue;
+      messages.push_back(
+        "On the crack '" + crack.text + "' the in-situ shear stress is " + megapascals(shear) +
+        ", which slides its faces, and bonds hold " + megapascals(lattice.strength()) +
+        " with cells of " + text(spacing) +
+        " m: without a path those about its ends break, in the first step even. Use "
+        "'Fracture/peridynamics/Tracking = path', smaller cells" +
+        (dim == 2 ? ", or 'cohesive_xfem'." : "."));
+      return;
+    }
+}
+
+
 /// At rest no step converges with it; in motion the rock beside the crack comes to pieces, and the
 /// run goes on.
 template <int dim>
@@ -246,6 +272,8 @@ std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spaci
     return messages;
   if (!lattice.parameters.in_bonds)
     foresee_stress(lattice, spacing, messages);
+  else if (!lattice.parameters.tracked)
+    foresee_shear(lattice, spacing, messages);
   if (lattice.scene.crack_pressure > 0.)
     foresee_given_pressure(lattice, spacing, messages);
   foresee_short_cracks(lattice, spacing, messages);
