@@ -13,7 +13,9 @@ void declare_friction(dealii::ParameterHandler &prm)
 {
   prm.declare_entry("Friction coefficient", "0", Quantity(dimension::number, Range::non_negative()),
                     "Coulomb's, between the faces of a crack that touch: shear traction over what "
-                    "presses them together beyond the fluid's pressure. 0: they slide freely.");
+                    "presses them together beyond the fluid's pressure. 0: they slide freely. In "
+                    "rock without pores a crack begins with fluid at the in-situ stress across it, "
+                    "so nothing presses its faces until that pressure falls.");
 }
 
 
