@@ -8,9 +8,6 @@ stockwork_case_test(NAME convergence/assumptions/short DECK prm/kgd/toughness/co
 stockwork_case_test(NAME convergence/assumptions/suction DECK prm/kgd/viscosity/cohesive_xfem.prm
   SET "Resolution=coarse" "Time/End time=2 s"
   EXPECT "warnings >= 1" WARNS "less than vacuum")
-# What it did before counts, too.
-stockwork_case_test(NAME convergence/assumptions/suction/earlier DECK tests/data/turned_in_situ.prm LABELS quick
-  EXPECT "final/minimum_pressure > 0" WARNS "the fluid can fill the tips now; until 1." "for most of the run")
 # In three dimensions as well. (Until cells took the mean of the widths that they see of an edge, 1.5e-3 of the fluid was lost
 # between those whose normals differ.)
 stockwork_case_test(NAME convergence/assumptions/suction/3d DECK tests/data/cloud_of_bonds.prm

@@ -183,9 +183,17 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
   CHECK(paths.along_way(*ahead, end) == doctest::Approx(1. / std::sqrt(0.75)));
   CHECK(paths.distance(Point<2>(1., 2.)) == doctest::Approx(2.));
   CHECK(paths.tip(end).distance(Point<2>(2., 0.) + 1.25 * up) < 1e-12);
-  // It does not run dry again.
+  // It does not run dry again, unless fluid is let back to where tips are; but not beyond where a
+  // step has left it.
   paths.set_advances([](const TrackedPaths::End &) { return 0.5; }, none_ahead);
   CHECK(paths.wet_pieces().size() == 4);
+  CHECK(paths.let_fluid_back());
+  CHECK(paths.wet_pieces().size() == 3);
+  CHECK(!paths.let_fluid_back());
+  paths.keep_fluid();
+  paths.set_advances([](const TrackedPaths::End &) { return 0.; }, none_ahead);
+  CHECK(!paths.let_fluid_back());
+  CHECK(paths.wet_pieces().size() == 3);
 }
 
 

@@ -261,6 +261,20 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
       verdict.reason = reason;
       return verdict;
     }
+    // A tip may have fallen back since it was farthest. Fluid that stayed ahead of it would suck at
+    // rock that is closed. Once in a step, or pieces would become wet and dry by turns; in porous
+    // rock it belongs there, see Tips.
+    if (parameters.tracked && !scene.has_pore_pressure && !has_let_fluid_back)
+    {
+      has_let_fluid_back = true;
+      if (paths.let_fluid_back())
+      {
+        refresh_segments();
+        ++passes;
+        verdict.kind = Verdict::Kind::topology_changed;
+        return verdict;
+      }
+    }
     verdict = verdict_on(context, state, collectives);
     if (verdict.kind != Verdict::Kind::accept)
       return verdict;

@@ -333,6 +333,7 @@ template <int dim>
 void Peridynamics<dim>::begin_step(const StepContext &context)
 {
   passes = 0;
+  has_let_fluid_back = false;
   // An attempt that this model has not rejected has not converged.
   softening_bonds.begin_attempt(context.attempt, has_rejected);
   has_rejected = false;
@@ -356,6 +357,7 @@ bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
     keep_bonds();
   if (parameters.tracked)
   {
+    paths.keep_fluid();
     committed_paths = paths;
     tips.commit(paths);
   }

@@ -403,7 +403,8 @@ private:
   std::size_t n_segments_before = 0, n_tips_before = 0;
   double extent_before = 0.;
   unsigned int passes = 0;
-  bool has_rejected = false; ///< the last attempt
+  bool has_rejected = false;       ///< the last attempt
+  bool has_let_fluid_back = false; ///< see TrackedPaths
   /// Attempts rejected at the rim of the zone, since a step was taken at once or the fracture grew.
   unsigned int stops_at_rim = 0;
   std::vector<double> displacement; ///< of all sites, at the last call of advance()

@@ -379,6 +379,18 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
 }
 
 
+bool TrackedPaths::let_fluid_back()
+{
+  const std::size_t before = wet.size();
+  for (Path &path : paths)
+    for (Growth &growth : path.ends)
+      if (!growth.joined) // fluid of the other path would be cut off
+        growth.wet = std::max(growth.kept, growth.advance);
+  find_wet_pieces();
+  return wet.size() != before;
+}
+
+
 double TrackedPaths::along_way(const Crossing &crossing, const End &end) const
 {
   const Path &path = paths[end.path];
@@ -431,7 +443,7 @@ void TrackedPaths::forget_way(const End &end)
   else
     path.points.resize(path.points.size() - growth.n_points);
   growth.n_points = 0;
-  growth.advance = growth.wet = 0.;
+  growth.advance = growth.wet = growth.kept = 0.;
 }
 
 

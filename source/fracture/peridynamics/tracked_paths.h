@@ -113,6 +113,18 @@ public:
   bool set_advances(const std::function<double(const End &)> &advance,
                     const std::function<double(const End &)> &fluid);
 
+  /// A step is accepted: fluid stays where it is.
+  void keep_fluid()
+  {
+    for (Path &path : paths)
+      for (Growth &growth : path.ends)
+        growth.kept = growth.wet;
+  }
+
+  /// Fluid leaves pieces that it has reached in this step, and that tips have not come to.
+  /// @return whether there are any
+  bool let_fluid_back();
+
   /// How far along the way of an end that is crossed there [m].
   double along_way(const Crossing &crossing, const End &end) const;
 
@@ -242,6 +254,7 @@ private:
     bool grows = false;
     unsigned int n_points = 0;     ///< of its way
     double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
+    double kept = 0.;              ///< of the fluid at the last step [m]
     bool joined = false;           ///< it has met another path
     bool passes = false;           ///< and came past it
     unsigned int joined_path = 0;  ///< which
@@ -251,7 +264,7 @@ private:
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &grows &n_points &advance &wet &joined &passes &joined_path &joined_arc &beyond;
+      ar &grows &n_points &advance &wet &kept &joined &passes &joined_path &joined_arc &beyond;
     }
   };
 
