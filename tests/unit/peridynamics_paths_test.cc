@@ -220,6 +220,9 @@ TEST_CASE("a way ends where it meets another path, and the fluid goes on there")
   const auto &other = pieces[pieces[3].neighbours[1]];
   CHECK(other.path == 1);
   CHECK(other.neighbours.back() == 3);
+  // Fluid that went back would cut the other path off.
+  paths.set_advances([](const TrackedPaths::End &) { return 0.; }, none_ahead);
+  CHECK(!paths.let_fluid_back());
 }
 
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace stockwork::peridynamics
 {
@@ -14,12 +13,6 @@ namespace
 {
 /// An initial crack that ends no farther from another one begins there [pieces].
 constexpr double same_place_as = 0.3;
-/// To share bonds out by. Pieces then read an opening alike to some tenths of a per cent, at any
-/// angle; more would carry what the ends of a path lack farther along it.
-constexpr unsigned int sweeps = 3;
-/// The most that a lattice makes a piece read too much or too little by. What is off by more lacks
-/// bonds, as the ends of paths do, and stays as it is.
-constexpr double most_of_lattice = 0.1;
 /// Of the greater principal stress, less than which they do not differ.
 constexpr double same_stress = 1e-9;
 } // namespace
@@ -218,110 +211,6 @@ std::vector<std::array<Point<2>, 2>> TrackedPaths::boxes() const
 }
 
 
-CellShares TrackedPaths::shares(const Crossing &crossing, const double reach) const
-{
-  CellShares result;
-  unsigned int first = 0;
-  while (first < wet.size() && wet[first].path != crossing.path)
-    ++first;
-  unsigned int last = first;
-  while (last < wet.size() && wet[last].path == crossing.path)
-    ++last;
-  if (first == last || crossing.arc < wet[first].begin - reach ||
-      crossing.arc > wet[last - 1].end + reach)
-    return result;
-  double sum = 0.;
-  const auto add = [&](const unsigned int piece, const double share)
-  {
-    if (share <= 0.)
-      return;
-    const double weighted = wet[piece].weight * share;
-    sum += weighted;
-    if (!result.empty() && (result.back().first == piece || result.size() == result.capacity()))
-      result.back().second += weighted;
-    else
-      result.emplace_back(piece, weighted);
-  };
-  const double from = crossing.arc - h, to = crossing.arc + h;
-  const auto part = [&](const double begin, const double end)
-  { return (std::min(end, to) - std::max(begin, from)) / (2. * h); };
-  add(first, part(from, wet[first].begin));
-  for (unsigned int i = first; i < last; ++i)
-    add(i, part(wet[i].begin, wet[i].end));
-  add(last - 1, part(wet[last - 1].end, to));
-  for (auto &share : result)
-    share.second /= sum;
-  return result;
-}
-
-
-bool TrackedPaths::begins_along_lattice(const Path &path) const
-{
-  const dealii::Tensor<1, 2> crack =
-    path.point(path.n_pieces() - path.ends[1].n_points) - path.point(path.ends[0].n_points);
-  return std::min(std::abs(crack[0]), std::abs(crack[1])) < same_spot * h;
-}
-
-
-bool TrackedPaths::is_apart(const unsigned int path, const double distance) const
-{
-  // Where fluid is, and not ways, which may still be others.
-  std::vector<std::vector<Point<2>>> places(paths.size());
-  for (const Piece &piece : wet)
-  {
-    places[piece.path].push_back(piece.from);
-    places[piece.path].push_back(piece.to);
-  }
-  for (unsigned int other = 0; other < paths.size(); ++other)
-  {
-    if (other == path)
-      continue;
-    if (places[other].empty())
-      for (unsigned int i = 0; i <= paths[other].n_pieces(); ++i)
-        places[other].push_back(paths[other].point(i));
-    for (const Point<2> &place : places[other])
-      for (const Point<2> &own : places[path])
-        if (own.distance(place) < distance)
-          return false;
-  }
-  return true;
-}
-
-
-/// Each bond is shared out wholly, so a uniform pressure remains one; and each piece shall have as
-/// much of bonds as it is long. Both by turns (iterative proportional fitting; Sinkhorn 1967).
-void TrackedPaths::share_evenly(const Readings &readings, const double apart)
-{
-  for (Piece &piece : wet)
-    piece.weight = 1.;
-  // Where paths meet, which of them a bond belongs to changes with ways that may still be others.
-  // Along the lattice all pieces are crossed alike, whatever a way wanders by.
-  std::vector<bool> is_even(paths.size());
-  for (unsigned int p = 0; p < paths.size(); ++p)
-    is_even[p] = !begins_along_lattice(paths[p]) && is_apart(p, apart);
-  if (std::none_of(is_even.begin(), is_even.end(), [](const bool even) { return even; }))
-    return;
-  for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
-  {
-    std::vector<double> read(wet.size(), 0.), all_read(paths.size(), 0.), length(paths.size(), 0.);
-    for (const auto &[crossing, reading] : readings)
-      if (is_even[crossing.path])
-        for (const auto &[piece, share] : shares(crossing, same_spot * h))
-        {
-          read[piece] += share * reading;
-          all_read[crossing.path] += share * reading;
-        }
-    for (const Piece &piece : wet)
-      length[piece.path] += piece.end - piece.begin;
-    for (unsigned int i = 0; i < wet.size(); ++i)
-      if (const unsigned int p = wet[i].path; is_even[p])
-        if (const double wanted = all_read[p] / length[p] * (wet[i].end - wet[i].begin);
-            std::abs(read[i] - wanted) < most_of_lattice * wanted)
-          wet[i].weight *= wanted / read[i];
-  }
-}
-
-
 std::optional<TrackedPaths::End> TrackedPaths::end_at(const Crossing &crossing) const
 {
   const Path &path = paths[crossing.path];
@@ -353,41 +242,6 @@ double TrackedPaths::way(const End &end) const
   for (unsigned int i = 0; i < at(end).n_points; ++i)
     length += path.length(end.side == 0 ? i : path.n_pieces() - 1 - i);
   return length;
-}
-
-
-bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance,
-                                const std::function<double(const End &)> &fluid)
-{
-  for (unsigned int p = 0; p < paths.size(); ++p)
-    for (const unsigned int side : {0u, 1u})
-    {
-      Growth &growth = paths[p].ends[side];
-      if (growth.n_points == 0)
-        continue;
-      growth.advance = std::min(advance({p, side}), way({p, side}));
-      growth.wet = std::max({growth.wet, growth.advance, fluid({p, side})});
-    }
-  std::vector<Piece> before;
-  before.swap(wet);
-  find_wet_pieces();
-  if (wet.size() != before.size())
-    return true;
-  for (unsigned int i = 0; i < wet.size(); ++i)
-    wet[i].weight = before[i].weight;
-  return false;
-}
-
-
-bool TrackedPaths::let_fluid_back()
-{
-  const std::size_t before = wet.size();
-  for (Path &path : paths)
-    for (Growth &growth : path.ends)
-      if (!growth.joined) // fluid of the other path would be cut off
-        growth.wet = std::max(growth.kept, growth.advance);
-  find_wet_pieces();
-  return wet.size() != before;
 }
 
 
@@ -524,13 +378,6 @@ bool TrackedPaths::is_joined(const End &end) const
             at && at->path == end.path && at->side == end.side)
           return true;
   return false;
-}
-
-
-bool TrackedPaths::is_wet(const unsigned int path) const
-{
-  return std::any_of(wet.begin(), wet.end(),
-                     [&](const Piece &piece) { return piece.path == path; });
 }
 
 

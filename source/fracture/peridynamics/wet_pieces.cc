@@ -127,4 +127,47 @@ void TrackedPaths::find_wet_pieces()
         break;
       }
 }
+
+
+bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance,
+                                const std::function<double(const End &)> &fluid)
+{
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+    {
+      Growth &growth = paths[p].ends[side];
+      if (growth.n_points == 0)
+        continue;
+      growth.advance = std::min(advance({p, side}), way({p, side}));
+      growth.wet = std::max({growth.wet, growth.advance, fluid({p, side})});
+    }
+  std::vector<Piece> before;
+  before.swap(wet);
+  find_wet_pieces();
+  if (wet.size() != before.size())
+    return true;
+  for (unsigned int i = 0; i < wet.size(); ++i)
+    wet[i].weight = before[i].weight;
+  return false;
+}
+
+
+bool TrackedPaths::let_fluid_back()
+{
+  const std::size_t before = wet.size();
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (const unsigned int side : {0u, 1u})
+      if (Growth &growth = paths[p].ends[side];
+          !growth.joined && !is_joined({p, side})) // the other path would be cut off
+        growth.wet = std::max(growth.kept, growth.advance);
+  find_wet_pieces();
+  return wet.size() != before;
+}
+
+
+bool TrackedPaths::is_wet(const unsigned int path) const
+{
+  return std::any_of(wet.begin(), wet.end(),
+                     [&](const Piece &piece) { return piece.path == path; });
+}
 } // namespace stockwork::peridynamics
