@@ -98,10 +98,11 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil,
                               const Collectives &collectives)
 {
   std::vector<Missing> missing;
-  far_ends.clear();
+  std::vector<FarEnd> ends;
+  far_ends.reinit(all_sites.size(), stencil.size());
   inner_sites.clear();
   outer_sites.clear();
-  first_far_end.assign(all_sites.size(), 0);
+  std::vector<bool> is_outer(all_sites.size(), false);
   for (unsigned int i = 0; i < all_sites.size(); ++i)
   {
     const unsigned int planes = planes_of(all_sites[i].place);
@@ -112,17 +113,15 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil,
     if (!all_sites[i].has_bonds)
       continue;
     inner_sites.push_back(i);
-    find_far_ends_of(i, stencil, missing);
+    find_far_ends_of(i, stencil, ends, missing);
+    for (const FarEnd &end : ends)
+      is_outer[end.site] = with_rim && !all_sites[end.site].peridynamic;
   }
-  std::vector<bool> is_outer(all_sites.size(), false);
-  if (with_rim)
-    for (const FarEnd &end : far_ends)
-      is_outer[end.site] = !all_sites[end.site].peridynamic;
   for (unsigned int i = 0; i < all_sites.size(); ++i)
     if (is_outer[i])
     {
       outer_sites.push_back(i);
-      find_far_ends_of(i, stencil, missing);
+      find_far_ends_of(i, stencil, ends, missing);
     }
   missing = collectives.gather(missing);
   if (!missing.empty())
@@ -165,12 +164,14 @@ double Zone<dim>::absent_share(const unsigned int site,
 template <int dim>
 void Zone<dim>::find_far_ends_of(const unsigned int i,
                                  const std::vector<StencilBond<dim>> &stencil,
+                                 std::vector<FarEnd> &ends,
                                  std::vector<Missing> &missing)
 {
   const Site<dim> &site = all_sites[i];
-  first_far_end[i] = far_ends.size();
-  for (const StencilBond<dim> &bond : stencil)
+  ends.clear();
+  for (unsigned int b = 0; b < stencil.size(); ++b)
   {
+    const StencilBond<dim> &bond = stencil[b];
     FarEnd end;
     Place<dim> place = site.place;
     for (unsigned int d = 0; d < dim; ++d)
@@ -190,7 +191,9 @@ void Zone<dim>::find_far_ends_of(const unsigned int i,
           }
       }
     }
-    end.site = find(place);
+    end.site = far_ends.n_lists() > 0 ? far_ends.as_of_the_last(i, b).site : i;
+    if (end.site >= all_sites.size() || all_sites[end.site].place != place)
+      end.site = find(place);
     if (end.site == dealii::numbers::invalid_unsigned_int)
     {
       const Point<dim> far = position(place);
@@ -200,10 +203,10 @@ void Zone<dim>::find_far_ends_of(const unsigned int i,
                    far[d] > domain.upper_bound(d) + same_place * h;
       if (outside && has_free_boundaries)
       {
-        far_ends.push_back({i, 0, true});
+        ends.push_back({i, 0, true});
         continue;
       }
-      far_ends.push_back({i, 0, true});
+      ends.push_back({i, 0, true});
       if (!missing.empty())
         continue;
       std::ostringstream message;
@@ -219,8 +222,9 @@ void Zone<dim>::find_far_ends_of(const unsigned int i,
       missing.emplace_back(site.place, message.str());
       continue;
     }
-    far_ends.push_back(end);
+    ends.push_back(end);
   }
+  far_ends.set(i, ends);
 }
 
 

@@ -3,6 +3,7 @@
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
+#include "fracture/peridynamics/far_ends.h"
 #include "fracture/peridynamics/stencil.h"
 #include "stockwork/base/error.h"
 #include "stockwork/exchange/collectives.h"
@@ -65,16 +66,6 @@ struct Site
   {
     ar &place &dofs &pressure_dof &owner &share;
   }
-};
-
-/// The far end of a bond. Beyond a plane of symmetry (a roller boundary) it is the image of a site
-/// of the domain, with the components of displacement in `mirrored` reversed.
-/// Beyond a free boundary there is none: the bond is absent, and leads back to its own site.
-struct FarEnd
-{
-  unsigned int site;
-  unsigned char mirrored = 0; ///< bit d: reflected in direction d
-  bool absent = false;
 };
 
 /// Of a box, the lower and the upper bound in each direction [m].
@@ -200,7 +191,7 @@ public:
   /// Far end of a bond of a site that has bonds, or of one of the rim.
   FarEnd far_end(const unsigned int site, const unsigned int bond) const
   {
-    return far_ends[first_far_end[site] + bond];
+    return far_ends(site, bond);
   }
 
   /// Of the bonds of a peridynamic site, the share by volume that is beyond free boundaries.
@@ -276,9 +267,11 @@ private:
   /// Where a bond leads to no site, although there has to be one, and why.
   using Missing = std::pair<Place<dim>, std::string>;
 
+  /// @param ends become those of the site
   /// @param missing the first of these, if empty so far
   void find_far_ends_of(const unsigned int site,
                         const std::vector<StencilBond<dim>> &stencil,
+                        std::vector<FarEnd> &ends,
                         std::vector<Missing> &missing);
 
   dealii::Point<dim> corner;
@@ -287,8 +280,7 @@ private:
 
   std::vector<Site<dim>> all_sites;
   std::vector<unsigned int> inner_sites, outer_sites;
-  std::vector<FarEnd> far_ends;           ///< of these sites, by bond
-  std::vector<std::size_t> first_far_end; ///< of each site
+  FarEnds far_ends; ///< of these sites
   std::vector<Place<dim>> inner_cells;
   std::map<Place<dim>, unsigned int> owned_cells;
   std::vector<unsigned int> pattern_of_cell; ///< by active cell index, bit v: vertex v
