@@ -24,7 +24,7 @@ constexpr unsigned int max_refinements = 4;
 /// a factor is read once for all of them.
 constexpr std::size_t least_batch = 32, greatest_batch = 256, memory_of_batch = 1 << 22;
 /// Rows of a changed bulk matrix, above which it is factorised anew.
-constexpr unsigned int most_changes = 256;
+constexpr unsigned int most_changes = 128;
 /// Entries by which a row differs, over its diagonal entry, that are rounding errors.
 constexpr double same_entry = 1e-14;
 /// Memory for solutions that are kept, at least [numbers].
@@ -90,6 +90,23 @@ struct FewEntries
   std::vector<std::size_t> ends;                        ///< of each vector's
 };
 
+/// sum += weight * vector, four vectors at once: what takes the time is to read memory.
+void add_multiples(std::vector<std::pair<const double *, double>> terms, std::vector<double> &sum)
+{
+  constexpr std::size_t at_once = 4;
+  for (std::size_t i = 0; i < terms.size(); i += at_once)
+  {
+    while (terms.size() < i + at_once)
+      terms.emplace_back(terms[i].first, 0.);
+    const auto &[a, of_a] = terms[i];
+    const auto &[b, of_b] = terms[i + 1];
+    const auto &[c, of_c] = terms[i + 2];
+    const auto &[d, of_d] = terms[i + 3];
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      sum[k] += of_a * a[k] + of_b * b[k] + of_c * c[k] + of_d * d[k];
+  }
+}
+
 /// Values of this rank's rows of the bulk, not scaled.
 std::vector<double> bulk_values(const LinearSystem &system)
 {
@@ -141,7 +158,7 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   factor_scaling.copy_from(op.scaling());
   factor_stamps = stamps;
 
-  solutions.clear();
+  forget_solutions();
   most_solutions = 0;
   values_with_changes = stamps.bulk_values;
   n_changes = 0;
@@ -149,6 +166,12 @@ void BorderedSolver::factorise(const SystemOperator &op, const SystemStamps &sta
   change_rows.clear();
   keeps_values = !definite;
   factor_values = definite ? std::vector<double>() : bulk_values(op.system());
+}
+
+void BorderedSolver::forget_solutions()
+{
+  solutions.clear();
+  batches.clear();
 }
 
 bool BorderedSolver::find_changes(const SystemOperator &op)
@@ -252,7 +275,7 @@ std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &le
     if (const auto known = solutions.find(*right[j]); known == solutions.end())
       wanted.push_back(j);
     else if (is_root)
-      multiply_one(j, known->second.data());
+      multiply_one(j, known->second);
   const std::size_t batch = std::clamp(memory_of_batch / n, least_batch, greatest_batch);
   for (std::size_t begin = 0; begin < wanted.size(); begin += batch)
   {
@@ -260,16 +283,16 @@ std::vector<double> BorderedSolver::multiply(const ExtraSchur::SparseVectors &le
     ExtraSchur::SparseVectors columns;
     for (std::size_t k = 0; k < n_now; ++k)
       columns.push_back(right[wanted[begin + k]]);
-    const std::vector<double> x = solve_columns(columns);
+    std::vector<double> x = solve_columns(columns);
     for (std::size_t k = 0; k < n_now; ++k)
     {
       if (is_root)
         multiply_one(wanted[begin + k], x.data() + k * n);
       if (keep)
-        solutions[*columns[k]] = is_root
-                                   ? std::vector<double>(x.begin() + k * n, x.begin() + (k + 1) * n)
-                                   : std::vector<double>();
+        solutions[*columns[k]] = is_root ? x.data() + k * n : nullptr;
     }
+    if (keep)
+      batches.push_back(std::move(x));
   }
   MPI_Bcast(result.data(), static_cast<int>(result.size()), MPI_DOUBLE, 0, communicator);
   return result;
@@ -292,7 +315,7 @@ bool BorderedSolver::subtract_answer(const SystemOperator &op,
 {
   if (!keeps_values)
     return false;
-  std::vector<std::pair<const std::vector<double> *, double>> terms;
+  std::vector<std::pair<const double *, double>> terms;
   const auto columns = schur.columns();
   for (unsigned int i = 0; i < columns.size(); ++i)
     if (const auto &[column, factor_of_known] = columns[i]; column != nullptr && z[i] != 0.)
@@ -300,13 +323,11 @@ bool BorderedSolver::subtract_answer(const SystemOperator &op,
       const auto found = solutions.find(*column);
       if (found == solutions.end())
         return false;
-      terms.emplace_back(&found->second, factor_of_known * z[i]);
+      terms.emplace_back(found->second, factor_of_known * z[i]);
     }
   std::vector<double> sum(is_root ? factor->size() : 0, 0.);
   if (is_root)
-    for (const auto &[one, weight] : terms)
-      for (std::size_t k = 0; k < sum.size(); ++k)
-        sum[k] += weight * (*one)[k];
+    add_multiples(terms, sum);
   SystemVector answer = op.make_vector();
   BulkTransfer(op.system().residual_bulk, communicator)
     .from_root(sum.data(), factor_scaling.bulk, answer.bulk);
@@ -384,7 +405,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     has_one && solutions.size() <= std::max(most_solutions, minimum_memory / factor->size());
   const bool may_keep = has_one && keeps_values && has_room;
   if (same_bulk && !has_room)
-    solutions.clear(); // products stay
+    forget_solutions(); // products stay
   auto op = std::make_unique<SystemOperator>(
     system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);
   LinearReport report;

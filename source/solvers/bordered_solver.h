@@ -59,6 +59,8 @@ private:
 
   void factorise(const SystemOperator &, const SystemStamps &);
 
+  void forget_solutions();
+
   /// Find the rows of A that have changed since it was factorised.
   /// @return false: too many have
   bool find_changes(const SystemOperator &);
@@ -107,9 +109,10 @@ private:
   unsigned int n_changes = 0;           ///< rows, of all ranks
   Triplets change_columns, change_rows; ///< E/d and -d dA, d the scaling; rows numbered from zero
 
-  /// A^-1 of columns of the border, where A is not symmetric. Dense, on rank 0; the same keys on
-  /// every rank.
-  std::map<ExtraSchur::SparseVector, std::vector<double>> solutions;
+  /// A^-1 of columns of the border, where A is not symmetric. Dense, on rank 0, null elsewhere; the
+  /// same keys on every rank.
+  std::map<ExtraSchur::SparseVector, const double *> solutions;
+  std::vector<std::vector<double>> batches; ///< in which they are
   std::size_t most_solutions = 0;
 
   ExtraSchur schur;

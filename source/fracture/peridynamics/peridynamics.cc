@@ -25,13 +25,6 @@ using dealii::Point;
 using dealii::SymmetricTensor;
 using dealii::Tensor;
 
-namespace
-{
-/// Of the stretch at which bonds soften, up to which the surface correction may make them stiffer.
-constexpr double relaxed = 0.5;
-} // namespace
-
-
 template <int dim>
 Peridynamics<dim>::Peridynamics(const Parameters<dim> &parameters, const Scene<dim> &scene)
   : parameters(parameters)
@@ -403,37 +396,6 @@ bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
   if (segments_lag)
     refresh_segments();
   return !parameters.explicit_steps && enlarge_zone(); // it is all of the rock already
-}
-
-
-template <int dim>
-void Peridynamics<dim>::correct_faces()
-{
-  // With the pressure in the bonds faces are those of a crack without load in rock under a uniform
-  // stress: free of stress across them and, but near the tips, along them. Bonds that are left
-  // there do nothing, and stiffer ones would oppose the strain of the pressure.
-  if (!parameters.surface_correction || parameters.in_bonds || parameters.explicit_steps)
-    return;
-  const auto is_relaxed = [&](const unsigned int site)
-  {
-    for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
-      if (!lattice.bonds.is_broken(site, b) &&
-          (1. - softening_bonds.damage(site, b)) * lattice.elongation(site, b, displacement) >
-            relaxed * lattice.softening.first * relative_stretch(site, b) *
-              lattice.coefficients[b].length)
-        return false;
-    return true;
-  };
-  std::vector<unsigned int> changed;
-  for (const unsigned int i : lattice.zone.peridynamic_sites())
-    if (lattice.damage[i] > lattice.corrected_damage[i] && is_relaxed(i))
-    {
-      lattice.corrected_damage[i] = committed_correction[lattice.zone.sites()[i].place] =
-        lattice.damage[i];
-      changed.push_back(i);
-      lattice.append_family(i, changed);
-    }
-  row_versions.change(changed);
 }
 
 

@@ -99,7 +99,10 @@ double PressureInBonds<dim>::stretch(const unsigned int site,
   if (parameters.tracked && shares.empty())
     return dry_stretch(site, bond);
   for (const auto &[cell, share] : shares)
+  {
+    AssertIndexRange(cell, strain.size());
     stretch += share * (e * (strain[cell] * e));
+  }
   // The stress is that of the intact lattice; bonds beside a crack, or of other rock, are stiffer.
   return stretch * lattice.coefficients[bond].stiffness / lattice.stiffness(site, bond);
 }

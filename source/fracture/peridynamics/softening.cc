@@ -14,6 +14,11 @@ namespace
 /// As SofteningLaw::wet_damage, of what softens beside a fracture that is there already; or
 /// fractures would be several cells thick.
 constexpr double wet_damage_beside = 0.5;
+/// Of the stretch at which bonds soften: those that have come near it and are stretched by less
+/// than this again, behind a tip that has passed, do without their unknown. Not with the pressure
+/// in the bonds: what is stretched there again, and how paths go on, hangs on what has been near
+/// it.
+constexpr double far_from_softening = 0.8;
 } // namespace
 
 
@@ -223,10 +228,26 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     if (!parameters.tracked && lets_fluid_in(bond))
       crack(bond.view);
   }
-  std::vector<BondView> about_to_soften;
+  std::vector<BondView> views, about_to_soften;
   for (const Candidate &candidate : candidates)
+  {
+    views.push_back(lattice.bonds.views_of(candidate.site, candidate.bond).front());
     if (candidate.stretch >= 1.)
       about_to_soften.emplace_back(candidate.site, candidate.bond);
+  }
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  // By the pieces that there are now: when tips have advanced, there are others.
+  std::vector<SofteningBond> new_ones;
+  for (const BondView &view : views)
+  {
+    SofteningBond bond;
+    bond.view = view;
+    if (!parameters.in_bonds)
+      bond.offset = added_stretch(view.first, view.second, of_cells);
+    bond.trial = softening_bonds.maximum_stretch(bond, stretch_of(bond));
+    new_ones.push_back(bond);
+  }
   if (parameters.tracked)
     changed = tips.advance(paths, about_to_soften);
   else if (changed)
@@ -235,29 +256,26 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     return false;
 
   // Those that were broken before this step do not need their unknowns any more; but what stress
-  // in situ does between the faces of a dry path is theirs, for it has no segments.
+  // in situ does between the faces of a dry path is theirs, for it has no segments. Nor do those
+  // that have not softened after all.
+  const auto is_whole = [&](const SofteningBond &bond)
+  {
+    return !parameters.in_bonds &&
+           lattice.softening.damage(std::max(bond.committed, bond.trial)) == 0. &&
+           rounded(stretch_of(bond) / lattice.softening.first) < far_from_softening;
+  };
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)
     if (bond.committed >= lattice.softening.last &&
         !(parameters.tracked &&
           pressure_in_bonds.dry_stretch(bond.view.first, bond.view.second) != 0.))
       lattice.bonds.set_broken(bond.view.first, bond.view.second);
-    else
+    else if (!is_whole(bond))
       softening_now.push_back(bond);
-  std::vector<BondView> views;
-  for (const Candidate &candidate : candidates)
-    views.push_back(lattice.bonds.views_of(candidate.site, candidate.bond).front());
-  std::sort(views.begin(), views.end());
-  views.erase(std::unique(views.begin(), views.end()), views.end());
-  for (const BondView &view : views)
+  for (const SofteningBond &bond : new_ones)
   {
-    SofteningBond bond;
-    bond.view = view;
-    if (!parameters.in_bonds)
-      bond.offset = added_stretch(view.first, view.second, of_cells);
-    bond.trial = softening_bonds.maximum_stretch(bond, stretch_of(bond));
     if (!parameters.tracked && lets_fluid_in(bond))
-      cracked.set_broken(view.first, view.second);
+      cracked.set_broken(bond.view.first, bond.view.second);
     softening_now.push_back(bond);
   }
   softening_bonds.replace(std::move(softening_now));
