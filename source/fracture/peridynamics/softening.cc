@@ -257,12 +257,17 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
 
   // Those that were broken before this step do not need their unknowns any more; but what stress
   // in situ does between the faces of a dry path is theirs, for it has no segments. Nor do those
-  // that have not softened after all.
+  // that have not softened after all; once in a step, or they might come and go by turns.
   const auto is_whole = [&](const SofteningBond &bond)
   {
-    return !parameters.in_bonds &&
+    const auto &[site, b] = bond.view;
+    return !parameters.in_bonds && passes == 0 &&
            lattice.softening.damage(std::max(bond.committed, bond.trial)) == 0. &&
-           rounded(stretch_of(bond) / lattice.softening.first) < far_from_softening;
+           rounded(
+             equivalent_stretch(site, b,
+                                lattice.elongation(site, b, u) + added_stretch(site, b, of_cells) *
+                                                                   lattice.coefficients[b].length) /
+             lattice.softening.first) < far_from_softening;
   };
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)
