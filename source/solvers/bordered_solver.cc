@@ -90,7 +90,8 @@ struct FewEntries
   std::vector<std::size_t> ends;                        ///< of each vector's
 };
 
-/// sum += weight * vector, four vectors at once: what takes the time is to read memory.
+/// sum += weight * vector, four vectors at once: what takes the time is to read memory. (For BLAS
+/// those that are wanted would have to lie side by side.)
 void add_multiples(std::vector<std::pair<const double *, double>> terms, std::vector<double> &sum)
 {
   constexpr std::size_t at_once = 4;

@@ -3,6 +3,9 @@
 
 #include "fracture/peridynamics/far_ends.h"
 
+#include <cstdlib>
+#include <vector>
+
 namespace stockwork::peridynamics_far_ends_test
 {
 using peridynamics::FarEnd;

@@ -91,7 +91,8 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Surface correction", "true", Patterns::Bool(),
     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
     "which makes its faces too soft. With the correction, the bonds that are left "
-    "are stiffer, in proportion. With 'Closure = in bonds' only those beside the "
+    "are stiffer, in proportion; beside a fracture that grows, once what is missing is 3 % of what "
+    "has been made up for. With 'Closure = in bonds' only those beside the "
     "initial cracks: faces of a fracture that grows are those of a crack without load in "
     "rock under a uniform stress, which do not feel what bonds are left.");
   prm.declare_entry(

@@ -16,8 +16,7 @@ namespace
 constexpr double wet_damage_beside = 0.5;
 /// Of the stretch at which bonds soften: those that have come near it and are stretched by less
 /// than this again, behind a tip that has passed, do without their unknown. Not with the pressure
-/// in the bonds: what is stretched there again, and how paths go on, hangs on what has been near
-/// it.
+/// in the bonds, where it was tried with a fault and not again (doc/laboratory/kgd.md).
 constexpr double far_from_softening = 0.8;
 } // namespace
 
@@ -215,16 +214,20 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     cracked.set_broken(view.first, view.second);
     changed = true;
   };
-  const auto stretch_of = [&](const SofteningBond &bond)
+  const auto stretch_of = [&](const BondView &view, const double added)
   {
-    const auto &[site, b] = bond.view;
-    return equivalent_stretch(site, b,
-                              lattice.elongation(site, b, u) +
-                                added_stretch(bond, of_cells) * lattice.coefficients[b].length);
+    const auto &[site, b] = view;
+    return equivalent_stretch(
+      site, b, lattice.elongation(site, b, u) + added * lattice.coefficients[b].length);
+  };
+  const auto maximum_stretch = [&](const SofteningBond &bond)
+  {
+    return softening_bonds.maximum_stretch(bond,
+                                           stretch_of(bond.view, added_stretch(bond, of_cells)));
   };
   for (SofteningBond &bond : softening_bonds)
   {
-    bond.trial = softening_bonds.maximum_stretch(bond, stretch_of(bond));
+    bond.trial = maximum_stretch(bond);
     if (!parameters.tracked && lets_fluid_in(bond))
       crack(bond.view);
   }
@@ -237,7 +240,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
   }
   std::sort(views.begin(), views.end());
   views.erase(std::unique(views.begin(), views.end()), views.end());
-  // By the pieces that there are now: when tips have advanced, there are others.
+  // Their stretch is by the pieces that `of_cells` has; once tips have advanced there are others.
   std::vector<SofteningBond> new_ones;
   for (const BondView &view : views)
   {
@@ -245,7 +248,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     bond.view = view;
     if (!parameters.in_bonds)
       bond.offset = added_stretch(view.first, view.second, of_cells);
-    bond.trial = softening_bonds.maximum_stretch(bond, stretch_of(bond));
+    bond.trial = maximum_stretch(bond);
     new_ones.push_back(bond);
   }
   if (parameters.tracked)
@@ -263,11 +266,8 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     const auto &[site, b] = bond.view;
     return !parameters.in_bonds && passes == 0 &&
            lattice.softening.damage(std::max(bond.committed, bond.trial)) == 0. &&
-           rounded(
-             equivalent_stretch(site, b,
-                                lattice.elongation(site, b, u) + added_stretch(site, b, of_cells) *
-                                                                   lattice.coefficients[b].length) /
-             lattice.softening.first) < far_from_softening;
+           rounded(stretch_of(bond.view, added_stretch(site, b, of_cells)) /
+                   lattice.softening.first) < far_from_softening;
   };
   std::vector<SofteningBond> softening_now;
   for (const SofteningBond &bond : softening_bonds)

@@ -114,8 +114,9 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil,
       continue;
     inner_sites.push_back(i);
     find_far_ends_of(i, stencil, ends, missing);
-    for (const FarEnd &end : ends)
-      is_outer[end.site] = with_rim && !all_sites[end.site].peridynamic;
+    if (with_rim)
+      for (const FarEnd &end : ends)
+        is_outer[end.site] = !all_sites[end.site].peridynamic;
   }
   for (unsigned int i = 0; i < all_sites.size(); ++i)
     if (is_outer[i])
@@ -169,6 +170,7 @@ void Zone<dim>::find_far_ends_of(const unsigned int i,
 {
   const Site<dim> &site = all_sites[i];
   ends.clear();
+  const bool has_last = far_ends.n_lists() > 0; // most likely a site beside this one
   for (unsigned int b = 0; b < stencil.size(); ++b)
   {
     const StencilBond<dim> &bond = stencil[b];
@@ -191,7 +193,7 @@ void Zone<dim>::find_far_ends_of(const unsigned int i,
           }
       }
     }
-    end.site = far_ends.n_lists() > 0 ? far_ends.as_of_the_last(i, b).site : i;
+    end.site = has_last ? far_ends.as_of_the_last(i, b).site : i;
     if (end.site >= all_sites.size() || all_sites[end.site].place != place)
       end.site = find(place);
     if (end.site == dealii::numbers::invalid_unsigned_int)
