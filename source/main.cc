@@ -1,3 +1,4 @@
+#include "stockwork/base/blas.h"
 #include "stockwork/base/command_line.h"
 #include "stockwork/base/deck.h"
 #include "stockwork/base/error.h"
@@ -118,6 +119,7 @@ int main(int argc, char **argv)
 {
   using namespace stockwork;
   start_lone_process_quickly();
+  choose_blas_for_processor();
   // The options are ours: newer PETSc, which deal.II starts, complains of those that it does not
   // know.
   int n_arguments = 1;

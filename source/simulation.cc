@@ -1,9 +1,9 @@
 #include "simulation.h"
 
+#include "stockwork/base/blas.h"
 #include "stockwork/base/error.h"
 #include "stockwork/base/parameters.h"
 #include "stockwork/base/quantity.h"
-#include "stockwork/base/version.h"
 
 #include "case.h"
 #include "cost_of_run.h"
