@@ -53,20 +53,30 @@ void SystemSink::add(const LocalSystem &local)
     residual_extra[local.extra[i]] += local.residual(n_bulk + i);
 
   for (unsigned int i = 0; i < n_bulk; ++i)
+  {
+    // A row at once: to find its place in the matrix takes as long as to add to it.
+    row_columns.clear();
+    row_values.clear();
     for (unsigned int j = 0; j < n_bulk; ++j)
-      if (local.matrix(i, j) != 0.)
-      {
-        bulk_touched = true;
-        resolve(constraints, local.bulk[i],
-                [&](const auto row, const double row_weight)
+      if (const double value = local.matrix(i, j); value != 0.)
+        resolve(constraints, local.bulk[j],
+                [&](const auto column, const double weight)
                 {
-                  if (rows != nullptr && !rows->is_element(row))
-                    return;
-                  resolve(constraints, local.bulk[j],
-                          [&](const auto column, const double weight)
-                          { bulk.add(row, column, row_weight * weight * local.matrix(i, j)); });
+                  row_columns.push_back(column);
+                  row_values.push_back(weight * value);
                 });
-      }
+    bulk_touched |= !row_values.empty();
+    resolve(constraints, local.bulk[i],
+            [&](const auto row, const double weight)
+            {
+              if (row_values.empty() || (rows != nullptr && !rows->is_element(row)))
+                return;
+              weighted_values.clear();
+              for (const double value : row_values)
+                weighted_values.push_back(weight * value);
+              bulk.add(row, row_columns.size(), row_columns.data(), weighted_values.data(), false);
+            });
+  }
   for (unsigned int i = 0; i < n_bulk; ++i)
     for (unsigned int e = 0; e < n_extra; ++e)
     {

@@ -42,5 +42,9 @@ private:
   dealii::TrilinosWrappers::MPI::BlockVector &residual_bulk;
   std::vector<double> &residual_extra;
   Triplets &extra_extra;
+
+  // One row of a local matrix.
+  std::vector<dealii::types::global_dof_index> row_columns;
+  std::vector<double> row_values, weighted_values;
 };
 } // namespace stockwork

@@ -11,7 +11,7 @@ namespace stockwork::analytical
 {
 namespace
 {
-constexpr double tolerance = 1e-10;
+constexpr double tolerance = 1e-8;
 constexpr int max_iterations = 40;
 constexpr double gamma_increment = 1e-6; // of the numerical derivative of the exposure
 

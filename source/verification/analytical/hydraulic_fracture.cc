@@ -56,6 +56,17 @@ double depth_of_grid(const double toughness)
 }
 
 
+// The front of the next step, by those of the last two, in the logarithms.
+FractureFront extrapolated(const FractureFront &last, const FractureFront &before)
+{
+  FractureFront next = last;
+  next.gamma *= last.gamma / before.gamma;
+  for (std::size_t j = 0; j < next.omega.size(); ++j)
+    next.omega[j] *= last.omega[j] / before.omega[j];
+  return next;
+}
+
+
 // When the tip passed each place.
 struct TipPath
 {
@@ -163,6 +174,8 @@ HydraulicFracture::Steps::Steps(const HydraulicFractureParameters &parameters,
       memory.remember({{-1. / time_step, earlier}});
     else if (step > 1)
       memory.remember({{-2. / time_step, earlier}, {0.5 / time_step, two_earlier}});
+    if (step > 1)
+      front = extrapolated(earlier, two_earlier);
     solve_front(grid, toughness(t), memory, front);
 
     path.log_time.push_back(tau);
