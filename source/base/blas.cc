@@ -35,13 +35,18 @@ std::string openblas_processor()
   return name != nullptr ? name() : "";
 }
 
-bool has_vectors_of_four()
+/// The last processor whose routines this one can run too; null: none.
+const char *known_relative()
 {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  return false;
+  const auto all = [](const auto... has) { return (has && ...); };
+  if (all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512bw"),
+          __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512vl")))
+    return "SkylakeX";
+  if (all(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma")))
+    return "Haswell";
 #endif
+  return nullptr;
 }
 
 struct Blas
@@ -77,8 +82,9 @@ Blas find_blas()
 
 void choose_blas_for_processor()
 {
+  const char *const relative = known_relative();
   // What it falls back to.
-  if (openblas_processor() != "Prescott" || !has_vectors_of_four())
+  if (openblas_processor() != "Prescott" || relative == nullptr)
     return;
   // It reads the variable when it is loaded, so it has to begin again.
   auto *const end = loaded<void()>("gotoblas_dynamic_quit");
@@ -86,7 +92,7 @@ void choose_blas_for_processor()
   constexpr const char *variable = "OPENBLAS_CORETYPE";
   if (end == nullptr || begin == nullptr || std::getenv(variable) != nullptr)
     return;
-  setenv(variable, "Haswell", 0);
+  setenv(variable, relative, 0);
   end();
   begin();
 }

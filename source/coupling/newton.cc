@@ -278,10 +278,14 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // Fluid that passes through a closed fracture from pore to pore leaves rounding errors in it, and
   // no more: what is next to nothing of the pores' is nothing.
   const double of_pores = network.leaks_into_pores() ? parameters.tolerance * greatest.mass : 0.;
+  // Where rock is not linear, pores may ask for an increment that changes forces by next to
+  // nothing.
+  const double of_mass =
+    assembly.nonlinear_rock() != nullptr && greatest.mass > 0. ? 1. / mass_scale() : 0.;
   const auto imbalance = [&](const ResidualNorms &n)
   {
     const bool has_fluid = n.fracture_fluid > of_pores && greatest.fracture_fluid > 0.;
-    return std::hypot(n.momentum, n.extra) / force +
+    return std::hypot(n.momentum, n.extra) / force + of_mass * n.mass +
            (has_fluid ? n.fracture_fluid / greatest.fracture_fluid : 0.);
   };
   // What is below the tolerance is none, and may grow.

@@ -136,17 +136,6 @@ void foresee_given_pressure(const Lattice<dim> &lattice,
 }
 
 
-/// Whether parts of a crack lie along no axis of the mesh.
-template <int dim>
-bool is_oblique(const InitialCrack<dim> &crack)
-{
-  const auto parts = flat_parts(crack);
-  return std::any_of(parts.begin(), parts.end(),
-                     [](const auto &part)
-                     { return std::abs(part.second[0] * part.second[1]) > 1e-6; });
-}
-
-
 /// A path goes by the stress that is averaged over some horizons ahead of its tip. Where the crack
 /// is no longer than that, its ends and its direction are in the average.
 template <int dim>
@@ -160,7 +149,11 @@ void foresee_short_cracks(const Lattice<dim> &lattice,
     return;
   for (const InitialCrack<dim> &crack : lattice.scene.cracks)
   {
-    if (!is_oblique(crack) || crack.size() > (1. + same_place) * most_horizons * horizon)
+    const auto parts = flat_parts(crack);
+    const bool oblique = std::any_of(parts.begin(), parts.end(),
+                                     [](const auto &part)
+                                     { return std::abs(part.second[0] * part.second[1]) > 1e-6; });
+    if (!oblique || crack.size() > (1. + same_place) * most_horizons * horizon)
       continue;
     messages.push_back("The crack '" + crack.text + "' is oblique to the mesh, and with " +
                        text(crack.size()) + " m no longer than two horizons, of " + text(horizon) +
@@ -173,25 +166,34 @@ void foresee_short_cracks(const Lattice<dim> &lattice,
 }
 
 
-/// Bonds that nothing guides follow the mesh's axes. On cells of a tenth to a thirtieth of a crack
-/// of 3 m at 27 degrees, 2.2 m of it count as broken, with apertures and pressures that are off by
-/// up to a third (doc/laboratory/peridynamics_paths.md).
+/// Bonds that nothing guides follow the mesh's axes. Of a crack of 3 m at 10 to 60 degrees, on
+/// cells of a tenth to a thirtieth of it, 1.8 to 2.4 m count as broken, and pressures and apertures
+/// are off by up to a quarter and a half (doc/laboratory/peridynamics_paths.md). One that stays
+/// within half a cell is as one along the mesh.
 template <int dim>
-void foresee_oblique_cracks(const Lattice<dim> &lattice, std::vector<std::string> &messages)
+void foresee_oblique_cracks(const Lattice<dim> &lattice,
+                            const double spacing,
+                            std::vector<std::string> &messages)
 {
   const Parameters<dim> &parameters = lattice.parameters;
   if (dim == 3 || parameters.tracked || !std::isnan(lattice.scene.crack_pressure))
     return;
   for (const InitialCrack<dim> &crack : lattice.scene.cracks)
-    if (is_oblique(crack))
+    for (unsigned int leg = 0;
+         crack.kind != InitialCrack<dim>::Kind::cohesive && leg + 1 < crack.points.size(); ++leg)
     {
+      const Tensor<1, dim> along = crack.points[leg + 1] - crack.points[leg];
+      if (std::min(std::abs(along[0]), std::abs(along[1])) < 0.5 * spacing)
+        continue;
       messages.push_back(
         "The crack '" + crack.text +
-        "' is oblique to the mesh, and no path is tracked: it counts as shorter than in the deck "
-        "by up to a quarter, its pressure and aperture may be off by a third, and it grows along "
-        "the axes of the mesh. Use 'cohesive_xfem', or bonds that can have a path ('Bond law = "
-        "bond-based', "
-        "'Softening' above 1, 'Closure = in bonds') with 'Fracture/peridynamics/Tracking = path'.");
+        "' is oblique to the mesh, and no path is tracked: it counts as shorter than in the deck, "
+        "'broken_length' by up to two fifths and 'equivalent_length' by a fifth, its pressure may "
+        "be off by a quarter and its aperture by a half" +
+        (parameters.growth ? ", and it grows along the axes of the mesh" : "") +
+        ". Use 'Fracture/peridynamics/Tracking = path', for which bonds must be bond-based "
+        "(Poisson's ratio of 1/4) with 'Softening' of 3 or more, 'Fluid = network' and 'Closure = "
+        "in bonds', or 'cohesive_xfem' with 20 cells along the crack.");
       return;
     }
 }
@@ -299,6 +301,7 @@ template <int dim>
 std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spacing)
 {
   std::vector<std::string> messages;
+  foresee_oblique_cracks(lattice, spacing, messages);
   if (!lattice.parameters.growth)
     return messages;
   if (!lattice.parameters.in_bonds)
@@ -308,7 +311,6 @@ std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spaci
   if (lattice.scene.crack_pressure > 0.)
     foresee_given_pressure(lattice, spacing, messages);
   foresee_short_cracks(lattice, spacing, messages);
-  foresee_oblique_cracks(lattice, messages);
   foresee_pressure(lattice, spacing, messages);
   return messages;
 }

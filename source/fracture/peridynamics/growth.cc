@@ -225,8 +225,14 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     verdict.reason =
       std::string(context.step == 1 ? "bonds are stretched too far in the first step already, up to"
                                     : "a crack has reached") +
-      " the rim of the peridynamic zone, which has no room to grow. Enlarge "
-      "'Fracture/peridynamics/Zone', or make the elements around it squares" +
+      " the rim of the peridynamic zone, which " +
+      (parameters.zone_growth > 0
+         ? "has no room to grow. Enlarge 'Fracture/peridynamics/Zone', or make the elements around "
+           "it squares"
+         : "does not grow. Enlarge 'Fracture/peridynamics/Zone', or let it grow by " +
+             (parameters.cell_size > 0.
+                ? "'Fracture/peridynamics/Zone growth'"
+                : "'Fracture/peridynamics/Cell size = " + text(lattice.zone.spacing()) + " m'")) +
       what_bonds_carry();
     return verdict;
   }

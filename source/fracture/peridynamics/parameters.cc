@@ -79,7 +79,7 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
                     "The stretch at which a bond is broken over the one at which it begins to "
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "
                     "fracture jumps from cell to cell. 3 or more: it grows smoothly, with a tip "
-                    "that is spread over more cells.");
+                    "that is spread over more cells. Nothing between.");
   prm.declare_entry(
     "Critical stretch", "reduced by fluid", Patterns::Selection("reduced by fluid|of dry rock"),
     "reduced by fluid: by the work that the fluid does on the opening which a cell has when it is "
