@@ -35,7 +35,8 @@ std::string openblas_processor()
   return name != nullptr ? name() : "";
 }
 
-/// The last processor whose routines this one can run too; null: none.
+/// The newest processor that OpenBLAS 0.3.21 has routines for which run on this one, without those
+/// for half precision; null: none that is better than the oldest.
 const char *known_relative()
 {
 #if defined(__x86_64__)

@@ -33,7 +33,7 @@ double error_of_product(const unsigned int n)
   return error;
 }
 
-TEST_CASE("BLAS that knows the processor multiplies and factorises as before")
+TEST_CASE("BLAS that knows the processor multiplies as before")
 {
   const bool set_by_user = std::getenv("OPENBLAS_CORETYPE") != nullptr;
   CHECK(error_of_product(301) < 1e-13);

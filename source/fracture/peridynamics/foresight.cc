@@ -167,7 +167,7 @@ void foresee_short_cracks(const Lattice<dim> &lattice,
 
 
 /// Bonds that nothing guides follow the mesh's axes. Of a crack of 3 m at 10 to 60 degrees, on
-/// cells of a tenth to a thirtieth of it, 1.8 to 2.4 m count as broken, and pressures and apertures
+/// cells of a tenth to a thirtieth of it, 1.8 to 2.6 m count as broken, and pressures and apertures
 /// are off by up to a quarter and a half (doc/laboratory/peridynamics_paths.md). One that stays
 /// within half a cell is as one along the mesh.
 template <int dim>
