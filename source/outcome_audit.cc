@@ -1,5 +1,6 @@
 #include "outcome_audit.h"
 
+#include "rock/wave_speeds.h"
 #include "scene_estimates.h"
 #include "stockwork/base/quantity.h"
 

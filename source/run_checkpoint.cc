@@ -81,7 +81,7 @@ void RunCheckpoint<dim>::save(const Clock &clock)
   {
     boost::archive::binary_oarchive archive(bytes);
     const std::vector<std::uint64_t> keys = system.extra_numbering().keys();
-    archive << clock << the_case.scheme << keys;
+    archive << clock << the_case.scheme << stepper.wave_steps() << keys;
     for (const std::vector<double> *values : stepper.extra_vectors())
       archive << *values;
     the_case.model->save(archive);
@@ -127,7 +127,7 @@ Clock RunCheckpoint<dim>::load()
   boost::archive::binary_iarchive archive(bytes);
   std::vector<std::uint64_t> keys;
   Clock clock;
-  archive >> clock >> the_case.scheme >> keys;
+  archive >> clock >> the_case.scheme >> stepper.wave_steps() >> keys;
   if (has_ended(clock, the_case.control))
     throw EntryError("Time/End time", to_string(the_case.control.end_time, dimension::time),
                      "a time after that of the checkpoint, " +

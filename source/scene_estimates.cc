@@ -20,9 +20,6 @@ using namespace dealii;
 
 namespace
 {
-/// For a comparison of speeds alone [kg/m^3].
-constexpr double density_of_common_rock = 2500.;
-
 template <int dim>
 analytical::KgdParameters driven_fracture(const Case<dim> &the_case, const Pumping &pumping)
 {
@@ -98,16 +95,6 @@ double storage_coefficient(const RockProperties &rock)
   const LinearStiffness<2> stiffness(rock);
   const double uniaxial = stiffness.bulk_modulus() + stiffness.shear_modulus();
   return rock.inverse_biot_modulus + rock.biot_coefficient * rock.biot_coefficient / uniaxial;
-}
-
-
-double rayleigh_speed(const RockProperties &rock)
-{
-  const double density = rock.density > 0. ? rock.density : density_of_common_rock;
-  const double shear_speed = std::sqrt(LinearStiffness<2>(rock).shear_modulus() / density);
-  // From 0 to 0.5 it changes the speed by a tenth: a common one will do in anisotropic rock.
-  const double ratio = rock.stiffness ? 0.25 : rock.poisson_ratio;
-  return shear_speed * (0.87 + 1.12 * ratio) / (1. + ratio);
 }
 
 

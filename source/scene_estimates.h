@@ -59,10 +59,6 @@ double effect_of_walls(const Case<dim> &the_case);
 /// 1/M + alpha^2/(lambda + 2 G): of rock that is held sideways [1/Pa].
 double storage_coefficient(const RockProperties &rock);
 
-/// To 1 %: Viktorov's fit to the shear wave speed [m/s]. Where the deck gives no density, of rock
-/// as heavy as most.
-double rayleigh_speed(const RockProperties &rock);
-
 /// What the first well pumps until it is shut in, or until the run ends.
 struct Pumping
 {

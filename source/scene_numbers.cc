@@ -4,6 +4,7 @@
 #include "stockwork/rock/linear_stiffness.h"
 
 #include "in_situ_numbers.h"
+#include "rock/wave_speeds.h"
 #include "scales.h"
 #include "scene_estimates.h"
 #include "verification/analytical/radial.h"

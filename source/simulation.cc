@@ -124,7 +124,13 @@ Simulation<dim>::Simulation(RunContext &run,
            the_case.elements,
            prm)
   , adaptation(run, the_case.geometry, the_case.rock, triangulation, *the_case.model)
-  , stepper(run, system, *the_case.model, the_case.network, the_case.scheme, the_case.control)
+  , stepper(run,
+            system,
+            *the_case.model,
+            the_case.network,
+            the_case.rock,
+            the_case.scheme,
+            the_case.control)
   , report(run,
            system,
            stepper,

@@ -41,7 +41,13 @@ public:
              the_case->elements,
              prm)
     , adaptation(run, the_case->geometry, the_case->rock, triangulation, *the_case->model)
-    , stepper(run, system, *the_case->model, the_case->network, the_case->scheme, the_case->control)
+    , stepper(run,
+              system,
+              *the_case->model,
+              the_case->network,
+              the_case->rock,
+              the_case->scheme,
+              the_case->control)
   {
     the_case->geometry.create(triangulation);
     adaptation.refine_initial_mesh(the_case->elements.displacement_degree);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace stockwork
 {
@@ -37,6 +39,7 @@ void StepControl::declare_parameters(ParameterHandler &prm)
     "For tests: the first attempt at the step of this number is thrown away and the "
     "step taken again with half its length. 0: none.");
   prm.leave_subsection();
+  WaveSteps::declare_parameters(prm);
 }
 
 
@@ -86,6 +89,7 @@ void StepControl::parse_parameters(ParameterHandler &prm)
                     std::isfinite(error_tolerance) ? 2. : -1.);
   rejected_step = prm.get_integer("Reject first attempt of step");
   prm.leave_subsection();
+  waves.parse_parameters(prm);
 }
 
 
@@ -108,15 +112,18 @@ Stepper<dim>::Stepper(RunContext &run,
                       CoupledSystem<dim> &system,
                       FractureModel<dim> &model,
                       Network<dim> &network,
+                      const Rock &rock,
                       TimeScheme &scheme,
                       const StepControl &control)
   : run(run)
   , system(system)
   , model(model)
   , network(network)
+  , rock(rock)
   , scheme(scheme)
   , control(control)
 {
+  this->control.waves.set_rock(rock.main());
 }
 
 
@@ -285,6 +292,17 @@ void Stepper<dim>::commit(const State &state)
 
 
 template <int dim>
+double Stepper<dim>::speed_of_tips(const Verdict &verdict, const double dt)
+{
+  if (scheme.kind() != TimeScheme::Kind::newmark || !verdict.advances ||
+      !control.waves.are_wanted())
+    return 0.;
+  control.waves.set_mesh(system.mesh_view().triangulation, rock);
+  return control.waves.tip_speed(dt, *verdict.advances);
+}
+
+
+template <int dim>
 StepReport Stepper<dim>::advance(const double time, double dt, const unsigned int step)
 {
   if (scheme.is_explicit())
@@ -317,8 +335,25 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       reason = "rejected as the deck demands ('Time/Reject first attempt of step')";
     }
 
+    const double speed = accepted ? speed_of_tips(verdict, dt) : 0.,
+                 wave_step = control.waves.is_fast(speed)
+                               ? std::max(control.waves.longest(), control.minimum_step)
+                               : std::numeric_limits<double>::infinity();
+    double shorter = 0.5 * dt;
+    if (accepted && wave_step < (1. - 1e-10) * dt)
+    {
+      accepted = false;
+      std::ostringstream what;
+      what << std::setprecision(2) << "a tip runs at " << speed
+           << " of the speed of Rayleigh waves: steps resolve waves";
+      reason = what.str();
+      shorter = wave_step;
+    }
+
     if (accepted)
     {
+      if (verdict.advances)
+        control.waves.accept(dt, *verdict.advances);
       commit(last_state());
       // The history follows the numbering that has come out of the step.
       for (std::vector<double> *history : scheme.extra_history())
@@ -343,7 +378,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       else if (std::isfinite(control.error_tolerance))
         growth = 1.; // not enough history for an estimate
       report.dt = dt;
-      report.next_dt = std::min({dt * growth, dt_limit, control.maximum_step});
+      report.next_dt = std::min({dt * growth, dt_limit, wave_step, control.maximum_step});
       report.next_dt = std::max(report.next_dt, control.minimum_step);
       return report;
     }
@@ -363,9 +398,10 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
                        " s fails even with the shortest step allowed, " +
                        to_string(dt, dimension::time) + ": " + reason +
                        (advice.empty() ? "" : ". " + advice));
-    run.out << "  step " << step << ": " << reason << "; dt " << dt << " -> "
-            << std::max(0.5 * dt, control.minimum_step) << " s" << std::endl;
-    dt = std::max(0.5 * dt, control.minimum_step);
+    shorter = std::max(shorter, control.minimum_step);
+    run.out << "  step " << step << ": " << reason << "; dt " << dt << " -> " << shorter << " s"
+            << std::endl;
+    dt = shorter;
   }
 }
 

@@ -5,6 +5,7 @@
 #include "coupling/coupled_system.h"
 #include "coupling/explicit_march.h"
 #include "coupling/time_scheme.h"
+#include "coupling/wave_steps.h"
 #include "flow/fluid_balance.h"
 
 namespace stockwork
@@ -17,6 +18,7 @@ struct StepControl
   double growth;                  ///< greatest ratio of successive steps
   double error_tolerance;         ///< of the local error estimate; infinite: not used
   unsigned int rejected_step = 0; ///< its first attempt is thrown away, to test that; 0: none
+  WaveSteps waves;
 
   static void declare_parameters(dealii::ParameterHandler &prm);
 
@@ -50,6 +52,7 @@ public:
           CoupledSystem<dim> &system,
           FractureModel<dim> &model,
           Network<dim> &network,
+          const Rock &rock,
           TimeScheme &scheme,
           const StepControl &control);
 
@@ -102,6 +105,16 @@ public:
     return scheme.kind() == TimeScheme::Kind::backward_euler;
   }
 
+  /// What the length of steps hangs on besides, for checkpoints.
+  WaveSteps &wave_steps()
+  {
+    return control.waves;
+  }
+  const WaveSteps &wave_steps() const
+  {
+    return control.waves;
+  }
+
   /// All bulk vectors that must move with the mesh, and all lists of extra unknowns.
   std::vector<dealii::TrilinosWrappers::MPI::BlockVector *> bulk_vectors();
   std::vector<std::vector<double> *> extra_vectors();
@@ -121,6 +134,10 @@ private:
 
   Outcome attempt(StepReport &report, std::string &advice, Verdict &verdict);
 
+  /// Over that of Rayleigh waves, where waves are resolved for fast ones: of the tips in a step
+  /// that has succeeded; else zero. Collective.
+  double speed_of_tips(const Verdict &verdict, double dt);
+
   StepReport advance_explicitly(double time, double dt, unsigned int step);
 
   /// The step is accepted, with `current`.
@@ -130,6 +147,7 @@ private:
   CoupledSystem<dim> &system;
   FractureModel<dim> &model;
   Network<dim> &network;
+  const Rock &rock;
   TimeScheme &scheme;
   StepControl control;
 

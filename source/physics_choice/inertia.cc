@@ -2,6 +2,7 @@
 
 #include "outcome_audit.h"
 #include "physics_choice/loads.h"
+#include "rock/wave_speeds.h"
 #include "scene_estimates.h"
 
 #include <algorithm>

@@ -1,0 +1,83 @@
+// Whether a tip is fast against waves, and the steps that resolve them then.
+#include <doctest/doctest.h>
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <cmath>
+#include <sstream>
+
+#include "coupling/wave_steps.h"
+#include "rock/wave_speeds.h"
+
+namespace stockwork::wave_steps_test
+{
+using namespace dealii;
+
+/// Waves of shear 2000 m/s, of compression 2000 sqrt(3) m/s: Poisson's ratio is 1/4.
+Rock rock_of_waves(const std::string &pores = "")
+{
+  ParameterHandler prm;
+  Rock::declare_parameters(prm);
+  prm.parse_input_from_string("subsection Rock\n set Young modulus = 25 GPa\n"
+                              " set Poisson ratio = 0.25\n set Density = 2500 kg/m^3\n" +
+                              pores + "end");
+  Rock rock;
+  rock.parse_parameters(prm);
+  return rock;
+}
+
+TEST_CASE("Rayleigh's waves and those of compression")
+{
+  const RockProperties rock = rock_of_waves().main();
+  CHECK(rayleigh_speed(rock) == doctest::Approx(0.9194 * 2000.).epsilon(2e-3)); // Viktorov 1967
+  CHECK(fastest_wave_speed(rock) == doctest::Approx(2000. * std::sqrt(3.)));
+  // K_u = 50/3 + 20 GPa: alpha^2 M on top.
+  const RockProperties porous =
+    rock_of_waves(" set Bulk model = poroelastic\n set Biot coefficient = 1\n"
+                  " set Biot modulus = 20 GPa\n set Permeability = 1e-14 m^2\n")
+      .main();
+  CHECK(fastest_wave_speed(porous) == doctest::Approx(std::sqrt(50e9 / 2500.)));
+}
+
+TEST_CASE("a tip is as fast as it comes into segments; steps resolve waves in the smallest cell")
+{
+  const Rock rock = rock_of_waves();
+  parallel::distributed::Triangulation<2> mesh(MPI_COMM_WORLD);
+  GridGenerator::subdivided_hyper_rectangle(mesh, {4, 2}, Point<2>(), Point<2>(8., 2.));
+  WaveSteps waves;
+  waves.set_rock(rock.main());
+  waves.set_mesh(mesh, rock);
+  CHECK(waves.longest() == doctest::Approx(0.5 / (2000. * std::sqrt(3.)))); // cells of 2 m by 1 m
+  const double speed = 1. / rayleigh_speed(rock.main()); // of a metre in a second
+
+  CHECK(waves.tip_speed(0.1, 0) == 0.);
+  CHECK(waves.tip_speed(0.1, 1) == 0.); // from where in it, nobody knows
+  CHECK(waves.tip_speed(0.1, 3) == doctest::Approx(20. * speed));
+  waves.accept(1., 1);
+  waves.accept(1., 0);
+  CHECK(waves.tip_speed(1., 1) == doctest::Approx(speed / 3.)); // two segments in all of the time
+  waves.accept(1., 2);
+  waves.accept(1., 1);
+  waves.accept(1., 2);
+  CHECK(waves.tip_speed(1., 0) == doctest::Approx(4. * speed / 4.)); // the last five segments
+  CHECK(waves.tip_speed(1., 4) == doctest::Approx(5. * speed / 2.));
+  CHECK(waves.tip_speed(1., 9) == doctest::Approx(8. * speed));
+  waves.accept(9., 0); // it has stopped
+  CHECK(waves.tip_speed(1., 0) == doctest::Approx(4. * speed / 13.));
+
+  std::stringstream file;
+  {
+    boost::archive::binary_oarchive archive(file);
+    archive << const_cast<const WaveSteps &>(waves);
+  }
+  WaveSteps again;
+  again.set_rock(rock.main());
+  again.set_mesh(mesh, rock);
+  boost::archive::binary_iarchive archive(file);
+  archive >> again;
+  CHECK(again.tip_speed(1., 2) == waves.tip_speed(1., 2));
+}
+} // namespace stockwork::wave_steps_test
