@@ -4,15 +4,19 @@
     contrib/branching.py run   [--factors rate modulus ...] [--resolution fine] [--output DIR] [--set ...]
     contrib/branching.py table [the same]
     contrib/branching.py draw  [the same]
+    contrib/branching.py study [--output DIR] [--set ...]
 
 `run` runs the decks prm/branching/<factor>/<value>/peridynamics.prm; what is finished stays as it is, what was begun
 goes on from its checkpoint. `table` prints what each fracture has become, `draw` draws a picture per factor: damage
 and opening at the end of its three runs, mirrored at the inlet, and the pressure there in time. Results are in
-DIR/<resolution>/<factor>/<value>.
+DIR/<resolution>/<factor>/<value>. `study` runs rate/0.01 again with one thing changed at a time (cells, horizon, steps,
+inertia, bonds, the order in which they break; load and fluid as published), and prints the table and a picture of them:
+what of a fracture's shape is the lattice's. Results are in DIR/study.
 """
 import argparse
 import math
 import os
+import re
 import sys
 
 import matplotlib
@@ -38,6 +42,30 @@ UNITS = {"rate": "m²/s per wing", "modulus": "GPa", "porosity": "", "permeabili
 SI = {"": 1., "GPa": 1e9, "MPa": 1e6, "Pa": 1., "m": 1., "cm": 1e-2, "mm": 1e-3, "s": 1., "ms": 1e-3, "min": 60.,
       "kg/m^3": 1.}
 
+# Rows of the study: a name, its settings.
+BONDS = "Fracture/peridynamics/"
+BRITTLE = [BONDS + "Softening=1"]
+HALF_CELLS = [BONDS + "Cell size=0.0375 m", "Mesh/Box/Lower corner=0, -7.81875 m", "Mesh/Box/Upper corner=7.8 m, 7.78125 m"]
+STUDY = {
+    "as the deck says": [],
+    "cells of 0.15 m": ["Resolution=medium"],
+    "cells of 0.0375 m": HALF_CELLS,
+    "a horizon of 3 cells": [BONDS + "Horizon=3"],
+    "a horizon of 5 cells": [BONDS + "Horizon=5"],
+    "half the step": ["Time/Initial step=0.25 ms", "Time/Maximum step=0.25 ms"],
+    "all waves resolved, to 20 ms": ["Time/Waves resolved above=1e-6", "Time/End time=20 ms"],
+    "no waves resolved": ["Time/Waves resolved above=inf"],
+    "no inertia": ["Time/Inertia=off"],
+    "across a path": [BONDS + "Tracking=path"],
+    "brittle bonds": BRITTLE,
+    "brittle, one at a time": [*BRITTLE, BONDS + "Bonds per pass=1"],
+    "brittle, all at once": [*BRITTLE, BONDS + "Bonds per pass=1000000"],
+    "brittle, cells of 0.0375 m": [*BRITTLE, *HALF_CELLS],
+    "as published": [*BRITTLE, "Fracture flow/Vapour pressure=-inf", BONDS + "Closure=as published",
+                     BONDS + "Fluid=permeability tensor", BONDS + "Bond volumes=exact", BONDS + "Surface correction=false",
+                     BONDS + "Critical stretch factor=1"]}
+STUDIED = ("rate", "0.01")
+
 CELLS_OF_A_MEAN_SPEED = 4  # a tip goes from cell to cell: its speed is that over a horizon
 
 
@@ -49,9 +77,13 @@ def runs(options):
     return [(factor, value) for factor in options.factors for value in FACTORS[factor]]
 
 
+def deck_of(factor, value):
+    return os.path.join(ROOT, "prm", "branching", factor, value, "peridynamics.prm")
+
+
 def run(options):
-    ended = [run_deck(options.program, os.path.join(ROOT, "prm", "branching", factor, value, "peridynamics.prm"),
-                      place(options, factor, value), [f"Resolution={options.resolution}", *options.set])
+    ended = [run_deck(options.program, deck_of(factor, value), place(options, factor, value),
+                      [f"Resolution={options.resolution}", *options.set])
              for factor, value in runs(options)]
     return 0 if all(ended) else 1
 
@@ -84,23 +116,27 @@ def greatest_speed(times, places, least_way):
 
 
 def table(options):
+    return print_table([(f"`{factor}/{value}`", place(options, factor, value)) for factor, value in runs(options)])
+
+
+def print_table(rows):
+    """Of named directories. The exit status: 1 if there is nothing in any of them."""
     print("| | to [s] | inlet pressure, greatest, last [MPa] | aperture [mm] | extent in x, y [m] | branches, forks | "
           "greatest speed of the tip over c_R | leaked [%] | balance | steps (tried again) | processor [min] |")
     print("| --- | ---: | --- | ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |")
     n_read = 0
-    for factor, value in runs(options):
-        directory = place(options, factor, value)
+    for name, directory in rows:
         try:
             columns, summary, deck = read_statistics(directory), read_summary(directory), read_deck(directory)
         except ResultError as error:
-            print(f"| `{factor}/{value}` | {error} |" + " |" * 9)
+            print(f"| {name} | {error} |" + " |" * 9)
             continue
         n_read += 1
         last = {name: column[-1] for name, column in columns.items()}
         cell = number(deck["Fracture/peridynamics/Cell size"])
         speed = greatest_speed(columns["time"], columns["extent_x"], CELLS_OF_A_MEAN_SPEED * cell)
         end = number(deck["Time/End time"])
-        print(f"| `{factor}/{value}` | {last['time']:.3g}" + ("" if summary["status"] == "finished" else f" of {end:g}")
+        print(f"| {name} | {last['time']:.3g}" + ("" if summary["status"] == "finished" else f" of {end:g}")
               + f" | {1e-6 * max(columns['inlet_pressure']):.3g}, {1e-6 * last['inlet_pressure']:.3g}"
               f" | {1e3 * last['inlet_aperture']:.3g} | {last['extent_x']:.3g}, {last['extent_y']:.2g}"
               f" | {last['branches']:g}, {last['forks']:g} | {speed / rayleigh_speed(deck):.3f}"
@@ -108,6 +144,35 @@ def table(options):
               f" | {max(map(abs, columns['fluid_balance_error'])):.0e}"
               f" | {summary['steps']} ({summary['rejected_steps']}) | {summary['cpu_seconds'] / 60.:.1f} |")
     return 0 if n_read else 1
+
+
+def study(options):
+    """Rows that cannot end for good (exit status 2 says why) are rows all the same."""
+    places = {name: os.path.join(options.output, "study", re.sub(r"[^a-z0-9.]+", "_", name)) for name in STUDY}
+    for name, settings in STUDY.items():
+        run_deck(options.program, deck_of(*STUDIED), places[name], ["Resolution=fine", *settings, *options.set])
+    status = print_table(list(places.items()))
+    there = {name: directory for name, directory in places.items() if os.path.exists(os.path.join(directory, "fields.pvd"))}
+    if there:
+        n_rows = -(-len(there) // 5)
+        figure, axes = plt.subplots(n_rows, 5, figsize=(16., 2.6 * n_rows), layout="constrained", squeeze=False)
+        for axis in axes.flat[len(there):]:
+            axis.axis("off")
+        for axis, (name, directory) in zip(axes.flat, there.items()):
+            draw_damage(axis, directory, name, (0., 3.5, -1.5, 1.5))
+        output = os.path.join(options.output, "study.png")
+        figure.savefig(output, dpi=80)
+        print(output)
+    return status
+
+
+def draw_damage(axis, directory, name, window):
+    """At the end, with the opening, mirrored at the inlet."""
+    shown, _ = field.panel(axis, argparse.Namespace(directory=directory, field="damage", component=None, window=window,
+                                                    mirror=True, warp=None, fluid=False), None)
+    for collection in shown:
+        collection.set_clim(0., 1.)
+    axis.set_title(f"{name}, {axis.get_title()}", fontsize=8)
 
 
 def draw(options):
@@ -128,13 +193,7 @@ def draw(options):
         for axis in axes[len(histories):3]:
             axis.axis("off")
         for axis, value in zip(axes, histories):
-            directory = place(options, factor, value)
-            shown, _ = field.panel(axis, argparse.Namespace(
-                directory=directory, field="damage", component=None, window=window, mirror=True, warp=None,
-                fluid=False), None)
-            for collection in shown:
-                collection.set_clim(0., 1.)
-            axis.set_title(f"{factor} {value} {UNITS[factor]}, {axis.get_title()}", fontsize=8)
+            draw_damage(axis, place(options, factor, value), f"{factor} {value} {UNITS[factor]}", window)
             columns = histories[value]
             axes[3].plot(columns["time"], [1e-6 * p for p in columns["inlet_pressure"]], label=f"{value} {UNITS[factor]}")
         axes[0].set_ylabel("y [m]")
@@ -152,14 +211,14 @@ def draw(options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=("run", "table", "draw"))
+    parser.add_argument("command", choices=("run", "table", "draw", "study"))
     parser.add_argument("--factors", nargs="+", choices=FACTORS, default=list(FACTORS))
     parser.add_argument("--resolution", choices=("coarse", "medium", "fine"), default="fine")
     parser.add_argument("--output", default="branching", metavar="DIR")
     parser.add_argument("--program", type=program, default=PROGRAM)
     parser.add_argument("--set", action="append", default=[], metavar="'Section/Entry=value'")
     options = parser.parse_args()
-    return {"run": run, "table": table, "draw": draw}[options.command](options)
+    return {"run": run, "table": table, "draw": draw, "study": study}[options.command](options)
 
 
 if __name__ == "__main__":
