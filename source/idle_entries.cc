@@ -76,7 +76,11 @@ std::vector<IdleGroup> groups_of(const std::vector<DeclaredEntry> &declared,
     {dim == 2, "the case has two dimensions", {"Mesh/Box/Z spacing"}},
     {!has_inertia,
      "there is no inertia",
-     {"Time/Newmark beta", "Time/Newmark gamma", "Time/Theta"}},
+     {"Time/Newmark beta", "Time/Newmark gamma", "Time/Theta", "Time/Waves resolved above"}},
+    {has_inertia && (the_case.scheme.is_explicit() || !the_case.model->requirements().may_grow ||
+                     !the_case.model->requirements().has_fracture),
+     "no fracture grows in steps of Newmark's scheme",
+     {"Time/Waves resolved above"}},
     // The weight that a gradient of the vertical stress should be is looked up in the density.
     {!has_inertia && is_default("In situ/Stress gradient"),
      "there is no inertia, and only estimates look at it",

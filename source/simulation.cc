@@ -243,6 +243,9 @@ void Simulation<dim>::announce()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   const auto [cost, steps] = expected_cost(run, the_case, mesh, system, stepper, clock);
   run.out << "  " << in_words(cost, steps, run.n_ranks) << std::endl;
+  if (const double longest = stepper.wave_step(); longest < the_case.control.maximum_step)
+    run.out << "  but no longer than " << to_string(longest, dimension::time)
+            << " while a tip runs fast against waves ('Time/Waves resolved above')" << std::endl;
   compare_with_memory(run, the_case, triangulation, cost.memory);
 }
 

@@ -292,13 +292,28 @@ void Stepper<dim>::commit(const State &state)
 
 
 template <int dim>
-double Stepper<dim>::speed_of_tips(const Verdict &verdict, const double dt)
+double Stepper<dim>::wave_step()
 {
-  if (scheme.kind() != TimeScheme::Kind::newmark || !verdict.advances ||
-      !control.waves.are_wanted())
-    return 0.;
+  const Requirements requirements = model.requirements();
+  if (scheme.kind() != TimeScheme::Kind::newmark || scheme.is_explicit() ||
+      !control.waves.are_wanted() || !requirements.has_fracture || !requirements.may_grow)
+    return std::numeric_limits<double>::infinity();
   control.waves.set_mesh(system.mesh_view().triangulation, rock);
-  return control.waves.tip_speed(dt, *verdict.advances);
+  return std::max(control.waves.longest(), control.minimum_step);
+}
+
+
+template <int dim>
+double Stepper<dim>::limit_by_waves(const Verdict &verdict, const double dt, double &speed)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!verdict.advances)
+    return infinity;
+  const double limit = wave_step();
+  if (std::isinf(limit))
+    return infinity;
+  speed = control.waves.tip_speed(dt, *verdict.advances);
+  return control.waves.is_fast(speed) ? limit : infinity;
 }
 
 
@@ -335,19 +350,17 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       reason = "rejected as the deck demands ('Time/Reject first attempt of step')";
     }
 
-    const double speed = accepted ? speed_of_tips(verdict, dt) : 0.,
-                 wave_step = control.waves.is_fast(speed)
-                               ? std::max(control.waves.longest(), control.minimum_step)
-                               : std::numeric_limits<double>::infinity();
-    double shorter = 0.5 * dt;
-    if (accepted && wave_step < (1. - 1e-10) * dt)
+    double shorter = 0.5 * dt, speed = 0.;
+    const double by_waves =
+      accepted ? limit_by_waves(verdict, dt, speed) : std::numeric_limits<double>::infinity();
+    if (by_waves < (1. - 1e-10) * dt)
     {
       accepted = false;
       std::ostringstream what;
       what << std::setprecision(2) << "a tip runs at " << speed
            << " of the speed of Rayleigh waves: steps resolve waves";
       reason = what.str();
-      shorter = wave_step;
+      shorter = by_waves;
     }
 
     if (accepted)
@@ -378,7 +391,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       else if (std::isfinite(control.error_tolerance))
         growth = 1.; // not enough history for an estimate
       report.dt = dt;
-      report.next_dt = std::min({dt * growth, dt_limit, wave_step, control.maximum_step});
+      report.next_dt = std::min({dt * growth, dt_limit, by_waves, control.maximum_step});
       report.next_dt = std::max(report.next_dt, control.minimum_step);
       return report;
     }

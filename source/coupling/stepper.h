@@ -105,6 +105,9 @@ public:
     return scheme.kind() == TimeScheme::Kind::backward_euler;
   }
 
+  /// What no step is longer than while a tip runs fast [s]; infinite: however fast. Collective.
+  double wave_step();
+
   /// What the length of steps hangs on besides, for checkpoints.
   WaveSteps &wave_steps()
   {
@@ -134,9 +137,10 @@ private:
 
   Outcome attempt(StepReport &report, std::string &advice, Verdict &verdict);
 
-  /// Over that of Rayleigh waves, where waves are resolved for fast ones: of the tips in a step
-  /// that has succeeded; else zero. Collective.
-  double speed_of_tips(const Verdict &verdict, double dt);
+  /// What the speed of the tips, in an attempt that has succeeded, limits steps to: wave_step(), or
+  /// nothing. Collective.
+  /// @param speed over that of Rayleigh waves
+  double limit_by_waves(const Verdict &verdict, double dt, double &speed);
 
   StepReport advance_explicitly(double time, double dt, unsigned int step);
 
