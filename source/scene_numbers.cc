@@ -95,6 +95,8 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)", speed,
                      speed < 0.1
                        ? "inertia may be left out: waves settle long before the tip moves on"
+                     : the_case.scheme.kind() == TimeScheme::Kind::newmark
+                       ? "inertia matters; 'Time/Waves resolved above' has steps resolve it"
                        : "inertia matters: set Time/Inertia = on"});
 
   const std::string when = pumping.is_shut_in ? "at shut-in" : "at the end";

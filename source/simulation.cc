@@ -200,6 +200,10 @@ void Simulation<dim>::start(ParameterHandler &prm)
   refuse_too_large(run, the_case, triangulation);
   the_case.boundary_conditions.check(triangulation,
                                      the_case.scheme.kind() == TimeScheme::Kind::newmark);
+  // So many take from seconds to a minute, in which nothing else is printed.
+  constexpr unsigned int many_cells = 200000;
+  if (triangulation.n_global_active_cells() > many_cells)
+    run.out << "Setting up " << triangulation.n_global_active_cells() << " cells" << std::endl;
   system.setup_mesh(clock.time);
   check_rock(run, the_case, system, prm);
   stepper.committed.bulk = system.ghosted_vector();
@@ -243,9 +247,15 @@ void Simulation<dim>::announce()
           << " unknowns, " << run.n_ranks << " rank(s), " << blas_version() << std::endl;
   const auto [cost, steps] = expected_cost(run, the_case, mesh, system, stepper, clock);
   run.out << "  " << in_words(cost, steps, run.n_ranks) << std::endl;
-  if (const double longest = stepper.wave_step(); longest < the_case.control.maximum_step)
-    run.out << "  but no longer than " << to_string(longest, dimension::time)
-            << " while a tip runs fast against waves ('Time/Waves resolved above')" << std::endl;
+  const double resolved = stepper.wave_step();
+  if (the_case.control.waves.are_wanted() && resolved < the_case.control.maximum_step)
+    run.out << "  more, of " << to_string(resolved, dimension::time)
+            << ", while a tip runs fast against waves ('Time/Waves resolved above')" << std::endl;
+  if (the_case.control.waves.are_wanted() && resolved < the_case.control.minimum_step)
+    run.warn("Time/Minimum step: " + to_string(the_case.control.minimum_step, dimension::time) +
+             " is longer than the steps that resolve waves, " +
+             to_string(resolved, dimension::time) +
+             "; 'Time/Waves resolved above' asks for those.");
   compare_with_memory(run, the_case, triangulation, cost.memory);
 }
 

@@ -93,6 +93,13 @@ void StepControl::parse_parameters(ParameterHandler &prm)
 }
 
 
+namespace
+{
+/// A step is taken again if it is longer than what resolves waves, by this factor: a solve is dear.
+constexpr double too_long = 1.5;
+} // namespace
+
+
 double step_limit(const Verdict &verdict, const double dt, const double first_dt)
 {
   if (verdict.length_is_right)
@@ -123,7 +130,6 @@ Stepper<dim>::Stepper(RunContext &run,
   , scheme(scheme)
   , control(control)
 {
-  this->control.waves.set_rock(rock.main());
 }
 
 
@@ -296,10 +302,10 @@ double Stepper<dim>::wave_step()
 {
   const Requirements requirements = model.requirements();
   if (scheme.kind() != TimeScheme::Kind::newmark || scheme.is_explicit() ||
-      !control.waves.are_wanted() || !requirements.has_fracture || !requirements.may_grow)
+      !requirements.has_fracture || !requirements.may_grow)
     return std::numeric_limits<double>::infinity();
-  control.waves.set_mesh(system.mesh_view().triangulation, rock);
-  return std::max(control.waves.longest(), control.minimum_step);
+  control.waves.set_segments(network.segments(), rock);
+  return control.waves.longest();
 }
 
 
@@ -309,10 +315,16 @@ double Stepper<dim>::limit_by_waves(const Verdict &verdict, const double dt, dou
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!verdict.advances)
     return infinity;
-  const double limit = wave_step();
-  if (std::isinf(limit))
+  const double resolved = wave_step();
+  if (std::isinf(resolved))
     return infinity;
   speed = control.waves.tip_speed(dt, *verdict.advances);
+  const double limit = std::max(resolved, control.minimum_step);
+  // Those who ask for waves have been told of a least step that is too long.
+  if (!control.waves.are_wanted() && speed > speed_of_fast_tips && dt > too_long * resolved)
+    run.warn("A tip runs at more than " + to_string(speed_of_fast_tips, dimension::number) +
+             " of the speed of Rayleigh waves, in steps that filter the waves. 'Time/Waves "
+             "resolved above = 0.1' has steps resolve them.");
   return control.waves.is_fast(speed) ? limit : infinity;
 }
 
@@ -353,19 +365,19 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
     double shorter = 0.5 * dt, speed = 0.;
     const double by_waves =
       accepted ? limit_by_waves(verdict, dt, speed) : std::numeric_limits<double>::infinity();
-    if (by_waves < (1. - 1e-10) * dt)
+    if (too_long * by_waves < dt)
     {
       accepted = false;
       std::ostringstream what;
       what << std::setprecision(2) << "a tip runs at " << speed
-           << " of the speed of Rayleigh waves: steps resolve waves";
+           << " of the speed of Rayleigh waves, for which the step is too long";
       reason = what.str();
       shorter = by_waves;
     }
 
     if (accepted)
     {
-      if (verdict.advances)
+      if (verdict.advances && scheme.kind() == TimeScheme::Kind::newmark)
         control.waves.accept(dt, *verdict.advances);
       commit(last_state());
       // The history follows the numbering that has come out of the step.

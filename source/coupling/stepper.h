@@ -105,7 +105,7 @@ public:
     return scheme.kind() == TimeScheme::Kind::backward_euler;
   }
 
-  /// What no step is longer than while a tip runs fast [s]; infinite: however fast. Collective.
+  /// The longest step that resolves waves [s]; infinite: there are none of a fracture that grows.
   double wave_step();
 
   /// What the length of steps hangs on besides, for checkpoints.
@@ -137,8 +137,8 @@ private:
 
   Outcome attempt(StepReport &report, std::string &advice, Verdict &verdict);
 
-  /// What the speed of the tips, in an attempt that has succeeded, limits steps to: wave_step(), or
-  /// nothing. Collective.
+  /// What the speed of the tips, in an attempt that has succeeded, limits steps to: one that
+  /// resolves waves, or nothing. Warns of steps that should, and are not asked to.
   /// @param speed over that of Rayleigh waves
   double limit_by_waves(const Verdict &verdict, double dt, double &speed);
 

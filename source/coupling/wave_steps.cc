@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace stockwork
 {
@@ -15,7 +16,7 @@ namespace
 {
 /// A tip goes from segment to segment, so its speed is a mean over some of them.
 constexpr unsigned int segments_of_a_speed = 5;
-/// Over the time that the fastest wave takes through the cell where it is shortest.
+/// Over the time that the fastest wave takes through a segment.
 constexpr double share_of_crossing = 0.5;
 } // namespace
 
@@ -24,11 +25,13 @@ void WaveSteps::declare_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Time");
   prm.declare_entry(
-    "Waves resolved above", "0.1", Quantity(dimension::number, Range{0., INFINITY, true, false}),
-    "A speed of tips over that of Rayleigh waves. With Newmark's scheme, while a tip runs faster "
-    "(over four cells, in cracks with fluid), steps are at most half of the time that the fastest "
-    "wave takes through a cell, the smallest; one that turns out too long is taken again. 'inf': "
-    "steps do not mind waves.");
+    "Waves resolved above", "inf", Quantity(dimension::number, Range{0., INFINITY, true, false}),
+    "A speed of tips over that of Rayleigh waves, such as 0.1, below which inertia hardly matters. "
+    "With Newmark's scheme, while a tip runs faster, in the mean over five segments of the "
+    "fracture, steps are at most half of the time that the fastest wave takes through a segment; "
+    "one that turns out too long (by a half) is taken again. The fluid shall be compressible, or "
+    "its pressure swings in steps that short. 'inf': steps are as long as the front lets them be, "
+    "and filter the waves; if a tip then runs at more than 0.1, the run says so.");
   prm.leave_subsection();
 }
 
@@ -41,12 +44,6 @@ void WaveSteps::parse_parameters(ParameterHandler &prm)
 }
 
 
-void WaveSteps::set_rock(const RockProperties &rock)
-{
-  rayleigh_speed = stockwork::rayleigh_speed(rock);
-}
-
-
 bool WaveSteps::are_wanted() const
 {
   return std::isfinite(threshold);
@@ -54,19 +51,23 @@ bool WaveSteps::are_wanted() const
 
 
 template <int dim>
-void WaveSteps::set_mesh(const parallel::distributed::Triangulation<dim> &triangulation,
-                         const Rock &rock)
+void WaveSteps::set_segments(const std::vector<NetworkSegment<dim>> &segments, const Rock &rock)
 {
-  double crossing = std::numeric_limits<double>::infinity(), size = crossing;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const double extent = cell->minimum_vertex_distance();
-      size = std::min(size, extent);
-      crossing = std::min(crossing, extent / fastest_wave_speed(rock(cell->material_id())));
-    }
-  cell_size = Utilities::MPI::min(size, triangulation.get_communicator());
-  resolved = share_of_crossing * Utilities::MPI::min(crossing, triangulation.get_communicator());
+  double sum = 0., fastest = 0.;
+  std::set<std::pair<types::material_id, bool>> seen;
+  rayleigh_speed = std::numeric_limits<double>::infinity();
+  for (const NetworkSegment<dim> &segment : segments)
+  {
+    sum += segment.size();
+    if (!seen.insert({segment.region, segment.rock_has_pore_pressure}).second)
+      continue;
+    const RockProperties &there = rock(segment.region);
+    rayleigh_speed = std::min(rayleigh_speed, stockwork::rayleigh_speed(there));
+    fastest = std::max(fastest, fastest_wave_speed(there, segment.rock_has_pore_pressure));
+  }
+  segment_size = segments.empty() ? 0. : sum / segments.size();
+  resolved = segments.empty() ? std::numeric_limits<double>::infinity()
+                              : share_of_crossing * segment_size / fastest;
 }
 
 
@@ -79,13 +80,18 @@ double WaveSteps::tip_speed(const double dt, const unsigned int advances) const
     time += step->dt;
     n += step->advances;
   }
-  // From within the first of n segments to within the last of them is at least this far.
-  return n < 2 ? 0. : (n - 1) * cell_size / time / rayleigh_speed;
+  // From somewhere in the first of n segments to somewhere in the last of them.
+  return n < 2 ? 0. : (n - 1) * segment_size / time / rayleigh_speed;
 }
 
 
 void WaveSteps::accept(const double dt, const unsigned int advances)
 {
+  if (advances == 0 && !steps.empty())
+  {
+    steps.back().dt += dt;
+    return;
+  }
   steps.push_back({dt, advances});
   unsigned int n = 0;
   for (const Step &step : steps)
@@ -98,6 +104,6 @@ void WaveSteps::accept(const double dt, const unsigned int advances)
 }
 
 
-template void WaveSteps::set_mesh<2>(const parallel::distributed::Triangulation<2> &, const Rock &);
-template void WaveSteps::set_mesh<3>(const parallel::distributed::Triangulation<3> &, const Rock &);
+template void WaveSteps::set_segments<2>(const std::vector<NetworkSegment<2>> &, const Rock &);
+template void WaveSteps::set_segments<3>(const std::vector<NetworkSegment<3>> &, const Rock &);
 } // namespace stockwork

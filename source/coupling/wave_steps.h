@@ -1,9 +1,10 @@
 #pragma once
 
+#include "flow/network_segment.h"
+
 #include "stockwork/rock/rock.h"
 
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/distributed/tria.h>
 
 #include <boost/serialization/vector.hpp>
 
@@ -12,8 +13,8 @@
 
 namespace stockwork
 {
-/// How long steps may be with inertia: while a tip runs fast against waves, they are short enough
-/// to resolve these ('Time/Waves resolved above'); else a front's speed is all that sets them.
+/// Steps with inertia, while a tip runs fast against waves: so short that they resolve these
+/// ('Time/Waves resolved above').
 class WaveSteps
 {
 public:
@@ -21,28 +22,25 @@ public:
 
   void parse_parameters(dealii::ParameterHandler &prm);
 
-  /// Of the first region's rock: tips are compared with its waves.
-  void set_rock(const RockProperties &rock);
-
   /// Whether the deck asks for it.
   bool are_wanted() const;
 
-  /// The mesh is new. Collective.
+  /// The fracture is new: its segments say how far tips come, and which rock they run through.
   template <int dim>
-  void set_mesh(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                const Rock &rock);
+  void set_segments(const std::vector<NetworkSegment<dim>> &segments, const Rock &rock);
 
-  /// The longest in which waves are resolved, half of what the fastest takes through a cell [s].
+  /// The longest step that resolves waves, half of what the fastest takes through a segment [s].
   double longest() const
   {
     return resolved;
   }
 
-  /// The speed of the fastest tip over that of Rayleigh waves, at least, when it has come by so
-  /// many segments within the next dt [s]. Zero before it has come into a second one.
+  /// The speed of a tip over that of Rayleigh waves, if it comes into so many segments within the
+  /// next dt [s]: a mean over the last five. (Where tips take turns, that of them together.) Zero
+  /// before it has come into a second one.
   double tip_speed(double dt, unsigned int advances) const;
 
-  /// Whether this is fast.
+  /// Whether steps shall resolve waves at this speed.
   bool is_fast(const double speed) const
   {
     return speed > threshold;
@@ -58,6 +56,8 @@ public:
   }
 
 private:
+  /// A step in which a tip has advanced, and what follows until the next one. The first may be
+  /// rest.
   struct Step
   {
     double dt;
@@ -71,9 +71,12 @@ private:
   };
 
   double threshold = std::numeric_limits<double>::infinity(); ///< over the speed of Rayleigh waves
-  double rayleigh_speed = 0.;                                 ///< [m/s]
-  double cell_size = 0.;                                      ///< the smallest [m]
+  double rayleigh_speed = 0.;                                 ///< the least [m/s]
+  double segment_size = 0.;                                   ///< in the mean [m]
   double resolved = std::numeric_limits<double>::infinity();  ///< longest()
   std::vector<Step> steps; ///< the last ones, as many as it takes for the speed
 };
+
+/// From which on a tip is fast, and inertia matters, over the speed of Rayleigh waves.
+constexpr double speed_of_fast_tips = 0.1;
 } // namespace stockwork

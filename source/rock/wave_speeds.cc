@@ -2,6 +2,7 @@
 
 #include "stockwork/rock/linear_stiffness.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stockwork
@@ -26,11 +27,14 @@ double rayleigh_speed(const RockProperties &rock)
 }
 
 
-double fastest_wave_speed(const RockProperties &rock)
+double fastest_wave_speed(const RockProperties &rock, const bool has_pore_pressure)
 {
   const LinearStiffness<2> stiffness(rock);
   double modulus = stiffness.bulk_modulus() + stiffness.shear_modulus();
-  if (rock.inverse_biot_modulus > 0.)
+  if (rock.stiffness)
+    for (unsigned int d = 0; d < 3; ++d)
+      modulus = std::max(modulus, (*rock.stiffness)[d][d][d][d]);
+  if (has_pore_pressure && rock.inverse_biot_modulus > 0.)
     modulus += rock.biot_coefficient * rock.biot_coefficient / rock.inverse_biot_modulus;
   return std::sqrt(modulus / density_of(rock));
 }

@@ -8,6 +8,7 @@ namespace stockwork
 /// as heavy as most.
 double rayleigh_speed(const RockProperties &rock);
 
-/// Of compression, in rock whose pores keep their fluid [m/s]. Density as above.
-double fastest_wave_speed(const RockProperties &rock);
+/// Of compression, along the stiffest axis of the run [m/s]. Density as above.
+/// @param has_pore_pressure the rock's pores keep their fluid: its undrained stiffness counts
+double fastest_wave_speed(const RockProperties &rock, bool has_pore_pressure);
 } // namespace stockwork
