@@ -120,7 +120,7 @@ def table(options):
 
 def print_table(rows):
     """Of named directories. The exit status: 1 if there is nothing in any of them."""
-    print("| | to [s] | inlet pressure, greatest, last [MPa] | aperture [mm] | extent in x, y [m] | branches, forks | "
+    print("| | to [s] | inlet pressure, greatest, last [MPa] | aperture [mm] | extent in x, y [m] | branches, forks (at any time) | "
           "greatest speed of the tip over c_R | leaked [%] | balance | steps (tried again) | processor [min] |")
     print("| --- | ---: | --- | ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |")
     n_read = 0
@@ -138,7 +138,7 @@ def print_table(rows):
         print(f"| {name} | {last['time']:.3g}" + ("" if summary["status"] == "finished" else f" of {end:g}")
               + f" | {1e-6 * max(columns['inlet_pressure']):.3g}, {1e-6 * last['inlet_pressure']:.3g}"
               f" | {1e3 * last['inlet_aperture']:.3g} | {last['extent_x']:.3g}, {last['extent_y']:.2g}"
-              f" | {last['branches']:g}, {last['forks']:g} | {speed / rayleigh_speed(deck):.3f}"
+              f" | {last['branches']:g}, {last['forks']:g} ({max(columns['forks']):g}) | {speed / rayleigh_speed(deck):.3f}"
               f" | {100. * last['leaked_volume'] / last['injected_volume']:.2g}"
               f" | {max(map(abs, columns['fluid_balance_error'])):.0e}"
               f" | {summary['steps']} ({summary['rejected_steps']}) | {summary['cpu_seconds'] / 60.:.1f} |")
