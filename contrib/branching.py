@@ -146,7 +146,7 @@ def print_table(rows):
 
 
 def study(options):
-    """Rows that cannot end for good (exit status 2 says why) are rows all the same."""
+    """A run that stops before its end is a row of the table like any other."""
     places = {name: os.path.join(options.output, "study", re.sub(r"[^a-z0-9.]+", "_", name)) for name in STUDY}
     for name, settings in STUDY.items():
         run_deck(options.program, deck_of(*STUDIED), places[name], ["Resolution=fine", *settings, *options.set])
@@ -211,12 +211,16 @@ def draw(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", choices=("run", "table", "draw", "study"))
-    parser.add_argument("--factors", nargs="+", choices=FACTORS, default=list(FACTORS))
-    parser.add_argument("--resolution", choices=("coarse", "medium", "fine"), default="fine")
+    parser.add_argument("--factors", nargs="+", choices=FACTORS, help="not with study; default: all")
+    parser.add_argument("--resolution", choices=("coarse", "medium", "fine"), help="not with study; default: fine")
     parser.add_argument("--output", default="branching", metavar="DIR")
     parser.add_argument("--program", type=program, default=PROGRAM)
     parser.add_argument("--set", action="append", default=[], metavar="'Section/Entry=value'")
     options = parser.parse_args()
+    if options.command == "study" and (options.factors or options.resolution):
+        parser.error(f"the study is of {'/'.join(STUDIED)}, fine: no --factors, no --resolution")
+    options.factors = options.factors or list(FACTORS)
+    options.resolution = options.resolution or "fine"
     return {"run": run, "table": table, "draw": draw, "study": study}[options.command](options)
 
 

@@ -93,7 +93,7 @@ void add_hydraulic_numbers(const Case<2> &the_case,
   const LeakedShare leaked = leaked_share(the_case, pumping);
   const double speed = kgd.tip_speed(0.01 * pumping.duration) / rayleigh_speed(rock);
   numbers.push_back({"tip speed / Rayleigh speed (at 1 % of the time)", speed,
-                     speed < 0.1
+                     speed < speed_of_fast_tips
                        ? "inertia may be left out: waves settle long before the tip moves on"
                      : the_case.scheme.kind() == TimeScheme::Kind::newmark
                        ? "inertia matters; 'Time/Waves resolved above' has steps resolve it"

@@ -249,8 +249,10 @@ void Simulation<dim>::announce()
   run.out << "  " << in_words(cost, steps, run.n_ranks) << std::endl;
   const double resolved = stepper.wave_step();
   if (the_case.control.waves.are_wanted() && resolved < the_case.control.maximum_step)
-    run.out << "  more, of " << to_string(resolved, dimension::time)
-            << ", while a tip runs fast against waves ('Time/Waves resolved above')" << std::endl;
+    run.out << "  steps are of " << to_string(resolved, dimension::time)
+            << ", and there are more of them, while a tip runs fast against waves ('Time/Waves "
+               "resolved above')"
+            << std::endl;
   if (the_case.control.waves.are_wanted() && resolved < the_case.control.minimum_step)
     run.warn("Time/Minimum step: " + to_string(the_case.control.minimum_step, dimension::time) +
              " is longer than the steps that resolve waves, " +

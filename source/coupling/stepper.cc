@@ -1,5 +1,7 @@
 #include "coupling/stepper.h"
 
+#include "rock/wave_speeds.h"
+
 #include "stockwork/base/error.h"
 #include "stockwork/base/quantity.h"
 
@@ -310,22 +312,10 @@ double Stepper<dim>::wave_step()
 
 
 template <int dim>
-double Stepper<dim>::limit_by_waves(const Verdict &verdict, const double dt, double &speed)
+double Stepper<dim>::speed_of_tips(const Verdict &verdict, const double dt)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (!verdict.advances)
-    return infinity;
-  const double resolved = wave_step();
-  if (std::isinf(resolved))
-    return infinity;
-  speed = control.waves.tip_speed(dt, *verdict.advances);
-  const double limit = std::max(resolved, control.minimum_step);
-  // Those who ask for waves have been told of a least step that is too long.
-  if (!control.waves.are_wanted() && speed > speed_of_fast_tips && dt > too_long * resolved)
-    run.warn("A tip runs at more than " + to_string(speed_of_fast_tips, dimension::number) +
-             " of the speed of Rayleigh waves, in steps that filter the waves. 'Time/Waves "
-             "resolved above = 0.1' has steps resolve them.");
-  return control.waves.is_fast(speed) ? limit : infinity;
+  const bool runs_in_waves = verdict.advances && std::isfinite(wave_step());
+  return runs_in_waves ? control.waves.tip_speed(dt, *verdict.advances) : 0.;
 }
 
 
@@ -362,9 +352,11 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       reason = "rejected as the deck demands ('Time/Reject first attempt of step')";
     }
 
-    double shorter = 0.5 * dt, speed = 0.;
-    const double by_waves =
-      accepted ? limit_by_waves(verdict, dt, speed) : std::numeric_limits<double>::infinity();
+    double shorter = 0.5 * dt;
+    const double speed = accepted ? speed_of_tips(verdict, dt) : 0.,
+                 by_waves = control.waves.is_fast(speed)
+                              ? std::max(control.waves.longest(), control.minimum_step)
+                              : std::numeric_limits<double>::infinity();
     if (too_long * by_waves < dt)
     {
       accepted = false;
@@ -377,6 +369,12 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
 
     if (accepted)
     {
+      // Those who ask for waves have been told of a least step that is too long for them.
+      if (!control.waves.are_wanted() && speed > speed_of_fast_tips &&
+          dt > too_long * control.waves.longest())
+        run.warn("A tip runs at more than " + to_string(speed_of_fast_tips, dimension::number) +
+                 " of the speed of Rayleigh waves, in steps that filter the waves. 'Time/Waves "
+                 "resolved above = 0.1' has steps resolve them.");
       if (verdict.advances && scheme.kind() == TimeScheme::Kind::newmark)
         control.waves.accept(dt, *verdict.advances);
       commit(last_state());

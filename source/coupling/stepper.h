@@ -137,10 +137,9 @@ private:
 
   Outcome attempt(StepReport &report, std::string &advice, Verdict &verdict);
 
-  /// What the speed of the tips, in an attempt that has succeeded, limits steps to: one that
-  /// resolves waves, or nothing. Warns of steps that should, and are not asked to.
-  /// @param speed over that of Rayleigh waves
-  double limit_by_waves(const Verdict &verdict, double dt, double &speed);
+  /// In an attempt that has succeeded, over that of Rayleigh waves; zero where there are no waves
+  /// of a fracture that grows.
+  double speed_of_tips(const Verdict &verdict, double dt);
 
   StepReport advance_explicitly(double time, double dt, unsigned int step);
 

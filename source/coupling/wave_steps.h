@@ -76,7 +76,4 @@ private:
   double resolved = std::numeric_limits<double>::infinity();  ///< longest()
   std::vector<Step> steps; ///< the last ones, as many as it takes for the speed
 };
-
-/// From which on a tip is fast, and inertia matters, over the speed of Rayleigh waves.
-constexpr double speed_of_fast_tips = 0.1;
 } // namespace stockwork

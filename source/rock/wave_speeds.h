@@ -4,6 +4,9 @@
 
 namespace stockwork
 {
+/// From which on inertia matters to a fracture: of its tips, over that of Rayleigh waves.
+constexpr double speed_of_fast_tips = 0.1;
+
 /// To 1 %: Viktorov's fit to the shear wave speed [m/s]. Where the deck gives no density, of rock
 /// as heavy as most.
 double rayleigh_speed(const RockProperties &rock);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "coupling/wave_steps.h"
 #include "rock/wave_speeds.h"
@@ -34,7 +35,7 @@ TEST_CASE("Rayleigh's waves and those of compression")
   const RockProperties rock = rock_of_waves().main();
   CHECK(rayleigh_speed(rock) == doctest::Approx(0.9194 * 2000.).epsilon(2e-3)); // Viktorov 1967
   CHECK(fastest_wave_speed(rock, false) == doctest::Approx(2000. * std::sqrt(3.)));
-  // K_u = 50/3 + 20 GPa: alpha^2 M on top.
+  // lambda + 2 G is 30 GPa, alpha^2 M another 20.
   const RockProperties porous =
     rock_of_waves(" set Bulk model = poroelastic\n set Biot coefficient = 1\n"
                   " set Biot modulus = 20 GPa\n set Permeability = 1e-14 m^2\n")
@@ -79,7 +80,7 @@ TEST_CASE("a tip is as fast as it comes into segments; steps resolve waves in a 
   std::stringstream file;
   {
     boost::archive::binary_oarchive archive(file);
-    archive << const_cast<const WaveSteps &>(waves);
+    archive << std::as_const(waves);
   }
   WaveSteps again;
   again.set_segments(segments, rock);
