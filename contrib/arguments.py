@@ -33,6 +33,13 @@ def positive(text):
     return value
 
 
+def not_negative(text):
+    value = float(text)
+    if not 0. <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is less than zero, or not finite")
+    return value
+
+
 def window(text):
     """x0,x1,y0,y1"""
     try:

@@ -14,7 +14,6 @@ inertia, bonds, the order in which they break; load and fluid as published), and
 what of a fracture's shape is the lattice's, always at fine resolution. Results are in DIR/study.
 """
 import argparse
-import math
 import os
 import re
 import sys
@@ -30,6 +29,7 @@ import field  # noqa: E402
 from arguments import PROGRAM, program  # noqa: E402
 from deck_runs import run_deck  # noqa: E402
 from results import ResultError, read_deck, read_statistics, read_summary, script  # noqa: E402
+from tips import greatest_speed, number, rayleigh_speed  # noqa: E402
 
 # Factor: its values.
 FACTORS = {"rate": ("0.001", "0.005", "0.01"), "modulus": ("15.96", "23.94", "31.92"), "porosity": ("0.2", "0.3", "0.4"),
@@ -37,10 +37,6 @@ FACTORS = {"rate": ("0.001", "0.005", "0.01"), "modulus": ("15.96", "23.94", "31
            "toughness": ("1", "0.01", "0.001")}
 UNITS = {"rate": "m²/s per wing", "modulus": "GPa", "porosity": "", "permeability": "m²", "viscosity": "Pa s",
          "toughness": "J/m²"}
-
-# Units in these decks, and others that '--set' may bring.
-SI = {"": 1., "GPa": 1e9, "MPa": 1e6, "Pa": 1., "m": 1., "cm": 1e-2, "mm": 1e-3, "s": 1., "ms": 1e-3, "min": 60.,
-      "kg/m^3": 1.}
 
 # Rows of the study: a name, its settings.
 BONDS = "Fracture/peridynamics/"
@@ -85,33 +81,6 @@ def run(options):
                       [f"Resolution={options.resolution}", *options.set])
              for factor, value in runs(options)]
     return 0 if all(ended) else 1
-
-
-def number(text):
-    """Of an entry of these decks in SI units."""
-    value, unit = (text.split() + [""])[:2]
-    if unit not in SI:
-        raise ResultError(f"'{text}': the unit is none of {', '.join(filter(None, SI))}")
-    return float(value) * SI[unit]
-
-
-def rayleigh_speed(deck):
-    """Of the drained rock, after Viktorov (1967): c_s (0.862 + 1.14 nu)/(1 + nu)."""
-    stiffness, ratio = number(deck["Rock/Young modulus"]), number(deck["Rock/Poisson ratio"])
-    shear_speed = math.sqrt(0.5 * stiffness / (1. + ratio) / number(deck["Rock/Density"]))
-    return shear_speed * (0.862 + 1.14 * ratio) / (1. + ratio)
-
-
-def greatest_speed(times, places, least_way):
-    """Of a tip [m/s]: the shortest time in which it comes at least so far."""
-    fastest, last = 0., 0
-    for first in range(len(times)):
-        while last < len(times) and places[last] - places[first] < least_way:
-            last += 1
-        if last == len(times):
-            break
-        fastest = max(fastest, (places[last] - places[first]) / (times[last] - times[first]))
-    return fastest
 
 
 def table(options):

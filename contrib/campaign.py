@@ -23,7 +23,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
-from arguments import PROGRAM, positive, program, whole_from  # noqa: E402
+from arguments import PROGRAM, not_negative, positive, program, whole_from  # noqa: E402
 from campaign.deck import deck  # noqa: E402
 from campaign.judge import Run, judge  # noqa: E402
 from campaign.scene import FAMILIES, control, draw  # noqa: E402
@@ -87,7 +87,8 @@ class Controls:
 def attempt(options, controls, family, number):
     """Run a scene beside its control: whether it is right."""
     began = time.time()
-    scene = draw(family, options.seed, number, (options.km_from, options.km_to), options.wing)
+    scene = draw(family, options.seed, number, (options.km_from, options.km_to), options.wing,
+                 options.pressed)
     directory = os.path.join(options.keep, f"{family}_{options.seed}_{number}")
     shutil.rmtree(directory, ignore_errors=True)
     beside, why = controls.beside(scene, number)
@@ -118,6 +119,8 @@ def main():
     parser.add_argument("--km-from", type=positive, default=0.5)
     parser.add_argument("--km-to", type=positive, default=8.)
     parser.add_argument("--wing", type=positive, default=42., help="length of a wing at the end, in cells")
+    parser.add_argument("--pressed", type=not_negative, default=0., metavar="MPA",
+                        help="compression from all sides, of scene and control alike: bonds in viscous fluid need it")
     parser.add_argument("--jobs", type=whole_from(1), default=2, help="scenes at once")
     parser.add_argument("--timeout", type=positive, default=1800., help="seconds per run")
     parser.add_argument("--program", type=program, default=PROGRAM)

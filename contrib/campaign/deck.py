@@ -93,7 +93,7 @@ def deck(scene, model="cohesive_xfem", seed=0, number=0):
     if scene.exchanged:
         notch = notch[::-1]
     fraction = 0.5 if scene.side else 1
-    stressed = scene.along or scene.across
+    stressed = scene.along or scene.across or scene.pressed
     return DECK.format(
         about=scene.describe(), family=scene.family, seed=seed, number=number, scene=scene, model=model,
         elements="\nsubsection Discretisation\n  set Elements = Q1-Q1 stabilised\nend\n" if model != "cohesive_xfem" else "",

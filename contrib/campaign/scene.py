@@ -33,6 +33,7 @@ class Scene:
     centre: tuple = (0.5, 0.5)   # from the corner of a cell
     along: float = 0.            # compression along the fracture [MPa]
     across: float = 0.           # and across it
+    pressed: float = 0.          # and from all sides besides [MPa]
     side: str = ""               # that a single wing comes out of; empty: both wings
     exchanged: bool = False      # the crack's ends listed the other way round
     cell: float = 0.1            # [m]
@@ -92,14 +93,15 @@ class Scene:
         """xx, yy, xy [MPa], tension positive."""
         t = self.direction
         n = np.array([-t[1], t[0]])
-        tensor = -self.along * np.outer(t, t) - self.across * np.outer(n, n)
+        tensor = (-(self.along + self.pressed) * np.outer(t, t)
+                  - (self.across + self.pressed) * np.outer(n, n))
         return tensor[0, 0], tensor[1, 1], tensor[0, 1]
 
     def describe(self):
         text = f"K_m {self.K_m:.2f}, {self.angle:6.1f} deg"
         text += f", centre {self.centre[0]:+.2f} {self.centre[1]:+.2f}"
         if self.along or self.across:
-            text += f", -{self.along:.1f}/-{self.across:.1f} MPa"
+            text += f", -{self.along + self.pressed:.1f}/-{self.across + self.pressed:.1f} MPa"
         if self.family == "scaled":
             text += f", wing {self.length:.3g} m, E {self.modulus / 1e9:.3g} GPa, Q {self.rate:.2g} m^2/s"
         if self.turn:
@@ -108,12 +110,12 @@ class Scene:
 
 
 def control(scene):
-    """The same fracture in the middle of a row of cells, without stress, at the scale of always.
-    What turns has none: only its direction is known."""
-    return None if scene.family == "turning" else Scene("control", scene.K_m, scene.wing)
+    """The same fracture in the middle of a row of cells, without stress but what presses all scenes, at the scale of
+    always. What turns has none: only its direction is known."""
+    return None if scene.family == "turning" else Scene("control", scene.K_m, scene.wing, pressed=scene.pressed)
 
 
-def draw(family, seed, number, K_m_range=(0.5, 8.), wing=42.):
+def draw(family, seed, number, K_m_range=(0.5, 8.), wing=42., pressed=0.):
     """Scene `number` of a family; the others do not matter. K_m is that of the number."""
     K_m = float(np.random.default_rng([seed, number]).uniform(*K_m_range))
     random = np.random.default_rng([seed, zlib.crc32(family.encode()), number])
@@ -121,7 +123,7 @@ def draw(family, seed, number, K_m_range=(0.5, 8.), wing=42.):
     centre = tuple(float(x) for x in random.uniform(-0.5, 0.5, 2))
     along, across = (float(x) for x in sorted(random.uniform(0., 60., 2), reverse=True))
     quarter = int(random.integers(4))
-    scene = Scene(family, K_m, wing)
+    scene = Scene(family, K_m, wing, pressed=pressed)
     put = dataclasses.replace
 
     if family == "turned":

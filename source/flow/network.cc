@@ -510,7 +510,10 @@ Transmissibility Network<dim>::transmissibility(const unsigned int segment,
 
 
 /// Newton's method for the complementarity: of both conditions a segment has the one that is nearer
-/// to being violated (an active set; Hintermueller, Ito and Kunisch 2003).
+/// to being violated (an active set; Hintermueller, Ito and Kunisch 2003). What is nearer is a
+/// matter of the weight. Newton's iterations have volumes that are wrong by far, above all where
+/// the fluid has just come; a segment must not turn to vapour for that under a pressure at which no
+/// fluid would. So it is the pressure that counts: to a millionth of its scale.
 template <int dim>
 void Network<dim>::find_vapour(const StepContext &context, Values &values) const
 {
@@ -518,6 +521,7 @@ void Network<dim>::find_vapour(const StepContext &context, Values &values) const
   values.cavitates.assign(network.size(), false);
   if (!may_cavitate())
     return;
+  constexpr double by_pressure = 1e6;
   const double dt = context.fracture_dt();
   const double c_f = compressibility * context.fracture_pressure_factor();
   for (unsigned int i = 0; i < network.size(); ++i)
@@ -530,7 +534,7 @@ void Network<dim>::find_vapour(const StepContext &context, Values &values) const
                   2. * area * dt * leak_off_coefficient(i) * values.filter_cake_drop[i];
     for (const Edge &edge : edges[i])
       lack += dt * transmissibility(i, edge, values).value * (p - values.pressure[edge.other]);
-    values.cavitates[i] = lack > vapour_scale(i) * (p - vapour_pressure);
+    values.cavitates[i] = lack > by_pressure * vapour_scale(i) * (p - vapour_pressure);
     if (values.cavitates[i])
       values.vapour[i] = lack;
   }

@@ -5,10 +5,10 @@
 #include "fracture/peridynamics/wording.h"
 #include "stockwork/base/error.h"
 #include "stockwork/fracture/needs.h"
-#include "verification/analytical/kgd.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stockwork::peridynamics
 {
@@ -199,40 +199,82 @@ void foresee_oblique_cracks(const Lattice<dim> &lattice,
 }
 
 
+/// The least compression of the rock at the middle of a crack, of its grains in porous rock [Pa].
+template <int dim>
+double least_compression(const Scene<dim> &scene, const InitialCrack<dim> &crack)
+{
+  double least = std::numeric_limits<double>::max();
+  for (const auto &[middle, normal] : flat_parts(crack))
+  {
+    double tension = eigenvalues(scene.in_situ_stress(middle))[0];
+    if (scene.has_pore_pressure)
+      tension += scene.rock.main().biot_coefficient * scene.in_situ_pore_pressure(middle);
+    least = std::min(least, -tension);
+  }
+  return least > 0. ? least : 0.; // no "-0 MPa"
+}
+
+
 /// The pressure of a fracture in an infinite body is greatest when it is short. It is taken when
-/// each wing has the length of the crack, or of a horizon.
+/// each wing has the length of the crack, or of a horizon. Bonds left to themselves hold it if it
+/// is below their strength. Where a path leads, the rock beside it has to hold, and has less to
+/// bear: kgd/viscosity came to its end at 3.2 times the strength (0.385 MPa m^0.5, no stress) and
+/// at 2.9 times strength and compression (0.01 MPa m^0.5, 0.3 MPa), and did not at 6.1 and 8.2
+/// (doc/laboratory/viscous_bonds.md).
 template <int dim>
 void foresee_pressure(const Lattice<dim> &lattice,
                       const double spacing,
                       std::vector<std::string> &messages)
 {
+  constexpr double beside_a_path = 4.;
   const Parameters<dim> &parameters = lattice.parameters;
   const Scene<dim> &scene = lattice.scene;
-  if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
+  const auto fracture = driven_fracture(scene);
+  if (!fracture)
     return;
-  const RockProperties &rock = scene.rock.main();
-  const analytical::KgdParameters fracture{
-    rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio, scene.rock.fluid().viscosity,
-    rock.toughness(), scene.injection_rate};
-  const analytical::Kgd kgd(fracture);
-  double wing = parameters.horizon * spacing;
+  const analytical::Kgd kgd(*fracture);
+  double wing = parameters.horizon * spacing, compression = std::numeric_limits<double>::max();
   for (const InitialCrack<dim> &crack : scene.cracks)
+  {
     wing = std::max(wing, crack.size());
+    compression = std::min(compression, least_compression(scene, crack));
+  }
   // Lengths are as t^(2/3).
   const double time = std::pow(wing / kgd.half_length(1.), 1.5);
-  const double pressure = kgd.inlet_pressure(time);
-  if (pressure < lattice.strength())
+  const double pressure = kgd.inlet_pressure(time), strength = lattice.strength();
+  const double held = parameters.tracked ? beside_a_path * (strength + compression) : strength;
+  if (pressure < held)
     return;
-  const double finer = std::pow(lattice.strength() / pressure, 2) * spacing;
+  const double finer = std::pow(strength / pressure, 2) * spacing;
   messages.push_back(
-    "A fracture of this rock, fluid and rate (K_m = " + text(fracture.dimensionless_toughness()) +
+    "A fracture of this rock, fluid and rate (K_m = " + text(fracture->dimensionless_toughness()) +
     ") needs a net pressure of " + megapascals(pressure) + " when its wings are " + text(wing) +
-    " m long, and the bonds of cells of " + text(spacing) + " m hold " +
-    megapascals(lattice.strength()) +
-    ": they may break over an area where a crack should be. Cells of " + text(finer) +
-    " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'.");
+    " m long, and the bonds of cells of " + text(spacing) + " m hold " + megapascals(strength) +
+    (parameters.tracked
+       ? ", in rock under " + megapascals(compression) +
+           " of stress in situ: cracks may begin all over the rock beside the fracture, and the "
+           "run end. Rock that is pressed together by " +
+           megapascals(pressure / beside_a_path - strength) +
+           " would hold ('In situ/Stress'); so does 'cohesive_xfem', where none begin."
+       : ": they may break over an area where a crack should be. Cells of " + text(finer) +
+           " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'" +
+           (dim == 2 && !parameters.state_based && parameters.softening > 1.
+              ? ", or 'Fracture/peridynamics/Tracking = path'."
+              : ".")));
 }
 } // namespace
+
+
+template <int dim>
+std::optional<analytical::KgdParameters> driven_fracture(const Scene<dim> &scene)
+{
+  if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
+    return std::nullopt;
+  const RockProperties &rock = scene.rock.main();
+  return analytical::KgdParameters{rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio,
+                                   scene.rock.fluid().viscosity, rock.toughness(),
+                                   scene.injection_rate};
+}
 
 
 template <int dim>
@@ -315,6 +357,8 @@ std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spaci
   return messages;
 }
 
+template std::optional<analytical::KgdParameters> driven_fracture(const Scene<2> &);
+template std::optional<analytical::KgdParameters> driven_fracture(const Scene<3> &);
 template void refuse_what_bonds_do_not_know(const Parameters<2> &, const Scene<2> &);
 template void refuse_what_bonds_do_not_know(const Parameters<3> &, const Scene<3> &);
 template void refuse_explicit_steps(const Parameters<2> &, const Scene<2> &);

@@ -4,6 +4,8 @@
 #include "discontinuity/contact.h"
 #include "exchange/flat_parts.h"
 #include "flow/permeability_tensor.h"
+#include "fracture/peridynamics/foresight.h"
+#include "fracture/peridynamics/wording.h"
 #include "mesh/box_list.h"
 #include "mesh/interpret_entry.h"
 #include "stockwork/base/error.h"
@@ -119,10 +121,10 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry(
     "Tracking", "auto", Patterns::Selection("auto|none|path"),
-    "auto: path where a crack is oblique to the mesh or the in-situ stress along it is not that "
-    "across it, and with 'Closure = in bonds', if it can be: in two dimensions, around cracks that "
-    "the deck "
-    "gives and fluid presses open, with bond-based bonds that soften, fluid in the segments, "
+    "auto: path where a crack is oblique to the mesh, or the in-situ stress along it is not that "
+    "across it, or viscosity dominates (K_m < 2, bonds beside the crack might break), and with "
+    "'Closure = in bonds', if it can be: in two dimensions, around cracks that the deck gives and "
+    "fluid presses open, with bond-based bonds that soften, fluid in the segments, "
     "neither another closure nor inertia; "
     "else none. none: any bond softens that is stretched too far; where nothing guides it, the "
     "way of a fracture is the mesh's. path: only those that cross a path, which "
@@ -181,6 +183,10 @@ std::string why_guided(const Scene<dim> &scene)
 }
 
 
+/// K_m below which bonds that are left to themselves may break beside a fracture: they hold at 1.5
+/// on cells of 0.5 m, the less the larger the cells are (doc/laboratory/viscous_bonds.md).
+constexpr double viscous = 2.;
+
 /// Whether the way of a fracture is tracked by default, and why.
 template <int dim>
 std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm,
@@ -209,6 +215,10 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {true, why};
   if (prm.get("Closure") == "in bonds")
     return {true, "the pressure is in the bonds"};
+  if (const auto fracture = driven_fracture(scene);
+      fracture && fracture->dimensionless_toughness() < viscous)
+    return {true, "the fluid is viscous (K_m = " + text(fracture->dimensionless_toughness()) +
+                    "), and its pressure may break bonds beside the crack"};
   return {false, "cracks lie along the mesh, in isotropic stress"};
 }
 
