@@ -10,9 +10,9 @@ or soften; the plate of glass, Kalthoff's plate and the notch under a given pres
 finished stays as it is. `table` prints what each crack did, `draw` the energy at which the strip forks. Results are in
 DIR/<case>/<name>.
 
-A crack forks when its breadth grows beyond a sixteenth of the body's: arms that die before are none. Where, and the angle
-between the arms, are read off the breadth over the length as that triples. Speeds are the greatest over a sixteenth of the
-length, before the fork.
+A crack forks when it becomes broader than three sixteenths of the body, and more than one before its tip has come through
+fifteen sixteenths of its length; arms that die before are none. Where, and the angle between the arms, are read off
+breadth over length in between. Speeds are the greatest over an eighth of the body's breadth, before the fork.
 """
 import argparse
 import itertools
@@ -73,7 +73,7 @@ RUNS = {
                notch(1, "fine", 3, "brittle", REST), notch(0.8, "fine", 3, "brittle"), notch(0.6, "fine", 3, "brittle"),
                notch(0.45, "medium", 3, "brittle"), notch(0.45, "fine", 3, "brittle")]}
 
-BREADTHS = {"pmma_strip": 16e-3, "glass_plate": 40e-3, "bridge": 16.}  # of the body [m]
+SIZES = {"pmma_strip": (32e-3, 16e-3), "glass_plate": (100e-3, 40e-3), "bridge": (8.1, 16.)}  # length, breadth of the body [m]
 
 
 def place(options, case, name):
@@ -87,73 +87,115 @@ def run(options):
     return 0 if all(ended) else 1
 
 
-def fork(length, breadth, least):
-    """(step, length, angle between the arms [degrees]) where the breadth has grown to so much, or None."""
-    first = next((i for i, b in enumerate(breadth) if b >= least), None)
-    if first is None:
+def fork(length, breadth, size):
+    """(step, length [m], angle between the arms [degrees]) where a crack in a body of a length and a breadth forks, or None."""
+    first, last = (next((i for i, b in enumerate(breadth) if b >= share / 16. * size[1]), None) for share in (1., 3.))
+    if last is None or length[first] > 15. / 16. * size[0]:
         return None
-    last = next((i for i, b in enumerate(breadth) if b >= 3. * least), len(breadth) - 1)
-    if length[last] <= length[first]:
-        return first, length[first], math.nan
-    slope = (breadth[last] - breadth[first]) / (length[last] - length[first])
-    return first, length[first] - breadth[first] / slope, 2. * math.degrees(math.atan(0.5 * slope))
+    ahead, apart = length[last] - length[first], breadth[last] - breadth[first]
+    if not ahead > 0.:
+        return first, length[first], 180.
+    return first, length[first] - breadth[first] * ahead / apart, 2. * math.degrees(math.atan(0.5 * apart / ahead))
 
 
 def outcome(case, directory):
-    """What a crack of a strip, a plate or a notch has done, by name."""
+    """What the crack of a strip, a plate or a notch has done, by name."""
     columns, summary, deck = read_statistics(directory), read_summary(directory), read_deck(directory)
-    times, length, breadth = columns["time"], columns["extent_x"], columns["extent_y"]
-    least = BREADTHS[case] / 16.
-    forked = fork(length, breadth, least)
-    end = forked[0] + 1 if forked else len(times)
-    speed = greatest_speed(times[:end], length[:end], BREADTHS[case] / 8. if case != "bridge" else 0.6)
-    return {"forked": forked, "speed": speed / rayleigh_speed(deck), "length": length[-1], "breadth": breadth[-1],
-            "balance": max(map(abs, columns["energy_balance_error"])), "seconds": summary["cpu_seconds"],
-            "time": times[forked[0]] if forked else times[-1], "status": summary["status"]}
+    length, breadth, size = columns["extent_x"], columns["extent_y"], SIZES[case]
+    forked = fork(length, breadth, size)
+    end = forked[0] + 1 if forked else len(length)
+    return {"forked": forked, "length": length[-1], "breadth": breadth[-1], "seconds": summary["cpu_seconds"],
+            "speed": greatest_speed(columns["time"][:end], length[:end], size[1] / 8.) / rayleigh_speed(deck),
+            "balance": max(map(abs, columns["energy_balance_error"]))}
 
 
 def stored_over_tough(stretch):
-    """Of the strip ahead of the crack, in plane stress with its grips held along it."""
-    deck = {"E": 3.09e9, "nu": 1. / 3., "G_c": 300., "height": 16e-3}
-    strain = 2e-3 * stretch / deck["height"]
-    return 0.5 * deck["E"] / (1. - deck["nu"]**2) * strain**2 * deck["height"] / deck["G_c"]
+    """Energy per area of the strip ahead of the crack over G_c, of prm/cases/dry/pmma_strip.part.prm: in plane stress, its
+    long sides held along themselves and moved apart by the stretch [mm] each."""
+    modulus, poisson_ratio, toughness, height = 3.09e9, 1. / 3., 300., SIZES["pmma_strip"][1]
+    strain = 2e-3 * stretch / height
+    return 0.5 * modulus / (1. - poisson_ratio**2) * strain**2 * height / toughness
 
 
-def told(case, directory):
-    """The cells of a row of the table."""
-    try:
-        found = outcome(case, directory)
-    except ResultError as error:
-        return f"{error} | | | | |"
-    scale, unit = (1e3, "mm") if case != "bridge" else (1., "m")
-    forked = "no" if not found["forked"] else f"at {scale * found['forked'][1]:.3g} {unit}, {found['forked'][2]:.0f}°"
-    return (f"{forked} | {found['speed']:.2f} | {scale * found['length']:.3g}, {scale * found['breadth']:.2g} | "
-            f"{found['balance']:.0e} | {found['seconds']:.0f} |")
+def forks_at(found, scale, unit):
+    return "no" if not found["forked"] else f"{scale * found['forked'][1]:.3g} {unit}, {found['forked'][2]:.0f}°"
 
 
-def threshold(options, resolution, horizon, law):
-    """(greatest energy without a fork below all forks, least with one, the forks' energies, speeds, angles), energies over G_c."""
-    found = {}
-    for stretch in STRETCHES:
-        try:
-            found[stretch] = outcome("pmma_strip", place(options, "pmma_strip", strip(stretch, resolution, horizon, law)[0]))
-        except ResultError:
+def strip_rows(options):
+    """(cells, horizon, bonds): {stretch: outcome} of what has run."""
+    for resolution, horizon, law in itertools.product(("medium", "fine"), HORIZONS, LAWS):
+        found = {}
+        for stretch in STRETCHES:
+            try:
+                found[stretch] = outcome("pmma_strip", place(options, "pmma_strip", strip(stretch, resolution, horizon, law)[0]))
+            except ResultError:
+                continue
+        yield ({"medium": "0.1 mm", "fine": "0.05 mm"}[resolution], horizon, law), found
+
+
+def print_strips(options):
+    print("\n| cells, horizon, bonds | " + " | ".join(f"{stored_over_tough(stretch):.2f} G_c" for stretch in STRETCHES)
+          + " | tip speed over c_R | balance | processor [s] |\n| --- |" + " --- |" * len(STRETCHES) + " --- | ---: | --- |")
+    for (cells, horizon, law), found in strip_rows(options):
+        if not found:
             continue
-    return found
+        speeds, seconds = ([outcome[name] for outcome in found.values()] for name in ("speed", "seconds"))
+        print(f"| {cells}, {horizon}, {law} | "
+              + " | ".join(forks_at(found[stretch], 1e3, "mm") if stretch in found else "" for stretch in STRETCHES)
+              + f" | {min(speeds):.2f} to {max(speeds):.2f} | {max(outcome['balance'] for outcome in found.values()):.0e}"
+              f" | {min(seconds):.0f} to {max(seconds):.0f} |")
+
+
+def print_bodies(options, case):
+    scale, unit = (1., "m") if case == "bridge" else (1e3, "mm")
+    print(f"\n| {case} | forks, angle between the arms | tip speed over c_R | end: length, breadth [{unit}] | balance | "
+          "processor [s] |\n| --- | --- | ---: | --- | ---: | ---: |")
+    for name, _, _ in RUNS[case]:
+        try:
+            found = outcome(case, place(options, case, name))
+        except ResultError as error:
+            print(f"| {name} | {error} | | | | |")
+            continue
+        print(f"| {name} | {forks_at(found, scale, unit)} | {found['speed']:.2f} | {scale * found['length']:.3g}, "
+              f"{scale * found['breadth']:.2g} | {found['balance']:.0e} | {found['seconds']:.0f} |")
+
+
+def print_kalthoff(options):
+    print("\n| kalthoff | angle over the first 10, 20, 60 mm | balance | processor [s] |\n| --- | --- | ---: | ---: |")
+    for name, _, _ in RUNS["kalthoff"]:
+        print(f"| {name} | {kalthoff(place(options, 'kalthoff', name))}")
 
 
 def table(options):
     for case in options.cases:
-        if case == "kalthoff":
-            print("\n| Kalthoff | angle over the first 10, 20, 60 mm | balance | processor [s] |\n| --- | --- | ---: | ---: |")
-            for name, _, _ in RUNS[case]:
-                print(f"| {name} | {kalthoff(place(options, case, name))}")
-            continue
-        unit = "m" if case == "bridge" else "mm"
-        print(f"\n| {case} | forks, angle between the arms | tip speed over c_R | end: length, breadth [{unit}] | balance | processor [s] |\n"
-              "| --- | --- | ---: | --- | ---: | ---: |")
-        for name, _, _ in RUNS[case]:
-            print(f"| {name} | {told(case, place(options, case, name))}")
+        if case == "pmma_strip":
+            print_strips(options)
+        elif case == "kalthoff":
+            print_kalthoff(options)
+        else:
+            print_bodies(options, case)
+    return 0
+
+
+def draw(options):
+    """At which stored energy the strip forks."""
+    import matplotlib  # here, for all else is the standard library's
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    rows = [row for row in strip_rows(options) if row[1]]
+    if not rows:
+        raise ResultError(f"no run of the strip has ended in '{options.output}'")
+    figure, axis = plt.subplots(figsize=(7.5, 0.6 + 0.3 * len(rows)), layout="constrained")
+    for height, (_, found) in enumerate(reversed(rows)):
+        for stretch, what in found.items():
+            axis.plot(stored_over_tough(stretch), height, "o", markersize=8, color="tab:blue",
+                      markerfacecolor="tab:blue" if what["forked"] else "white")
+    axis.axvline(2., color="0.6", linestyle="--", zorder=0)
+    axis.set_yticks(range(len(rows)), [f"{cells}, {horizon} cells, {law}" for (cells, horizon, law), _ in reversed(rows)])
+    axis.set_xlabel("energy stored ahead over $G_c$ (filled: forks; dashed: Bleyer et al. 2017)")
+    output = os.path.join(options.output, "pmma_strip.png")
+    figure.savefig(output, dpi=100)
+    print(output)
     return 0
 
 
@@ -174,12 +216,12 @@ def kalthoff(directory):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=("run", "table"))
+    parser.add_argument("command", choices=("run", "table", "draw"))
     parser.add_argument("--cases", nargs="+", choices=RUNS, default=list(RUNS))
     parser.add_argument("--output", default="dry", metavar="DIR")
     parser.add_argument("--program", type=program, default=PROGRAM)
     options = parser.parse_args()
-    return {"run": run, "table": table}[options.command](options)
+    return {"run": run, "table": table, "draw": draw}[options.command](options)
 
 
 if __name__ == "__main__":

@@ -100,7 +100,7 @@ class Scene:
     def describe(self):
         text = f"K_m {self.K_m:.2f}, {self.angle:6.1f} deg"
         text += f", centre {self.centre[0]:+.2f} {self.centre[1]:+.2f}"
-        if self.along or self.across:
+        if self.along or self.across or self.pressed:
             text += f", -{self.along + self.pressed:.1f}/-{self.across + self.pressed:.1f} MPa"
         if self.family == "scaled":
             text += f", wing {self.length:.3g} m, E {self.modulus / 1e9:.3g} GPa, Q {self.rate:.2g} m^2/s"

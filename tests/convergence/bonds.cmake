@@ -165,15 +165,15 @@ stockwork_case_test(NAME convergence/kgd/sun/permeable/in_bonds/leaky
 
 # A closed crack of bonds rubs: the work of friction is that of the exact solution, and no faces overlap. With a great coefficient
 # it sticks.
-stockwork_case_test(NAME convergence/closed/20/in_bonds DECK tests/data/closed_bonds.prm LABELS quick
+stockwork_case_test(NAME convergence/closed/20/in_bonds DECK prm/closed/20/peridynamics.prm LABELS quick
   SET "Resolution=medium" "Output/Fields=false" WARNS "Faces of a crack touch"
   EXPECT "final/dissipated_energy = 40396 within 0.03" "minimum/minimum_aperture > -1e-7") # 0.028; fine 4e-4
-stockwork_case_test(NAME convergence/closed/20/in_bonds/sticks DECK tests/data/closed_bonds.prm LABELS quick
+stockwork_case_test(NAME convergence/closed/20/in_bonds/sticks DECK prm/closed/20/peridynamics.prm LABELS quick
   SET "Resolution=coarse" "Output/Fields=false" "Fracture/peridynamics/Friction coefficient=3"
   EXPECT "final/dissipated_energy < 1e-3" "minimum/minimum_aperture > -1e-7" "nonlinear_iterations < 5")
 
 # Without friction its faces slide by 3.8 mm, which is no opening: 1.9e-4 m^2 if slip were read as it is by the bonds of a piece.
-stockwork_case_test(NAME convergence/closed/20/in_bonds/frictionless DECK tests/data/closed_bonds.prm LABELS quick
+stockwork_case_test(NAME convergence/closed/20/in_bonds/frictionless DECK prm/closed/20/peridynamics.prm LABELS quick
   SET "Resolution=coarse" "Output/Fields=false" "Fracture/peridynamics/Friction coefficient=0" WARNS "Faces of a crack touch"
   EXPECT "final/fracture_volume < 1e-6" "final/fracture_volume > -1e-6" "minimum/minimum_aperture > -1e-7"
          "final/dissipated_energy == 0")

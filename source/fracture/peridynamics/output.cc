@@ -132,6 +132,8 @@ void Peridynamics<dim>::write_fields(const State &state, FieldSink<dim> &sink) c
       const Segment<dim> &segment = fracture.owned_segments[k];
       std::vector<std::pair<std::string, double>> values{{"aperture", fracture.aperture(k, state)},
                                                          {"damage", 1.}};
+      if (parameters.friction > 0.)
+        values.emplace_back("slip", pressure_in_bonds.slip(fracture.owned_cells[k], state));
       if (state.segment_pressure)
         values.emplace_back("fluid_pressure", state.segment_pressure(segment.key));
       Tensor<1, dim> along;
