@@ -40,6 +40,9 @@ def not_negative(text):
     return value
 
 
+not_negative.__name__ = "number from 0 on"  # for what argparse says of a word
+
+
 def window(text):
     """x0,x1,y0,y1"""
     try:

@@ -193,7 +193,7 @@ def angles(directory):
             break
         hangs = near
     for way in WAYS:
-        x, y = middles[np.argmax(np.where(hangs & (away <= way) & (middles[:, 1] > 0.), away, -1.))]
+        x, y = middles[np.argmax(np.where(hangs & (away <= way) & (middles[:, 1] > 2. * size), away, -1.))]
         yield math.degrees(math.atan2(y, x))
 
 

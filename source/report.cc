@@ -364,8 +364,9 @@ void Report<dim>::watch(const WellReport &well, const double net_pressure)
   // What opens a crack of this length against toughness, what the flow along it takes, and what a
   // short one needs besides to part the rock; three times that is far above all of them.
   const double aperture = std::max({well.inlet_aperture, volume / shown.length, 1e-12});
-  const double flow =
-    12. * rock.fluid().viscosity * std::abs(well.rate) * wing / std::pow(aperture, 3);
+  // After shut-in the fluid goes on from where the fracture is wide to where it is narrow.
+  greatest_rate = std::max(greatest_rate, std::abs(well.rate));
+  const double flow = 12. * rock.fluid().viscosity * greatest_rate * wing / std::pow(aperture, 3);
   const double strength = std::isnan(main.tensile_strength) ? 0. : main.tensile_strength;
   const double needed = main.toughness() / std::sqrt(numbers::PI * wing) + flow + strength;
   if (net_pressure > 3. * needed)

@@ -76,7 +76,7 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
       .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
-      .fluid_balance.relative_error &external_work &peak_load &maximum_inlet_aperture &shown
+      .fluid_balance.relative_error &external_work &peak_load &maximum_inlet_aperture &greatest_rate &shown
         &dry_wells &reached_wells;
     if (errors)
       archive &*errors;
@@ -126,6 +126,7 @@ private:
   double external_work = 0.;          ///< since the start [J/m]
   double peak_load = 0.;              ///< greatest so far [N/m]
   double maximum_inlet_aperture = 0.; ///< so far [m]
+  double greatest_rate = 0.;          ///< of the first well, so far [m^2/s]
   std::string cost_of_fracture;       ///< see FractureSummary
   const dealii::Mapping<dim> &mapping;
   const ReferenceSolution<dim> *reference;

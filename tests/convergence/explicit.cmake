@@ -45,14 +45,14 @@ stockwork_restart_test(NAME convergence/explicit/notch/restart DECK ${deck} RANK
   INTERRUPT_SET "Time/End time=0.84e-3 s" "Checkpoint/Steps between=84"
   IGNORE "balance_error")
 
-# A strip of PMMA that stores 2.3 G_c forks (Bleyer et al. 2017: from about twice G_c on); with 1.1 G_c one arm runs straight on.
+# A strip of PMMA that stores 2.3 G_c forks (Bleyer et al. 2017: from about twice G_c on); with 1.8 G_c one arm runs straight on.
 stockwork_case_test(NAME convergence/explicit/pmma_strip/forks DECK prm/dry/pmma_strip/0.040/peridynamics.prm
-  SET "Resolution=medium" "Time/End time=2e-5 s" "Output/Fields=false"
-  EXPECT "final/forks = 1 within 0" "final/energy_balance_error < 1e-11" "final/extent_y > 3.5e-3")
-stockwork_case_test(NAME convergence/explicit/pmma_strip/straight DECK prm/dry/pmma_strip/0.028/peridynamics.prm
+  SET "Resolution=medium" "Time/End time=3e-5 s" "Output/Fields=false"
+  EXPECT "final/forks >= 1" "final/energy_balance_error < 1e-11" "final/extent_y > 3.5e-3")
+stockwork_case_test(NAME convergence/explicit/pmma_strip/straight DECK prm/dry/pmma_strip/0.035/peridynamics.prm
   LABELS nightly
   SET "Resolution=medium" "Output/Fields=false"
-  EXPECT "final/forks < 0.5" "final/extent_x > 8e-3" "final/extent_y < 8e-4")
+  EXPECT "final/forks < 0.5" "final/extent_x > 31e-3" "final/extent_y < 1.6e-3")
 # A given pressure in a crack: the volume that it holds (Sneddon), which the bond lattice has to a few per cent, and in equilibrium nothing
 # moves. The work is p dV, and on any number of ranks the same.
 set(deck tests/data/explicit_pressure.prm)

@@ -21,3 +21,14 @@ stockwork_restart_test(NAME scenes/viscous_bonds/restart DECK ${turned} AFTER 12
 
 # Anywhere, in any stress, beside the aligned fracture under the same 30 MPa.
 stockwork_campaign_test(turned_stressed 2915 peridynamics "" "" .viscous --pressed 30 --km-from 0.02 --km-to 0.5)
+
+# A natural crack on a row of nodes that is met from the side to which these belong: 0.675 mm and 0.909 MPa at 25 s in place of 0.527
+# and 0.695, with half the cells as well.
+stockwork_check_test(NAME scenes/row_of_nodes DECK prm/natural_crack/peridynamics.prm LABELS quick
+  SET "Resolution=coarse" "Fracture/peridynamics/Tracking=path"
+  SAYS "The crack '4 m, -2 m -> 4 m, 2 m' lies on a row of nodes, which belong to its left side")
+stockwork_check_test(NAME scenes/row_of_nodes/other_order DECK tests/data/met_from_the_right.prm LABELS quick
+  SET "Resolution=coarse" SAYS "The deck is in order" WITHOUT "row of nodes")
+stockwork_case_test(NAME scenes/row_of_nodes/opens DECK tests/data/met_from_the_right.prm LABELS nightly SET "Resolution=coarse"
+  EXPECT "final/inlet_aperture = 5.35e-4 within 0.01" "final/inlet_pressure = 7.09e5 within 0.02" # of cut cells, coarse: 0.538 mm, 0.71 MPa
+         "minimum/minimum_aperture > -1e-7")

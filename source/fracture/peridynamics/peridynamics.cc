@@ -125,6 +125,9 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
   if (!started && parameters.cell_size == 0.)
     for (std::string &message : foresee(lattice, lattice.zone.spacing()))
       messages.push_back(std::move(message));
+  if (!started)
+    for (std::string &message : foresee_rows_of_nodes(lattice))
+      messages.push_back(std::move(message));
 
   if (started)
   {
