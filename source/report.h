@@ -76,8 +76,8 @@ public:
   {
     archive &summary.steps &summary.rejected_steps &summary.nonlinear_iterations &summary
       .linear_iterations &summary.fluid_balance.stored &summary.fluid_balance.outflow &summary
-      .fluid_balance.relative_error &external_work &peak_load &maximum_inlet_aperture &greatest_rate &shown
-        &dry_wells &reached_wells;
+      .fluid_balance.relative_error &external_work &peak_load &maximum_inlet_aperture &greatest_rate
+        &shown &dry_wells &reached_wells;
     if (errors)
       archive &*errors;
   }

@@ -384,16 +384,14 @@ std::vector<std::string> foresee_rows_of_nodes(const Lattice<dim> &lattice)
     if (std::abs(along[0] * along[1]) > same_place * along.norm_square() ||
         std::abs(rows - std::round(rows)) > same_place)
       continue;
-    const bool met_from_left =
-      std::any_of(cracks.begin(), cracks.end(),
-                  [&](const InitialCrack<dim> &other)
-                  {
-                    return std::any_of(other.points.begin(), other.points.end(),
-                                       [&](const Point<dim> &point) {
-                                         return (point - crack.points[0]) * left >
-                                                lattice.zone.spacing();
-                                       });
-                  });
+    const bool met_from_left = std::any_of(
+      cracks.begin(), cracks.end(),
+      [&](const InitialCrack<dim> &other)
+      {
+        return std::any_of(other.points.begin(), other.points.end(),
+                           [&](const Point<dim> &point)
+                           { return (point - crack.points[0]) * left > lattice.zone.spacing(); });
+      });
     if (met_from_left)
       messages.push_back(
         "The crack '" + crack.text +
