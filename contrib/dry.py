@@ -28,7 +28,7 @@ sys.path.insert(0, HERE)
 from arguments import PROGRAM, program  # noqa: E402
 from deck_runs import run_deck  # noqa: E402
 from results import ResultError, read_deck, read_statistics, read_summary, script  # noqa: E402
-from tips import greatest_speed, number, rayleigh_speed  # noqa: E402
+from tips import greatest_speed, rayleigh_speed  # noqa: E402
 
 BONDS = "Fracture/peridynamics/"
 LAWS = {"brittle": [], "soft": [BONDS + "Softening=4"]}  # the decks' bonds are brittle
@@ -142,10 +142,10 @@ def print_strips(options):
     for (cells, horizon, law), found in strip_rows(options):
         if not found:
             continue
-        speeds, seconds = ([outcome[name] for outcome in found.values()] for name in ("speed", "seconds"))
+        speeds, seconds = ([what[name] for what in found.values()] for name in ("speed", "seconds"))
         print(f"| {cells}, {horizon}, {law} | "
               + " | ".join(forks_at(found[stretch], 1e3, "mm") if stretch in found else "" for stretch in STRETCHES)
-              + f" | {min(speeds):.2f} to {max(speeds):.2f} | {max(outcome['balance'] for outcome in found.values()):.0e}"
+              + f" | {min(speeds):.2f} to {max(speeds):.2f} | {max(what['balance'] for what in found.values()):.0e}"
               f" | {min(seconds):.0f} to {max(seconds):.0f} |")
 
 
@@ -233,10 +233,13 @@ def draw(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", choices=("run", "table", "draw"))
-    parser.add_argument("--cases", nargs="+", choices=RUNS, default=list(RUNS))
+    parser.add_argument("--cases", nargs="+", choices=RUNS, help="not with draw; default: all")
     parser.add_argument("--output", default="dry", metavar="DIR")
     parser.add_argument("--program", type=program, default=PROGRAM)
     options = parser.parse_args()
+    if options.command == "draw" and options.cases:
+        parser.error("what is drawn is the strip: no --cases")
+    options.cases = options.cases or list(RUNS)
     return {"run": run, "table": table, "draw": draw}[options.command](options)
 
 
