@@ -432,9 +432,10 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
   if (the_case.network.maximum_pressure() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
-    throw EntryError("Time/Scheme", "BDF2",
-                     "backward Euler (or Newmark) where a well has a given pressure: its rate "
-                     "changes within a step, and fluid that went in would be counted wrongly");
+    throw EntryError(
+      "Time/Scheme", "BDF2",
+      "backward Euler (or Newmark) where a well in a fracture has a given pressure: its "
+      "rate changes within a step, and what went in would be counted wrongly");
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)
     if (crack.proppant.aperture > 0. && the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
       throw EntryError("Time/Scheme",

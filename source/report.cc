@@ -340,6 +340,7 @@ void Report<dim>::watch(const WellReport &well, const double net_pressure)
   const std::string now = " at t = " + std::to_string(stepper.last_context().time) + " s.";
   // Faces in contact overlap a little, for they touch by a penalty.
   maximum_inlet_aperture = std::max(maximum_inlet_aperture, well.inlet_aperture);
+  greatest_rate = std::max(greatest_rate, std::abs(well.wanted_rate));
   // While the wells rest, what is left of closed faces is rounding.
   const double open = std::max(maximum_inlet_aperture, network.smallest_hydraulic_aperture());
   if (well.inlet_aperture < -0.01 * open && !warned_of_aperture)
@@ -365,7 +366,6 @@ void Report<dim>::watch(const WellReport &well, const double net_pressure)
   // short one needs besides to part the rock; three times that is far above all of them.
   const double aperture = std::max({well.inlet_aperture, volume / shown.length, 1e-12});
   // After shut-in the fluid goes on from where the fracture is wide to where it is narrow.
-  greatest_rate = std::max(greatest_rate, std::abs(well.rate));
   const double flow = 12. * rock.fluid().viscosity * greatest_rate * wing / std::pow(aperture, 3);
   const double strength = std::isnan(main.tensile_strength) ? 0. : main.tensile_strength;
   const double needed = main.toughness() / std::sqrt(numbers::PI * wing) + flow + strength;

@@ -283,9 +283,8 @@ void Simulation<dim>::march()
     stepper.start(clock.time);
   while (!finished())
   {
-    const double target =
-      std::min({the_case.control.end_time, the_case.network.next_jump(clock.time),
-                fields.next_time(clock.time)});
+    const double jump = the_case.network.next_jump(clock.time),
+                 target = std::min({the_case.control.end_time, jump, fields.next_time(clock.time)});
     const double tried = step_towards(target - clock.time, clock.dt);
     StepReport taken;
     try
@@ -301,6 +300,8 @@ void Simulation<dim>::march()
                        options.output_directory + "'; --restart goes on from there.");
     }
     clock.time = stepper.last_context().time;
+    if (clock.time > jump - 1e-6 * stepper.last_context().dt)
+      stepper.forget_past();
     // A step shortened to meet a time says nothing about the next.
     clock.dt =
       taken.dt < tried || tried == clock.dt ? taken.next_dt : std::max(clock.dt, taken.next_dt);

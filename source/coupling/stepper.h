@@ -83,6 +83,12 @@ public:
   /// The state at the end of the last step, for reports: references are those of that step.
   State last_state() const;
 
+  /// See TimeScheme.
+  void forget_past()
+  {
+    scheme.forget_past();
+  }
+
   const StepContext &last_context() const
   {
     return context;

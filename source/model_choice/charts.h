@@ -50,7 +50,7 @@ public:
   /// Models with runs in a group, none of which has failed.
   std::vector<std::string> models(const Group &group) const;
 
-  /// Those that have failed, as "peridynamics (kgd/viscosity)".
+  /// Those that have failed, as "damage (kgd/rotated/45)".
   std::vector<std::string> failures(const Group &group) const;
 
   struct Promise

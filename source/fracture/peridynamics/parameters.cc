@@ -183,8 +183,8 @@ std::string why_guided(const Scene<dim> &scene)
 }
 
 
-/// K_m below which bonds that are left to themselves may break beside a fracture: they hold at 1.5
-/// on cells of 0.5 m, the less the larger the cells are (doc/laboratory/viscous_bonds.md).
+/// K_m below which bonds that are left to themselves may break beside a fracture. On cells of 0.5 m
+/// they hold at 1.5; larger cells hold less (doc/laboratory/viscous_bonds.md).
 constexpr double viscous = 2.;
 
 /// Whether the way of a fracture is tracked by default, and why.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace stockwork::peridynamics
@@ -471,8 +470,6 @@ double PressureInBonds<dim>::work_of_friction(const State &state) const
 template <int dim>
 double PressureInBonds<dim>::slip(const unsigned int cell, const State &state) const
 {
-  if (n_modes() == 1)
-    return std::numeric_limits<double>::quiet_NaN();
   return state.current.extra[unknown_of_traction(cell, 1) - 1] *
          std::pow(lattice.zone.spacing(), dim - 1) / fracture.segments[cell].area;
 }

@@ -93,8 +93,8 @@ public:
   /// Whether faces touch anywhere.
   bool touches(const State &state) const;
 
-  /// What the faces of a cell have slid by, in the mean over its segment [m]; not a number without
-  /// friction, for what slides freely has no unknown of its own.
+  /// What the faces of a cell have slid by, in the mean over its segment [m]. With friction only,
+  /// for what slides freely has no unknown of its own.
   double slip(unsigned int cell, const State &state) const;
 
   /// Work of friction in the step that has led to a state [J/m].
