@@ -436,6 +436,13 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
       "Time/Scheme", "BDF2",
       "backward Euler (or Newmark) where a well in a fracture has a given pressure: its "
       "rate changes within a step, and what went in would be counted wrongly");
+  // So does a rate that ends at a least pressure.
+  if (!the_case.network.minimum_pressures().empty() && !the_case.network.opens_into_rock() &&
+      the_case.scheme.kind() == TimeScheme::Kind::bdf2)
+    throw EntryError("Time/Scheme", "BDF2",
+                     "backward Euler (or Newmark) where the rate of a well in a fracture may be "
+                     "negative: at its least pressure the rate changes within a step, and what "
+                     "came out would be counted wrongly");
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)
     if (crack.proppant.aperture > 0. && the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
       throw EntryError("Time/Scheme",
