@@ -437,7 +437,7 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
       "backward Euler (or Newmark) where a well in a fracture has a given pressure: its "
       "rate changes within a step, and what went in would be counted wrongly");
   // So does a rate that ends at a least pressure.
-  if (!the_case.network.minimum_pressures().empty() && !the_case.network.opens_into_rock() &&
+  if (!the_case.network.minimum_well_pressures().empty() && !the_case.network.opens_into_rock() &&
       the_case.scheme.kind() == TimeScheme::Kind::bdf2)
     throw EntryError("Time/Scheme", "BDF2",
                      "backward Euler (or Newmark) where the rate of a well in a fracture may be "
