@@ -71,7 +71,7 @@ RUNS = {
     "kalthoff": [*(steel(resolution, 3, "brittle", moved)
                    for resolution in ("coarse", "medium", "fine") for moved in (False, True)),
                  steel("medium", 4, "brittle"), steel("medium", 5, "brittle"), steel("medium", 3, "soft")],
-    "bridge": [*(notch(1, *what) for what in itertools.product(("medium", "fine"), HORIZONS, LAWS) if what[2] == "brittle"),
+    "bridge": [*(notch(1, *what) for what in itertools.product(("medium", "fine"), HORIZONS, ("brittle",))),
                notch(1, "fine", 3, "brittle", REST), notch(0.8, "fine", 3, "brittle"), notch(0.6, "fine", 3, "brittle"),
                notch(0.45, "medium", 3, "brittle"), notch(0.45, "fine", 3, "brittle")]}
 

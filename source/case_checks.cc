@@ -413,6 +413,24 @@ void check_minimum_aperture(const Case<dim> &the_case, std::vector<std::string> 
 }
 
 
+/// BDF2 goes on from earlier states. Where a rate changes within a step, or what fills a segment,
+/// the sum of its rates is not what has come, and no balance of a step shows that.
+template <int dim>
+void refuse_what_second_order_counts_wrongly(const Network<dim> &network)
+{
+  const auto refuse = [](const std::string &where)
+  { throw EntryError("Time/Scheme", "BDF2", "backward Euler (or Newmark) " + where); };
+  if (network.may_cavitate())
+    refuse("with a finite 'Fracture flow/Vapour pressure'");
+  if (network.maximum_pressure())
+    refuse("where a well in a fracture has a given pressure");
+  if (!network.minimum_well_pressures().empty() && !network.opens_into_rock())
+    refuse(
+      "where the rate of a well in a fracture may be negative (that of an expression may), for "
+      "it may end at a least pressure");
+}
+
+
 template <int dim>
 void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case)
 {
@@ -428,21 +446,8 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
     throw EntryError(
       "Time/Error tolerance", *deck.peek("Time/Error tolerance"),
       "'inf', or 'Time/Scheme = BDF2', the only one whose steps are chosen by error");
-  if (the_case.network.may_cavitate() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
-    throw EntryError("Time/Scheme", "BDF2",
-                     "backward Euler (or Newmark) with a finite 'Fracture flow/Vapour pressure'");
-  if (the_case.network.maximum_pressure() && the_case.scheme.kind() == TimeScheme::Kind::bdf2)
-    throw EntryError(
-      "Time/Scheme", "BDF2",
-      "backward Euler (or Newmark) where a well in a fracture has a given pressure: its "
-      "rate changes within a step, and what went in would be counted wrongly");
-  // So does a rate that ends at a least pressure.
-  if (!the_case.network.minimum_well_pressures().empty() && !the_case.network.opens_into_rock() &&
-      the_case.scheme.kind() == TimeScheme::Kind::bdf2)
-    throw EntryError("Time/Scheme", "BDF2",
-                     "backward Euler (or Newmark) where the rate of a well in a fracture may be "
-                     "negative: at its least pressure the rate changes within a step, and what "
-                     "came out would be counted wrongly");
+  if (the_case.scheme.kind() == TimeScheme::Kind::bdf2)
+    refuse_what_second_order_counts_wrongly(the_case.network);
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)
     if (crack.proppant.aperture > 0. && the_case.scheme.kind() != TimeScheme::Kind::backward_euler)
       throw EntryError("Time/Scheme",
