@@ -45,10 +45,7 @@ void foresee_stress(const Lattice<dim> &lattice,
   const Scene<dim> &scene = lattice.scene;
   double worst = equal_stress * lattice.strength();
   std::string message;
-  const std::string closure =
-    "'Fracture/peridynamics/Closure = in bonds'" +
-    std::string(parameters.state_based ? " with 'Fracture/peridynamics/Bond law = bond-based'"
-                                       : "");
+  const std::string closure = "'Fracture/peridynamics/Closure = in bonds'";
   for (const InitialCrack<dim> &crack : scene.cracks)
     for (const auto &[middle, normal] : flat_parts(crack))
     {
@@ -268,7 +265,7 @@ void foresee_pressure(const Lattice<dim> &lattice,
            " would hold ('In situ/Stress'); so does 'cohesive_xfem', where none begin."
        : ": they may break over an area where a crack should be. Cells of " + text(finer) +
            " m would do ('Fracture/peridynamics/Cell size'), or 'cohesive_xfem'" +
-           (!parameters.state_based && parameters.softening > 1.
+           (parameters.softening > 1.
               ? ", or 'Fracture/peridynamics/Tracking = path' with 'Closure = in bonds'."
               : ".")));
 }

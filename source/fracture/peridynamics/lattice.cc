@@ -251,15 +251,24 @@ SymmetricTensor<2, dim> Lattice<dim>::strain_of_traction(const Tensor<1, dim> &n
 
 
 template <int dim>
+SymmetricTensor<2, dim> Lattice<dim>::dry_strain(const unsigned int site,
+                                                 const unsigned int bond,
+                                                 const Point<dim> &place,
+                                                 const Tensor<1, dim> &normal) const
+{
+  return strain_of_traction(normal, effective_in_situ_stress(site, bond, place) * normal);
+}
+
+
+template <int dim>
 double Lattice<dim>::dry_stretch(const unsigned int site,
                                  const unsigned int bond,
                                  const Point<dim> &place,
                                  const Tensor<1, dim> &normal) const
 {
   const Tensor<1, dim> &e = coefficients[bond].direction;
-  const SymmetricTensor<2, dim> strain =
-    strain_of_traction(normal, effective_in_situ_stress(site, bond, place) * normal);
-  return e * (strain * e) * coefficients[bond].stiffness / stiffness(site, bond);
+  return e * (dry_strain(site, bond, place, normal) * e) * coefficients[bond].stiffness /
+         stiffness(site, bond);
 }
 
 

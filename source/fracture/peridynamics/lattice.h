@@ -69,6 +69,12 @@ public:
                      const dealii::Point<dim> &place,
                      const dealii::Tensor<1, dim> &normal) const;
 
+  /// The strain of the lattice by that traction.
+  dealii::SymmetricTensor<2, dim> dry_strain(unsigned int site,
+                                             unsigned int bond,
+                                             const dealii::Point<dim> &place,
+                                             const dealii::Tensor<1, dim> &normal) const;
+
   /// Strain of the lattice under a stress that has this traction on a plane of this normal, and is
   /// the same in all directions along this plane and across it, but for shear.
   dealii::SymmetricTensor<2, dim> strain_of_traction(const dealii::Tensor<1, dim> &normal,
@@ -134,6 +140,14 @@ public:
   {
     return rock_of_bonds.is_uniform() ? law.dilatation_modulus
                                       : rock_of_bonds.dilatation_modulus(site);
+  }
+
+  /// Force on a bond by the dilatation at one end, over that; with a uniform stress the lattice's,
+  /// whatever the rock is [N/m^(d-1) times m^(d-1)].
+  double push_of_dilatation(const unsigned int site, const unsigned int bond) const
+  {
+    return law.dilatation_modulus * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
+           zone.sites()[site].share * coefficients[bond].dilatation;
   }
 
   /// By `Surface correction`, of the dilatation of a site that has lost bonds: with it, a uniform

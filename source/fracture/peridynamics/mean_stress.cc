@@ -10,11 +10,60 @@ using dealii::SymmetricTensor;
 using dealii::Tensor;
 
 template <int dim>
-SymmetricTensor<2, dim>
-Peridynamics<dim>::stress_of_bonds(const unsigned int site,
-                                   const std::map<BondView, double> &softened,
-                                   const OfCells &of_cells) const
+typename Peridynamics<dim>::OfBonds
+Peridynamics<dim>::forces_of_bonds(const State &state, const OfCells &of_cells) const
 {
+  OfBonds of_bonds;
+  for (unsigned int n = 0; n < softening_bonds.size(); ++n)
+    for (const BondView &view :
+         lattice.bonds.views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
+    {
+      of_bonds.softened[view] = state.current.extra[n];
+      if (parameters.state_based)
+        of_bonds.lost[view] = state.current.extra[softening_bonds.unknown_of_lost_force(n)];
+    }
+  if (!lattice.law.state_based())
+    return of_bonds;
+  std::vector<double> &forces = of_bonds.dilatation_forces;
+  forces.assign(lattice.zone.sites().size(), 0.);
+  std::vector<unsigned int> family;
+  std::vector<Tensor<1, dim>> functional;
+  for (const auto *sites : {&lattice.zone.peridynamic_sites(), &lattice.zone.rim_sites()})
+    for (const unsigned int i : *sites)
+    {
+      const double modulus = lattice.find_dilatation(i, family, functional);
+      for (unsigned int k = 0; k < family.size(); ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+          forces[i] += functional[k][d] * displacement[family[k] * dim + d];
+      const bool lacks = lattice.dilatation_factor(i) == 1.;
+      if (lattice.zone.sites()[i].peridynamic)
+        for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+        {
+          const Tensor<1, dim> &e = lattice.coefficients[b].direction;
+          if (const auto found = of_bonds.softened.find({i, b}); found != of_bonds.softened.end())
+            forces[i] -= lattice.coefficients[b].dilatation * found->second;
+          else if (lacks && lattice.bonds.is_broken(i, b))
+            for (const auto &[cell, share] : pressure_in_bonds.shares(i, b, true))
+              forces[i] -= share * lattice.coefficients[b].dilatation *
+                           lattice.coefficients[b].length / lattice.rock_of_bonds.modulus(i, b) *
+                           (e * (of_cells.strain[cell] * e));
+        }
+      forces[i] *= modulus / lattice.zone.sites()[i].share;
+    }
+  return of_bonds;
+}
+
+
+template <int dim>
+SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(const unsigned int site,
+                                                           const OfBonds &of_bonds,
+                                                           const OfCells &of_cells) const
+{
+  const auto part = [&](const std::map<BondView, double> &of, const unsigned int b)
+  {
+    const auto found = of.find({site, b});
+    return found != of.end() ? found->second : 0.;
+  };
   SymmetricTensor<2, dim> stress;
   for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
   {
@@ -22,13 +71,18 @@ Peridynamics<dim>::stress_of_bonds(const unsigned int site,
     double force = 0.;
     if (lattice.bonds.is_broken(site, b))
       for (const auto &[cell, share] : pressure_in_bonds.shares(site, b, false))
-        force -= lattice.coefficients[b].stiffness * lattice.coefficients[b].length * share *
-                 (e * (of_cells.strain[cell] * e));
+        force -= share * (lattice.coefficients[b].stiffness * lattice.coefficients[b].length *
+                            (e * (of_cells.strain[cell] * e)) +
+                          2. * lattice.push_of_dilatation(site, b) /
+                            lattice.zone.sites()[site].share * trace(of_cells.strain[cell]));
     else
     {
-      const auto found = softened.find({site, b});
       force = lattice.stiffness(site, b) * (lattice.elongation(site, b, displacement) -
-                                            (found != softened.end() ? found->second : 0.));
+                                            part(of_bonds.softened, b) - part(of_bonds.lost, b));
+      if (lattice.law.state_based())
+        force += lattice.coefficients[b].dilatation *
+                 (of_bonds.dilatation_forces[site] +
+                  of_bonds.dilatation_forces[lattice.zone.far_end(site, b).site]);
     }
     stress += 0.5 * force * lattice.coefficients[b].length * symmetrize(outer_product(e, e));
   }
@@ -72,11 +126,7 @@ Peridynamics<dim>::mean_stress(const Point<dim> &centre,
                                const State &state,
                                const OfCells &of_cells) const
 {
-  std::map<BondView, double> softened;
-  for (unsigned int n = 0; n < softening_bonds.size(); ++n)
-    for (const BondView &view :
-         lattice.bonds.views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
-      softened[view] = state.current.extra[n];
+  const OfBonds of_bonds = forces_of_bonds(state, of_cells);
   SymmetricTensor<2, dim> sum;
   double weights = 0.;
   for (unsigned int i = 0; i < lattice.zone.sites().size(); ++i)
@@ -89,7 +139,7 @@ Peridynamics<dim>::mean_stress(const Point<dim> &centre,
     if (weight == 0.)
       continue;
     auto stress = lattice.zone.sites()[i].peridynamic
-                    ? std::optional<SymmetricTensor<2, dim>>(stress_of_bonds(i, softened, of_cells))
+                    ? std::optional<SymmetricTensor<2, dim>>(stress_of_bonds(i, of_bonds, of_cells))
                     : stress_of_elements(i);
     if (!stress)
       continue;
@@ -102,8 +152,10 @@ Peridynamics<dim>::mean_stress(const Point<dim> &centre,
 }
 
 #define INSTANTIATE(dim)                                                                 \
+  template Peridynamics<dim>::OfBonds Peridynamics<dim>::forces_of_bonds(                \
+    const State &, const OfCells &) const;                                               \
   template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                   \
-    unsigned int, const std::map<BondView, double> &, const OfCells &) const;            \
+    unsigned int, const OfBonds &, const OfCells &) const;                               \
   template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements( \
     unsigned int) const;                                                                 \
   template SymmetricTensor<2, dim> Peridynamics<dim>::mean_stress(                       \

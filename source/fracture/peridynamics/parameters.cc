@@ -199,8 +199,6 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {false, "the deck gives no crack"};
   if (scene.crack_pressure == 0.)
     return {false, "the cracks are dry"};
-  if (p.state_based)
-    return {false, "bonds are state-based"};
   if (p.softening == 1.)
     return {false, "bonds are brittle"};
   if (p.tensor_fluid)
@@ -305,8 +303,7 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     p.has_inertia && !p.tracked && !std::isnan(scene.crack_pressure) && scene.crack_pressure != 0.;
   if (prm.get("Closure") == "auto")
   {
-    const bool given = explicit_fluid || (moves_by_given_pressure && !p.state_based &&
-                                          !p.tensor_fluid && p.horizon >= 3);
+    const bool given = explicit_fluid || (moves_by_given_pressure && !p.tensor_fluid && p.horizon >= 3);
     prm.set("Closure", p.tracked || given ? "in bonds" : "conserving");
     p.reasons["Closure"] = p.tracked ? "for a path"
                            : given   ? "where a pressure is given in cracks that may fork"
@@ -339,9 +336,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     throw bad("Tracking", dim != 2      ? "none in three dimensions"
                           : !p.in_bonds ? "none, or 'Closure = in bonds'"
                                         : "none with brittle bonds ('Softening = 1')");
-  if (p.in_bonds && (p.state_based || p.tensor_fluid))
-    throw bad("Closure", p.state_based ? "conserving with 'Bond law = state-based'"
-                                       : "conserving with 'Fluid = permeability tensor'");
+  if (p.in_bonds && p.tensor_fluid)
+    throw bad("Closure", "conserving with 'Fluid = permeability tensor'");
   // A step that does not converge where the fracture enters a cell is then tried with bonds that
   // soften by less.
   if (p.in_bonds && !p.tracked && p.horizon < 3)

@@ -206,18 +206,12 @@ private:
   };
 
   /// Of softening bonds that are state-based, in a state whose displacements are known here.
-  Softened softened(const SofteningBond &bond, const State &state) const;
+  /// @param added to the elongation [m]
+  Softened softened(const SofteningBond &bond, double added, const State &state) const;
 
   /// With them: what is left of a bond, 1 - D, is what counts of it in dilatations, and what these
   /// do to its ends. See soft_dilatation.cc.
   void assemble_soft_dilatation(const State &state, Sink &sink) const;
-
-  /// Number of the elongation that stands for the force of the dilatations, as far as it is lost,
-  /// of a state-based softening bond.
-  unsigned int unknown_of_lost_force(const unsigned int bond) const
-  {
-    return softening_bonds.size() + bond;
-  }
 
   // With tracked paths (tracking.cc).
 
@@ -234,11 +228,18 @@ private:
   /// Paths go on ahead of tips that have come near to their ends.
   void track(const State &state, const OfCells &of_cells);
 
+  /// What the forces of bonds follow from.
+  struct OfBonds
+  {
+    std::map<BondView, double> softened; ///< what has become of their elongation without force [m]
+    std::map<BondView, double> lost;     ///< the same for the force of dilatations, if state-based
+    std::vector<double> dilatation_forces; ///< of sites, over a bond's dilatation per elongation [N m]
+  };
+  OfBonds forces_of_bonds(const State &state, const OfCells &of_cells) const;
+
   /// Of a peridynamic site, but for what it is in situ [Pa].
-  /// @param softened what has become of the elongation of bonds without any force [m]
-  dealii::SymmetricTensor<2, dim> stress_of_bonds(unsigned int site,
-                                                  const std::map<BondView, double> &softened,
-                                                  const OfCells &of_cells) const;
+  dealii::SymmetricTensor<2, dim>
+  stress_of_bonds(unsigned int site, const OfBonds &of_bonds, const OfCells &of_cells) const;
 
   /// Of a site among elements of the size of the lattice's cells; nothing at the rim of these.
   std::optional<dealii::SymmetricTensor<2, dim>> stress_of_elements(unsigned int site) const;

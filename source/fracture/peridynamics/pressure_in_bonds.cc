@@ -109,6 +109,36 @@ double PressureInBonds<dim>::stretch(const unsigned int site,
 
 
 template <int dim>
+double PressureInBonds<dim>::dilatation(const unsigned int site,
+                                        const unsigned int bond,
+                                        const CellShares &shares,
+                                        const std::vector<SymmetricTensor<2, dim>> &strain) const
+{
+  if constexpr (dim == 2)
+    if (parameters.tracked && shares.empty())
+    {
+      const auto crossing = crossing_bonds.crossing(site, bond);
+      return lattice.in_situ_is_zero || !crossing || paths.is_wet(crossing->path)
+               ? 0.
+               : trace(lattice.dry_strain(site, bond, paths.point(*crossing),
+                                          paths.left(*crossing)));
+    }
+  double dilatation = 0.;
+  for (const auto &[cell, share] : shares)
+    dilatation += share * trace(strain[cell]);
+  return dilatation;
+}
+
+
+template <int dim>
+double PressureInBonds<dim>::dilatation_of_traction(const unsigned int cell,
+                                                    const unsigned int mode) const
+{
+  return trace(modes[cell][mode]) / (lattice.strain_of_pressure * lattice.zone.spacing());
+}
+
+
+template <int dim>
 double PressureInBonds<dim>::stretch_of_traction(const unsigned int cell,
                                                  const unsigned int mode,
                                                  const unsigned int bond) const
@@ -201,9 +231,6 @@ void PressureInBonds<dim>::find_modes(const std::vector<BondAcross<dim>> &across
       if (!scene.has_pore_pressure && !lattice.bonds.is_broken(site, b))
         continue;
       const Tensor<1, dim> &e = bond.direction;
-      // Half of a bond belongs to each end.
-      const double force = 0.5 * lattice.zone.sites()[site].share *
-                           lattice.coefficients[b].stiffness * lattice.coefficients[b].length;
       for (const auto &[cell, share] : shares_of_jump(bond))
       {
         const Tensor<1, dim> &n = fracture.cells[cell].normal;
@@ -214,10 +241,10 @@ void PressureInBonds<dim>::find_modes(const std::vector<BondAcross<dim>> &across
           const bool normal_is_left = cross_product_2d(n) * (piece.to - piece.from) > 0.;
           leads_up = (e * paths.left(bond.crossing) > 0.) == normal_is_left;
         }
-        const double elongated = (leads_up ? share : -share) * force / fracture.segments[cell].area;
+        const double elongated = (leads_up ? share : -share) / fracture.segments[cell].area;
         for (unsigned int m = 0; m < 2; ++m)
         {
-          const double read = elongated * (e * (modes[cell][m] * e));
+          const double read = elongated * pull(site, b, e, modes[cell][m]);
           reading[cell][m][0] += read * (e * n);
           reading[cell][m][1] += read * (e * cross_product_2d(n));
         }
@@ -325,47 +352,65 @@ void PressureInBonds<dim>::make_faces(const std::vector<double> &broken_share)
 
 
 template <int dim>
+double PressureInBonds<dim>::pull(const unsigned int site,
+                                  const unsigned int bond,
+                                  const Tensor<1, dim> &direction,
+                                  const Strain &strain) const
+{
+  // Half of a bond belongs to each end.
+  return 0.5 * lattice.zone.sites()[site].share * lattice.coefficients[bond].stiffness *
+           lattice.coefficients[bond].length * (direction * (strain * direction)) +
+         lattice.push_of_dilatation(site, bond) * trace(strain);
+}
+
+
+template <int dim>
+double PressureInBonds<dim>::longer(const unsigned int site,
+                                    const unsigned int bond,
+                                    const Strain &strain) const
+{
+  const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
+  return lattice.coefficients[bond].length / lattice.rock_of_bonds.modulus(site, bond) *
+         (e * (strain * e));
+}
+
+
+template <int dim>
 void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across)
 {
   const unsigned int n = n_modes();
-  // Of each dof, what it adds to the jumps, and the force of the stress in situ.
-  std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>> by_dof(
-    fracture.cells.size());
-
-  // A bond right across a piece reads nothing of its slip. Rounding errors in place of that would
-  // be all that stands on a diagonal, and systems of equations are scaled by their diagonals.
-  const auto read = [&](const unsigned int cell, const unsigned int m, const Tensor<1, dim> &e)
-  {
-    const double strain = e * (modes[cell][m] * e);
-    return std::abs(strain) > same_place * lattice.strain_of_pressure ? strain : 0.;
-  };
+  ByDof by_dof(fracture.cells.size());
+  const Strain of_pressure =
+    lattice.strain_of_pressure * dealii::unit_symmetric_tensor<dim>();
   for (const BondAcross<dim> &bond : across)
   {
     const auto &[i, b] = bond.view;
     if (!lattice.bonds.is_broken(i, b))
       continue;
-    // Half of a bond belongs to each end.
     const Tensor<1, dim> &e = lattice.coefficients[b].direction;
-    const double length = lattice.coefficients[b].length,
-                 force =
-                   0.5 * lattice.zone.sites()[i].share * lattice.coefficients[b].stiffness * length;
+    const double least = same_place * pull(i, b, e, of_pressure),
+                 dilates = lattice.push_of_dilatation(i, b);
     const FarEnd end = lattice.zone.far_end(i, b);
     for (const auto &[cell, share] : shares(i, b, true))
     {
       if (faces_of[cell] == nullptr)
         continue;
-      const double in_situ = lattice.in_situ_is_zero ? 0. : e * (released[cell] * e);
-      // By a stress as much as in the lattice the bond is the longer the softer it is.
-      const double longer = length / lattice.rock_of_bonds.modulus(i, b);
-      std::array<double, 3> sums{{0., 0., share * force * in_situ}};
+      std::array<double, 3> sums{{0., 0., 0.}};
       for (unsigned int m = 0; m < n; ++m)
-      {
-        Faces::Mode &mode = faces_of[cell]->modes[m];
-        sums[m] = share * force * read(cell, m, e);
-        mode.constant += sums[m] * longer * in_situ;
-        for (unsigned int k = 0; k < n; ++k)
-          mode.of_tractions[k] += sums[m] * longer * read(cell, k, e);
-      }
+        if (const double own = pull(i, b, e, modes[cell][m]); std::abs(own) > least)
+        {
+          sums[m] = share * own;
+          const double by_dilatation = share * dilates * longer(i, b, modes[cell][m]);
+          const auto read = [&](const Strain &strain)
+          { return sums[m] * longer(i, b, strain) + by_dilatation * trace(strain); };
+          Faces::Mode &mode = faces_of[cell]->modes[m];
+          if (!lattice.in_situ_is_zero)
+            mode.constant += read(released[cell]);
+          for (unsigned int k = 0; k < n; ++k)
+            mode.of_tractions[k] += read(modes[cell][k]);
+        }
+      if (!lattice.in_situ_is_zero)
+        sums[2] = share * pull(i, b, e, released[cell]);
       const auto add = [&](const dealii::types::global_dof_index dof, const double direction)
       {
         auto &of_dof = by_dof[cell][dof];
@@ -379,6 +424,8 @@ void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across
       }
     }
   }
+  if (lattice.law.state_based())
+    add_dilatations(across, by_dof);
   for (unsigned int k = 0; k < fracture.owned_cells.size(); ++k)
     for (const auto &[dof, sums] : by_dof[fracture.owned_cells[k]])
     {
@@ -387,6 +434,76 @@ void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across
       for (unsigned int m = 0; m < n; ++m)
         faces[k].modes[m].of_ends.push_back(sums[m]);
     }
+}
+
+
+template <int dim>
+void PressureInBonds<dim>::add_dilatations(const std::vector<BondAcross<dim>> &across,
+                                           ByDof &by_dof)
+{
+  const unsigned int n = n_modes();
+  std::map<unsigned int, std::vector<unsigned int>> broken_of; // bonds, by site
+  for (const BondAcross<dim> &bond : across)
+    if (lattice.bonds.is_broken(bond.view.first, bond.view.second))
+      broken_of[bond.view.first].push_back(bond.view.second);
+  std::map<unsigned int, std::vector<std::pair<unsigned int, double>>> soft_of; // and g, by site
+  for (unsigned int number = 0; number < softening_bonds.size(); ++number)
+    for (const auto &[s, b] : lattice.bonds.views_of(softening_bonds[number].view.first,
+                                                     softening_bonds[number].view.second))
+      soft_of[s].emplace_back(number, lattice.coefficients[b].dilatation);
+
+  std::vector<unsigned int> family;
+  std::vector<Tensor<1, dim>> functional;
+  for (const auto &[i, broken] : broken_of)
+  {
+    if (lattice.dilatation_factor(i) != 1.)
+      continue; // others make up for what is missing
+    // Of the strains of each cell, what broken bonds lack: as far as they belong to it, and all.
+    const auto lacks = [&](const unsigned int b, const Strain &strain)
+    { return lattice.coefficients[b].dilatation * longer(i, b, strain); };
+    std::map<unsigned int, std::array<double, 3>> own;
+    for (const unsigned int b : broken)
+      for (const auto &[cell, share] : shares(i, b, true))
+        if (faces_of[cell] != nullptr)
+        {
+          std::array<double, 3> &of_cell = own.try_emplace(cell).first->second;
+          for (unsigned int m = 0; m < n; ++m)
+            of_cell[m] += share * lacks(b, modes[cell][m]);
+          if (!lattice.in_situ_is_zero)
+            of_cell[2] += share * lacks(b, released[cell]);
+        }
+    if (own.empty())
+      continue;
+    const double modulus = lattice.find_dilatation(i, family, functional);
+    for (const auto &[cell, of_cell] : own)
+    {
+      for (unsigned int k = 0; k < family.size(); ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          auto &of_dof = by_dof[cell][lattice.zone.sites()[family[k]].dofs[d]];
+          for (unsigned int m = 0; m < of_dof.size(); ++m)
+            of_dof[m] += modulus * of_cell[m] * functional[k][d];
+        }
+      for (unsigned int m = 0; m < n; ++m)
+      {
+        Faces::Mode &mode = faces_of[cell]->modes[m];
+        for (const unsigned int b : broken)
+        {
+          for (unsigned int k = 0; k < n; ++k)
+            mode.of_tractions[k] -= modulus * of_cell[m] * lacks(b, modes[cell][k]);
+          if (!lattice.in_situ_is_zero)
+            mode.constant -= modulus * of_cell[m] * lacks(b, released[cell]);
+        }
+      }
+      if (const auto soft = soft_of.find(i); soft != soft_of.end())
+        for (const auto &[number, g] : soft->second)
+        {
+          faces_of[cell]->bonds.push_back(number);
+          for (unsigned int m = 0; m < n; ++m)
+            faces_of[cell]->modes[m].of_bonds.push_back(-modulus * of_cell[m] * g);
+        }
+    }
+  }
 }
 
 
@@ -402,10 +519,20 @@ void PressureInBonds<dim>::add_softening()
     for (const auto &[cell, share] : softening_shares.back())
       if (Faces *own = faces_of[cell])
       {
+        const double push = share * lattice.push(softening_bonds[number].view);
         own->bonds.push_back(number);
         for (unsigned int m = 0; m < n_modes(); ++m)
-          own->modes[m].of_bonds.push_back(share * lattice.push(softening_bonds[number].view) *
-                                           (e * (modes[cell][m] * e)));
+        {
+          double &of_bond = own->modes[m].of_bonds.emplace_back(push * (e * (modes[cell][m] * e)));
+          if (parameters.state_based)
+            for (const auto &[s, b] : lattice.bonds.views_of(site, bond))
+              of_bond += share * lattice.push_of_dilatation(s, b) * trace(modes[cell][m]);
+        }
+        if (!parameters.state_based)
+          continue;
+        own->bonds.push_back(softening_bonds.unknown_of_lost_force(number));
+        for (unsigned int m = 0; m < n_modes(); ++m)
+          own->modes[m].of_bonds.push_back(push * (e * (modes[cell][m] * e)));
       }
   }
 }

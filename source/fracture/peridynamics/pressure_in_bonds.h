@@ -10,6 +10,7 @@
 #include "stockwork/exchange/extra_unknown.h"
 
 #include <array>
+#include <map>
 #include <vector>
 
 namespace stockwork::peridynamics
@@ -55,7 +56,7 @@ public:
   /// before. See Faces.
   unsigned int unknown_of_traction(const unsigned int cell, const unsigned int mode) const
   {
-    return softening_bonds.size() + 2 * (cell * n_modes() + mode) + 1;
+    return softening_bonds.n_unknowns() + 2 * (cell * n_modes() + mode) + 1;
   }
 
   /// Of all cells, strain of the lattice by the tractions that their faces have lost.
@@ -72,6 +73,15 @@ public:
   /// The same of a bond, by its number in the stencil, across one cell by a unit of the unknown of
   /// its traction.
   double stretch_of_traction(unsigned int cell, unsigned int mode, unsigned int bond) const;
+
+  /// The trace of the same strain: the dilatation that both of a bond's ends would have.
+  double dilatation(unsigned int site,
+                    unsigned int bond,
+                    const CellShares &shares,
+                    const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
+
+  /// Of a bond's ends, across one cell, by a unit of the unknown of its traction.
+  double dilatation_of_traction(unsigned int cell, unsigned int mode) const;
 
   /// Of a bond across a path that fluid has not reached: by the effective in-situ traction there,
   /// which the fracture would release.
@@ -121,6 +131,24 @@ private:
 
   /// What softening bonds add to their jumps.
   void add_softening();
+
+  /// Of each cell and dof at an end of its bonds, what it adds to the jumps, and the force of the
+  /// stress in situ.
+  using ByDof = std::vector<std::map<dealii::types::global_dof_index, std::array<double, 3>>>;
+
+  /// What broken bonds do by the dilatations of their ends, if they are state-based: in rock under
+  /// the traction these would not have the broken bonds' part of it.
+  void add_dilatations(const std::vector<BondAcross<dim>> &across, ByDof &by_dof);
+
+  /// Force on one end of a bond by the stress that strains the lattice so; by a strain per
+  /// traction, of which a jump of its ends reads this for each metre of elongation [m^(d-1)].
+  double pull(unsigned int site,
+              unsigned int bond,
+              const dealii::Tensor<1, dim> &direction,
+              const Strain &strain) const;
+
+  /// By what a bond is longer by that stress, the more the softer it is [m].
+  double longer(unsigned int site, unsigned int bond, const Strain &strain) const;
 
   /// Those that cross a path; without paths the broken ones.
   std::vector<BondAcross<dim>> bonds_across() const;

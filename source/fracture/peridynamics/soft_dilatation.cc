@@ -14,11 +14,13 @@
 
 namespace stockwork::peridynamics
 {
+using dealii::SymmetricTensor;
 using dealii::Tensor;
 
 
 template <int dim>
 typename Peridynamics<dim>::Softened Peridynamics<dim>::softened(const SofteningBond &soft,
+                                                                 const double added,
                                                                  const State &state) const
 {
   const auto &[site, bond] = soft.view;
@@ -31,7 +33,7 @@ typename Peridynamics<dim>::Softened Peridynamics<dim>::softened(const Softening
                   state.current.bulk(lattice.zone.sites()[site].dofs[d]));
   const double by_elongation = equivalent_stretch(site, bond, 1.);
   const double stretch =
-    by_elongation * (elongated + soft.offset * lattice.coefficients[bond].length);
+    by_elongation * (elongated + added);
   const double kappa = softening_bonds.maximum_stretch(soft, stretch);
   const double damage = lattice.softening.damage(kappa);
   const bool softens = stretch > soft.committed - kink_width;
@@ -50,6 +52,7 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
     std::vector<Tensor<1, dim>> functional;
     double modulus, theta;
     std::vector<std::pair<unsigned int, double>> soft; ///< number of each softening bond, and its g
+    std::map<unsigned int, double> lacks; ///< theta by the unknown of each traction, less
   };
   std::map<unsigned int, Dilatation> of_sites;
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
@@ -57,6 +60,9 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
          lattice.bonds.views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
       of_sites[s].soft.emplace_back(n, lattice.coefficients[b].dilatation);
 
+  std::vector<SymmetricTensor<2, dim>> strain;
+  if (parameters.in_bonds)
+    strain = pressure_in_bonds.strain(state);
   LocalSystem local;
   for (auto &[site, of_site] : of_sites)
   {
@@ -72,6 +78,21 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
       of_site.theta -= g * state.current.extra[n];
       local.extra.push_back(n);
     }
+    // What faces do to the family by that, is in their own rows.
+    if (parameters.in_bonds && lattice.dilatation_factor(site) == 1.)
+      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+        if (lattice.bonds.is_broken(site, b))
+          for (const auto &[cell, share] : pressure_in_bonds.shares(site, b, true))
+          {
+            const Tensor<1, dim> &e = lattice.coefficients[b].direction;
+            const double lacks = share * lattice.coefficients[b].dilatation *
+                                 lattice.coefficients[b].length /
+                                 lattice.rock_of_bonds.modulus(site, b);
+            of_site.theta -= lacks * (e * (strain[cell] * e));
+            for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
+              of_site.lacks[pressure_in_bonds.unknown_of_traction(cell, m)] +=
+                lacks * pressure_in_bonds.stretch_of_traction(cell, m, b);
+          }
     // On the family, what does not count.
     for (unsigned int k = 0; k < of_site.family.size(); ++k)
     {
@@ -98,12 +119,12 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
   {
     const auto &[site, bond] = softening_bonds[n].view;
     const double k = lattice.stiffness(site, bond),
-                 y = state.current.extra[unknown_of_lost_force(n)];
+                 y = state.current.extra[softening_bonds.unknown_of_lost_force(n)];
     for (const auto &[s, b] : lattice.bonds.views_of(site, bond))
       if (has_rows(s))
       {
         local.bulk.assign(lattice.zone.sites()[s].dofs.begin(), lattice.zone.sites()[s].dofs.end());
-        local.extra.assign(1, unknown_of_lost_force(n));
+        local.extra.assign(1, softening_bonds.unknown_of_lost_force(n));
         local.reinit();
         for (unsigned int d = 0; d < dim; ++d)
         {
@@ -116,12 +137,21 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
     if (lattice.zone.sites()[site].owner != rank)
       continue;
 
-    const Softened now = softened(softening_bonds[n], state);
+    const double length = lattice.coefficients[bond].length;
+    double added = softening_bonds[n].offset * length, dilatation = 0.;
+    if (parameters.in_bonds)
+    {
+      added = length * pressure_in_bonds.stretch(site, bond, pressure_in_bonds.shares(n), strain);
+      dilatation = pressure_in_bonds.dilatation(site, bond, pressure_in_bonds.shares(n), strain);
+    }
+    const Softened now = softened(softening_bonds[n], added, state);
     const FarEnd end = lattice.zone.far_end(site, bond);
-    const double g = lattice.coefficients[bond].dilatation;
+    const double g = lattice.coefficients[bond].dilatation,
+                 by_stress = 2. * lattice.push_of_dilatation(site, bond) /
+                             lattice.zone.sites()[site].share;
     std::map<dealii::types::global_dof_index, double> by_dof;
-    std::map<unsigned int, double> by_extra{{unknown_of_lost_force(n), k}};
-    double force = 0.; // of the dilatations of both ends
+    std::map<unsigned int, double> by_extra{{softening_bonds.unknown_of_lost_force(n), k}};
+    double force = by_stress * dilatation; // of the dilatations of both ends
     for (const unsigned int s : {site, end.site})
     {
       const Dilatation &of_site = of_sites.at(s);
@@ -133,7 +163,16 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
             now.damage * factor * of_site.functional[i][d];
       for (const auto &[m, of_other] : of_site.soft)
         by_extra[m] += now.damage * factor * of_other;
+      for (const auto &[m, of_traction] : of_site.lacks)
+        by_extra[m] += now.damage * factor * of_traction;
     }
+    if (parameters.in_bonds)
+      for (const auto &[cell, share] : pressure_in_bonds.shares(n))
+        for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
+          by_extra[pressure_in_bonds.unknown_of_traction(cell, m)] -=
+            share * (now.damage * by_stress * pressure_in_bonds.dilatation_of_traction(cell, m) +
+                     now.by_elongation * force * length * lattice.coefficients[bond].stiffness /
+                       k * pressure_in_bonds.stretch_of_traction(cell, m, bond));
     for (unsigned int d = 0; d < dim; ++d)
     {
       const double e = lattice.coefficients[bond].direction[d] * force * now.by_elongation;
@@ -148,7 +187,7 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
       local.extra.push_back(entry.first);
     local.reinit();
     const unsigned int row =
-      by_dof.size() + std::distance(by_extra.begin(), by_extra.find(unknown_of_lost_force(n)));
+      by_dof.size() + std::distance(by_extra.begin(), by_extra.find(softening_bonds.unknown_of_lost_force(n)));
     unsigned int column = 0;
     for (const auto &entry : by_dof)
       local.matrix(row, column++) = entry.second;
@@ -161,7 +200,7 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
 
 #define INSTANTIATE(dim)                                                                  \
   template Peridynamics<dim>::Softened Peridynamics<dim>::softened(const SofteningBond &, \
-                                                                   const State &) const;  \
+                                                                   double, const State &) const;  \
   template void Peridynamics<dim>::assemble_soft_dilatation(const State &, Sink &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -66,6 +66,18 @@ public:
     return bonds.end();
   }
 
+  /// Of the bonds' own unknowns, each has one, D times its elongation; state-based ones have a
+  /// second one each, after all of these: the elongation that stands for the force of the
+  /// dilatations, as far as it is lost.
+  unsigned int n_unknowns() const
+  {
+    return (lattice.parameters.state_based ? 2 : 1) * size();
+  }
+  unsigned int unknown_of_lost_force(const unsigned int number) const
+  {
+    return size() + number;
+  }
+
   /// Null where a bond does not soften.
   const SofteningBond *find(unsigned int site, unsigned int bond) const;
 
