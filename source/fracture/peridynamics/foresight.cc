@@ -41,7 +41,6 @@ void foresee_stress(const Lattice<dim> &lattice,
                     const double spacing,
                     std::vector<std::string> &messages)
 {
-  const Parameters<dim> &parameters = lattice.parameters;
   const Scene<dim> &scene = lattice.scene;
   double worst = equal_stress * lattice.strength();
   std::string message;

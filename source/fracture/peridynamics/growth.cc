@@ -32,7 +32,10 @@ typename Peridynamics<dim>::OfCells
 Peridynamics<dim>::pressure_stretch(const State &state, const Collectives &collectives) const
 {
   if (parameters.in_bonds)
-    return {{}, pressure_in_bonds.strain(state)};
+  {
+    const auto strain = pressure_in_bonds.strain(state);
+    return {{}, strain, dilatation_forces(state, strain)};
+  }
   std::vector<double> result(fracture.cells.size(), 0.);
   const RockProperties &rock = scene.rock.main();
   const double compliance = 1. / (dim * rock.lame_lambda() + 2. * rock.shear_modulus());
@@ -53,7 +56,7 @@ Peridynamics<dim>::pressure_stretch(const State &state, const Collectives &colle
     if (by_fluid > 0.)
       result[i] += by_fluid * (state.segment_pressure(fracture.segments[i].key) + in_situ);
   }
-  return {result, {}};
+  return {result, {}, dilatation_forces(state, {})};
 }
 
 
@@ -103,6 +106,31 @@ double Peridynamics<dim>::added_stretch(const unsigned int site,
 
 
 template <int dim>
+double Peridynamics<dim>::stretch_that_counts(const unsigned int site,
+                                              const unsigned int bond,
+                                              const double added,
+                                              const std::vector<double> &displacement,
+                                              const OfCells &of_cells) const
+{
+  double force = 0.;
+  if (!of_cells.dilatation_forces.empty() && !lattice.softening.brittle())
+  {
+    force = lattice.coefficients[bond].dilatation *
+            (of_cells.dilatation_forces[site] +
+             of_cells.dilatation_forces[lattice.zone.far_end(site, bond).site]);
+    if (parameters.in_bonds)
+      force += 2. * lattice.push_of_dilatation(site, bond) / lattice.zone.sites()[site].share *
+               pressure_in_bonds.dilatation(site, bond, pressure_in_bonds.shares(site, bond, false),
+                                            of_cells.strain);
+  }
+  return lattice.driving_stretch(site, bond,
+                                 lattice.elongation(site, bond, displacement) +
+                                   added * lattice.coefficients[bond].length,
+                                 force, relative_energy(site, bond));
+}
+
+
+template <int dim>
 std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(
   const std::vector<double> &u, const OfCells &of_cells, Rim &rim) const
 {
@@ -121,15 +149,12 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
     const bool breakable = lattice.bonds.can_break(i, b);
     if (b >= half && breakable && lattice.zone.far_end(i, b).mirrored == 0)
       return; // seen from the other end
-    const double stretch = lattice.elongation(i, b, u) / lattice.coefficients[b].length;
     const auto ratio_with = [&](const double more)
-    {
-      return rounded(equivalent_stretch(i, b, (stretch + more) * lattice.coefficients[b].length) /
-                     lattice.softening.first);
-    };
+    { return rounded(stretch_that_counts(i, b, more, u, of_cells) / lattice.softening.first); };
     const double most = most_of_cells / lattice.rock_of_bonds.modulus(i, b) +
                         (parameters.in_bonds ? 0. : lattice.in_situ_stretch(i, b));
-    if (ratio_with(most) < least || softening_bonds.find(i, b) != nullptr)
+    if ((of_cells.dilatation_forces.empty() && ratio_with(most) < least) ||
+        softening_bonds.find(i, b) != nullptr)
       return;
     const double ratio = ratio_with(added_stretch(i, b, of_cells));
     if (ratio < least)
@@ -323,6 +348,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                                                const std::vector<double> &) const;              \
   template double Peridynamics<dim>::added_stretch(unsigned int, unsigned int, const OfCells &) \
     const;                                                                                      \
+  template double Peridynamics<dim>::stretch_that_counts(                                       \
+    unsigned int, unsigned int, double, const std::vector<double> &, const OfCells &) const;    \
   template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(          \
     const std::vector<double> &, const OfCells &, Rim &) const;                                 \
   template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                 \

@@ -1,7 +1,7 @@
 #include "fracture/peridynamics/lattice.h"
 
+#include "fracture/peridynamics/driving_elongation.h"
 #include "fracture/peridynamics/lattice_moduli.h"
-#include "fracture/peridynamics/separation.h"
 #include "fracture/peridynamics/state_based.h"
 
 #include <deal.II/base/utilities.h>
@@ -57,7 +57,7 @@ void Lattice<dim>::setup(const ZoneShape<dim> &shape,
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     regions.push_back(cell->material_id());
   rock_of_bonds.reinit(
-    zone, stencil, scene.rock, parameters.state_based,
+    zone, stencil, scene.rock, parameters.state_based && parameters.softening == 1.,
     [&](const unsigned int cell, const Point<dim> &centre)
     { return scene.rock.at(regions[cell], centre); },
     collectives);
@@ -96,9 +96,25 @@ void Lattice<dim>::set_law(const double spacing)
   softening.last = std::sqrt(parameters.softening);
   BondLaw springs = law;
   springs.dilatation_modulus = 0.;
-  // What bonds across a plane take that break at a stretch: as springs, and by their dilatation.
-  const double at_one = separation_energy<dim>(stencil, law, spacing, softening);
-  energy_over_spring = at_one / crossing_energy<dim>(stencil, springs, spacing, 1.);
+  // What bonds across a plane take that break at a stretch. Those that soften take what springs do,
+  // see DrivingElongation.
+  const double of_springs = crossing_energy<dim>(stencil, springs, spacing, 1.),
+               at_one =
+                 softening.brittle() ? crossing_energy<dim>(stencil, law, spacing, 1.) : of_springs;
+  energy_over_spring = at_one / of_springs;
+  driving_of_equal_strain = 1.;
+  if (!softening.brittle() && !coefficients.empty())
+  {
+    // The same of all bonds, for their dilatation goes with stiffness times length.
+    const BondCoefficients<dim> &bond = coefficients.front();
+    driving_of_equal_strain =
+      driving_elongation(bond.length,
+                         2. * dim * law.dilatation_modulus *
+                           dealii::Utilities::fixed_power<dim>(spacing) * bond.dilatation,
+                         bond.stiffness)
+        .value /
+      bond.length;
+  }
   const double of_continuum =
     continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
@@ -276,7 +292,8 @@ template <int dim>
 double Lattice<dim>::strength() const
 {
   const RockProperties &rock = scene.rock.main();
-  return (dim * rock.lame_lambda() + 2. * rock.shear_modulus()) * softening.first;
+  return (dim * rock.lame_lambda() + 2. * rock.shear_modulus()) * softening.first /
+         driving_of_equal_strain;
 }
 
 
@@ -309,6 +326,20 @@ double Lattice<dim>::equivalent_stretch(const unsigned int site,
   return whole > 0.
            ? std::sqrt(stiffness(site, bond) / whole) * elongation / coefficients[bond].length
            : 0.;
+}
+
+
+template <int dim>
+double Lattice<dim>::driving_stretch(const unsigned int site,
+                                     const unsigned int bond,
+                                     const double elongation,
+                                     const double dilatation_force,
+                                     const double relative_energy) const
+{
+  const double driving = driving_elongation(elongation, softening.brittle() ? 0. : dilatation_force,
+                                            stiffness(site, bond))
+                           .value;
+  return equivalent_stretch(site, bond, driving, relative_energy);
 }
 
 

@@ -133,6 +133,14 @@ public:
                             double elongation,
                             double relative_energy) const;
 
+  /// The same by what drives its damage.
+  /// @param dilatation_force on it [N]
+  double driving_stretch(unsigned int site,
+                         unsigned int bond,
+                         double elongation,
+                         double dilatation_force,
+                         double relative_energy) const;
+
   // Dilatations, of state-based bonds.
 
   /// Of a site: its energy per volume is half of it times the dilatation squared [Pa].
@@ -186,6 +194,9 @@ public:
   double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
   double strain_of_pressure = 0.; ///< of the lattice, in each direction [1/Pa]
   double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
+  /// What drives the damage of a bond that softens, over its stretch, where rock is stretched by
+  /// the same in all directions.
+  double driving_of_equal_strain = 1.;
 
 private:
   std::vector<bool> unbreakable; ///< sites; empty: none

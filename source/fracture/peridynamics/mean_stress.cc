@@ -10,60 +10,23 @@ using dealii::SymmetricTensor;
 using dealii::Tensor;
 
 template <int dim>
-typename Peridynamics<dim>::OfBonds
-Peridynamics<dim>::forces_of_bonds(const State &state, const OfCells &of_cells) const
+std::map<BondView, double> Peridynamics<dim>::lost_elongations(const State &state,
+                                                               const unsigned int first) const
 {
-  OfBonds of_bonds;
+  std::map<BondView, double> lost;
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
     for (const BondView &view :
          lattice.bonds.views_of(softening_bonds[n].view.first, softening_bonds[n].view.second))
-    {
-      of_bonds.softened[view] = state.current.extra[n];
-      if (parameters.state_based)
-        of_bonds.lost[view] = state.current.extra[softening_bonds.unknown_of_lost_force(n)];
-    }
-  if (!lattice.law.state_based())
-    return of_bonds;
-  std::vector<double> &forces = of_bonds.dilatation_forces;
-  forces.assign(lattice.zone.sites().size(), 0.);
-  std::vector<unsigned int> family;
-  std::vector<Tensor<1, dim>> functional;
-  for (const auto *sites : {&lattice.zone.peridynamic_sites(), &lattice.zone.rim_sites()})
-    for (const unsigned int i : *sites)
-    {
-      const double modulus = lattice.find_dilatation(i, family, functional);
-      for (unsigned int k = 0; k < family.size(); ++k)
-        for (unsigned int d = 0; d < dim; ++d)
-          forces[i] += functional[k][d] * displacement[family[k] * dim + d];
-      const bool lacks = lattice.dilatation_factor(i) == 1.;
-      if (lattice.zone.sites()[i].peridynamic)
-        for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
-        {
-          const Tensor<1, dim> &e = lattice.coefficients[b].direction;
-          if (const auto found = of_bonds.softened.find({i, b}); found != of_bonds.softened.end())
-            forces[i] -= lattice.coefficients[b].dilatation * found->second;
-          else if (lacks && lattice.bonds.is_broken(i, b))
-            for (const auto &[cell, share] : pressure_in_bonds.shares(i, b, true))
-              forces[i] -= share * lattice.coefficients[b].dilatation *
-                           lattice.coefficients[b].length / lattice.rock_of_bonds.modulus(i, b) *
-                           (e * (of_cells.strain[cell] * e));
-        }
-      forces[i] *= modulus / lattice.zone.sites()[i].share;
-    }
-  return of_bonds;
+      lost[view] = state.current.extra[first + n];
+  return lost;
 }
 
 
 template <int dim>
 SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(const unsigned int site,
-                                                           const OfBonds &of_bonds,
+                                                           const std::map<BondView, double> &lost,
                                                            const OfCells &of_cells) const
 {
-  const auto part = [&](const std::map<BondView, double> &of, const unsigned int b)
-  {
-    const auto found = of.find({site, b});
-    return found != of.end() ? found->second : 0.;
-  };
   SymmetricTensor<2, dim> stress;
   for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
   {
@@ -77,12 +40,13 @@ SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(const unsigned int si
                             lattice.zone.sites()[site].share * trace(of_cells.strain[cell]));
     else
     {
+      const auto found = lost.find({site, b});
       force = lattice.stiffness(site, b) * (lattice.elongation(site, b, displacement) -
-                                            part(of_bonds.softened, b) - part(of_bonds.lost, b));
-      if (lattice.law.state_based())
+                                            (found != lost.end() ? found->second : 0.));
+      if (!of_cells.dilatation_forces.empty())
         force += lattice.coefficients[b].dilatation *
-                 (of_bonds.dilatation_forces[site] +
-                  of_bonds.dilatation_forces[lattice.zone.far_end(site, b).site]);
+                 (of_cells.dilatation_forces[site] +
+                  of_cells.dilatation_forces[lattice.zone.far_end(site, b).site]);
     }
     stress += 0.5 * force * lattice.coefficients[b].length * symmetrize(outer_product(e, e));
   }
@@ -126,7 +90,10 @@ Peridynamics<dim>::mean_stress(const Point<dim> &centre,
                                const State &state,
                                const OfCells &of_cells) const
 {
-  const OfBonds of_bonds = forces_of_bonds(state, of_cells);
+  std::map<BondView, double> lost = lost_elongations(state, 0);
+  if (parameters.state_based)
+    for (const auto &[view, force] : lost_elongations(state, softening_bonds.size()))
+      lost[view] += force;
   SymmetricTensor<2, dim> sum;
   double weights = 0.;
   for (unsigned int i = 0; i < lattice.zone.sites().size(); ++i)
@@ -139,7 +106,7 @@ Peridynamics<dim>::mean_stress(const Point<dim> &centre,
     if (weight == 0.)
       continue;
     auto stress = lattice.zone.sites()[i].peridynamic
-                    ? std::optional<SymmetricTensor<2, dim>>(stress_of_bonds(i, of_bonds, of_cells))
+                    ? std::optional<SymmetricTensor<2, dim>>(stress_of_bonds(i, lost, of_cells))
                     : stress_of_elements(i);
     if (!stress)
       continue;
@@ -151,15 +118,15 @@ Peridynamics<dim>::mean_stress(const Point<dim> &centre,
   return weights > 0. ? sum / weights : sum;
 }
 
-#define INSTANTIATE(dim)                                                                 \
-  template Peridynamics<dim>::OfBonds Peridynamics<dim>::forces_of_bonds(                \
-    const State &, const OfCells &) const;                                               \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                   \
-    unsigned int, const OfBonds &, const OfCells &) const;                               \
-  template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements( \
-    unsigned int) const;                                                                 \
-  template SymmetricTensor<2, dim> Peridynamics<dim>::mean_stress(                       \
-    const Point<dim> &, double, const std::function<double(const Tensor<1, dim> &)> &,   \
+#define INSTANTIATE(dim)                                                                       \
+  template std::map<BondView, double> Peridynamics<dim>::lost_elongations(const State &,       \
+                                                                          unsigned int) const; \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(                         \
+    unsigned int, const std::map<BondView, double> &, const OfCells &) const;                  \
+  template std::optional<SymmetricTensor<2, dim>> Peridynamics<dim>::stress_of_elements(       \
+    unsigned int) const;                                                                       \
+  template SymmetricTensor<2, dim> Peridynamics<dim>::mean_stress(                             \
+    const Point<dim> &, double, const std::function<double(const Tensor<1, dim> &)> &,         \
     const State &, const OfCells &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

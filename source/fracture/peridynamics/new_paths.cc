@@ -54,6 +54,7 @@ void NewPaths<dim>::look_beside(const TrackedPaths &paths)
 template <int dim>
 std::vector<typename NewPaths<dim>::Overstretched>
 NewPaths<dim>::overstretched(const std::vector<double> &displacement,
+                             const std::vector<double> &dilatation_forces,
                              const TrackedPaths &paths) const
 {
   std::vector<Overstretched> result;
@@ -67,8 +68,13 @@ NewPaths<dim>::overstretched(const std::vector<double> &displacement,
                              i, 0, lattice.zone.position(lattice.zone.sites()[i].place)))[0] <= 0.;
       for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       {
+        double force = 0.;
+        if (!dilatation_forces.empty())
+          force = lattice.coefficients[b].dilatation *
+                  (dilatation_forces[i] + dilatation_forces[lattice.zone.far_end(i, b).site]);
         const auto stretch_by = [&](const double elongation) {
-          return lattice.equivalent_stretch(i, b, elongation, lattice.rock_of_bonds.energy(i, b));
+          return lattice.driving_stretch(i, b, elongation, force,
+                                         lattice.rock_of_bonds.energy(i, b));
         };
         double longer = lattice.elongation(i, b, displacement);
         if ((pressed && longer <= 0.) || lattice.bonds.is_broken(i, b) ||
@@ -83,8 +89,13 @@ NewPaths<dim>::overstretched(const std::vector<double> &displacement,
         // As across a crack, by the traction across the bond, for compression along it opens none;
         // but no more than the strain, which sides that take the stress away take from the bond.
         if (!lattice.in_situ_is_zero)
-          longer += lattice.coefficients[b].length *
-                    std::min(lattice.dry_stretch(i, b, middle, e), lattice.in_situ_stretch(i, b));
+        {
+          const double in_situ =
+            std::min(lattice.dry_stretch(i, b, middle, e), lattice.in_situ_stretch(i, b));
+          longer += lattice.coefficients[b].length * in_situ;
+          force +=
+            2. * lattice.push_of_dilatation(i, b) / lattice.zone.sites()[i].share * dim * in_situ;
+        }
         const double stretch = rounded(stretch_by(longer) / lattice.softening.first);
         if (stretch < 1. - nearly_most ||
             !lattice.zone.all_rock().point_inside(middle, same_place * lattice.zone.spacing()) ||
@@ -190,10 +201,11 @@ bool NewPaths<dim>::begins_in_unbreakable(const Beginning &path) const
 template <int dim>
 std::string NewPaths<dim>::begin(const StepContext &context,
                                  const std::vector<double> &displacement,
+                                 const std::vector<double> &dilatation_forces,
                                  const MeanStress &mean_stress,
                                  TrackedPaths &paths)
 {
-  std::vector<Overstretched> all = overstretched(displacement, paths);
+  std::vector<Overstretched> all = overstretched(displacement, dilatation_forces, paths);
   std::string reason;
   while (reason.empty())
   {
@@ -387,7 +399,7 @@ void NewPaths<dim>::refuse_in_situ_tension(const TrackedPaths &paths) const
   if (lattice.in_situ_is_zero)
     return;
   const std::vector<double> displacement(lattice.zone.sites().size() * dim, 0.);
-  const std::vector<Overstretched> all = overstretched(displacement, paths);
+  const std::vector<Overstretched> all = overstretched(displacement, {}, paths);
   const auto worst = std::max_element(all.begin(), all.end(),
                                       [](const Overstretched &a, const Overstretched &b)
                                       { return a.stretch < b.stretch; });

@@ -34,8 +34,10 @@ public:
   /// Paths begin where bonds are stretched most, if that is too far.
   /// @param displacement of all sites [m]
   /// @return why the run cannot go on; empty: it can
+  /// @param dilatation_forces of sites, if they are state-based, see Peridynamics
   std::string begin(const StepContext &context,
                     const std::vector<double> &displacement,
+                    const std::vector<double> &dilatation_forces,
                     const MeanStress &mean_stress,
                     TrackedPaths &paths);
 
@@ -68,6 +70,7 @@ private:
 
   /// Those far from all paths, by site, and others that nearly would.
   std::vector<Overstretched> overstretched(const std::vector<double> &displacement,
+                                           const std::vector<double> &dilatation_forces,
                                            const TrackedPaths &paths) const;
 
   /// Whether a point is in a cell of the zone, or of what may become one, or beyond all rock.

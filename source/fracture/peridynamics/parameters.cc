@@ -303,7 +303,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     p.has_inertia && !p.tracked && !std::isnan(scene.crack_pressure) && scene.crack_pressure != 0.;
   if (prm.get("Closure") == "auto")
   {
-    const bool given = explicit_fluid || (moves_by_given_pressure && !p.tensor_fluid && p.horizon >= 3);
+    const bool given =
+      explicit_fluid || (moves_by_given_pressure && !p.tensor_fluid && p.horizon >= 3);
     prm.set("Closure", p.tracked || given ? "in bonds" : "conserving");
     p.reasons["Closure"] = p.tracked ? "for a path"
                            : given   ? "where a pressure is given in cracks that may fork"

@@ -157,6 +157,8 @@ private:
     std::vector<double> relief; ///< stretch, see pressure_stretch()
     /// With the pressure in the bonds: of the lattice, by the tractions that the faces have lost.
     std::vector<dealii::SymmetricTensor<2, dim>> strain;
+    /// Of state-based sites: forces of their dilatations, see dilatation_forces().
+    std::vector<double> dilatation_forces;
   };
 
   /// A bond that is stretched too far.
@@ -198,17 +200,6 @@ private:
 
   void assemble_softening(const State &state, Sink &sink) const;
 
-  /// What of a bond is gone, and how that changes with its elongation.
-  struct Softened
-  {
-    double damage;        ///< D
-    double by_elongation; ///< of D [1/m]
-  };
-
-  /// Of softening bonds that are state-based, in a state whose displacements are known here.
-  /// @param added to the elongation [m]
-  Softened softened(const SofteningBond &bond, double added, const State &state) const;
-
   /// With them: what is left of a bond, 1 - D, is what counts of it in dilatations, and what these
   /// do to its ends. See soft_dilatation.cc.
   void assemble_soft_dilatation(const State &state, Sink &sink) const;
@@ -228,18 +219,22 @@ private:
   /// Paths go on ahead of tips that have come near to their ends.
   void track(const State &state, const OfCells &of_cells);
 
-  /// What the forces of bonds follow from.
-  struct OfBonds
-  {
-    std::map<BondView, double> softened; ///< what has become of their elongation without force [m]
-    std::map<BondView, double> lost;     ///< the same for the force of dilatations, if state-based
-    std::vector<double> dilatation_forces; ///< of sites, over a bond's dilatation per elongation [N m]
-  };
-  OfBonds forces_of_bonds(const State &state, const OfCells &of_cells) const;
+  /// Of softening bonds, what has become of their elongation without any force, by the unknown.
+  /// @param first of these unknowns
+  std::map<BondView, double> lost_elongations(const State &state, unsigned int first) const;
+
+  /// Of state-based sites: the force by their dilatation on bonds, over the dilatation per
+  /// elongation of these [N m].
+  /// @param strain see OfCells
+  std::vector<double>
+  dilatation_forces(const State &state,
+                    const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
 
   /// Of a peridynamic site, but for what it is in situ [Pa].
-  dealii::SymmetricTensor<2, dim>
-  stress_of_bonds(unsigned int site, const OfBonds &of_bonds, const OfCells &of_cells) const;
+  /// @param lost elongation of bonds [m]
+  dealii::SymmetricTensor<2, dim> stress_of_bonds(unsigned int site,
+                                                  const std::map<BondView, double> &lost,
+                                                  const OfCells &of_cells) const;
 
   /// Of a site among elements of the size of the lattice's cells; nothing at the rim of these.
   std::optional<dealii::SymmetricTensor<2, dim>> stress_of_elements(unsigned int site) const;
@@ -280,6 +275,14 @@ private:
   /// The most stretched first.
   std::vector<Candidate>
   overstretched(const std::vector<double> &displacement, const OfCells &of_cells, Rim &rim) const;
+
+  /// Of a bond and what is added to its stretch, the stretch that counts for softening and
+  /// breaking, as of a bond of the lattice's stiffness in the rock outside of regions.
+  double stretch_that_counts(unsigned int site,
+                             unsigned int bond,
+                             double added,
+                             const std::vector<double> &displacement,
+                             const OfCells &of_cells) const;
 
   /// What counts for softening and breaking besides a bond's elongation: in-situ stress and fluid.
   /// @param of_cells see pressure_stretch()

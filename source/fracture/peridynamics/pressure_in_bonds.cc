@@ -120,8 +120,8 @@ double PressureInBonds<dim>::dilatation(const unsigned int site,
       const auto crossing = crossing_bonds.crossing(site, bond);
       return lattice.in_situ_is_zero || !crossing || paths.is_wet(crossing->path)
                ? 0.
-               : trace(lattice.dry_strain(site, bond, paths.point(*crossing),
-                                          paths.left(*crossing)));
+               : trace(
+                   lattice.dry_strain(site, bond, paths.point(*crossing), paths.left(*crossing)));
     }
   double dilatation = 0.;
   for (const auto &[cell, share] : shares)
@@ -380,8 +380,7 @@ void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across
 {
   const unsigned int n = n_modes();
   ByDof by_dof(fracture.cells.size());
-  const Strain of_pressure =
-    lattice.strain_of_pressure * dealii::unit_symmetric_tensor<dim>();
+  const Strain of_pressure = lattice.strain_of_pressure * dealii::unit_symmetric_tensor<dim>();
   for (const BondAcross<dim> &bond : across)
   {
     const auto &[i, b] = bond.view;

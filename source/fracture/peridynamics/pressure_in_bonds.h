@@ -83,6 +83,11 @@ public:
   /// Of a bond's ends, across one cell, by a unit of the unknown of its traction.
   double dilatation_of_traction(unsigned int cell, unsigned int mode) const;
 
+  /// By what a broken bond is longer by a stress that strains the lattice so, the more the softer
+  /// it is [m].
+  double
+  longer(unsigned int site, unsigned int bond, const dealii::SymmetricTensor<2, dim> &strain) const;
+
   /// Of a bond across a path that fluid has not reached: by the effective in-situ traction there,
   /// which the fracture would release.
   double dry_stretch(unsigned int site, unsigned int bond) const;
@@ -147,8 +152,6 @@ private:
               const dealii::Tensor<1, dim> &direction,
               const Strain &strain) const;
 
-  /// By what a bond is longer by that stress, the more the softer it is [m].
-  double longer(unsigned int site, unsigned int bond, const Strain &strain) const;
 
   /// Those that cross a path; without paths the broken ones.
   std::vector<BondAcross<dim>> bonds_across() const;

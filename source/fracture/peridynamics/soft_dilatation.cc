@@ -7,6 +7,7 @@
 // Both x = D e and the force that is lost, over k, y = D A V g (theta + theta')/k, are unknowns, so
 // that the matrix of bonds that hold stays as it is.
 #include "base/kink.h"
+#include "fracture/peridynamics/driving_elongation.h"
 #include "fracture/peridynamics/peridynamics.h"
 
 #include <algorithm>
@@ -19,27 +20,36 @@ using dealii::Tensor;
 
 
 template <int dim>
-typename Peridynamics<dim>::Softened Peridynamics<dim>::softened(const SofteningBond &soft,
-                                                                 const double added,
-                                                                 const State &state) const
+std::vector<double>
+Peridynamics<dim>::dilatation_forces(const State &state,
+                                     const std::vector<SymmetricTensor<2, dim>> &strain) const
 {
-  const auto &[site, bond] = soft.view;
-  const FarEnd end = lattice.zone.far_end(site, bond);
-  double elongated = 0.;
-  for (unsigned int d = 0; d < dim; ++d)
-    elongated += lattice.coefficients[bond].direction[d] *
-                 ((end.mirrored >> d & 1 ? -1. : 1.) *
-                    state.current.bulk(lattice.zone.sites()[end.site].dofs[d]) -
-                  state.current.bulk(lattice.zone.sites()[site].dofs[d]));
-  const double by_elongation = equivalent_stretch(site, bond, 1.);
-  const double stretch =
-    by_elongation * (elongated + added);
-  const double kappa = softening_bonds.maximum_stretch(soft, stretch);
-  const double damage = lattice.softening.damage(kappa);
-  const bool softens = stretch > soft.committed - kink_width;
-  return {damage, softens ? (lattice.softening.slope(kappa) - damage) / kappa *
-                              softening_bonds.relaxation() * by_elongation
-                          : 0.};
+  if (!lattice.law.state_based())
+    return {};
+  const std::map<BondView, double> lost = lost_elongations(state, 0);
+  std::vector<double> forces(lattice.zone.sites().size(), 0.);
+  std::vector<unsigned int> family;
+  std::vector<Tensor<1, dim>> functional;
+  for (const auto *sites : {&lattice.zone.peridynamic_sites(), &lattice.zone.rim_sites()})
+    for (const unsigned int i : *sites)
+    {
+      const double modulus = lattice.find_dilatation(i, family, functional);
+      double theta = 0.;
+      for (unsigned int k = 0; k < family.size(); ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+          theta += functional[k][d] * displacement[family[k] * dim + d];
+      const bool is_damaged = lattice.zone.sites()[i].peridynamic,
+                 lacks = parameters.in_bonds && lattice.dilatation_factor(i) == 1.;
+      for (unsigned int b = 0; is_damaged && b < lattice.stencil.size(); ++b)
+        if (const auto found = lost.find({i, b}); found != lost.end())
+          theta -= lattice.coefficients[b].dilatation * found->second;
+        else if (lacks && lattice.bonds.is_broken(i, b))
+          for (const auto &[cell, share] : pressure_in_bonds.shares(i, b, true))
+            theta -= share * lattice.coefficients[b].dilatation *
+                     pressure_in_bonds.longer(i, b, strain[cell]);
+      forces[i] = theta * modulus / lattice.zone.sites()[i].share;
+    }
+  return forces;
 }
 
 
@@ -84,14 +94,12 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
         if (lattice.bonds.is_broken(site, b))
           for (const auto &[cell, share] : pressure_in_bonds.shares(site, b, true))
           {
-            const Tensor<1, dim> &e = lattice.coefficients[b].direction;
-            const double lacks = share * lattice.coefficients[b].dilatation *
-                                 lattice.coefficients[b].length /
-                                 lattice.rock_of_bonds.modulus(site, b);
-            of_site.theta -= lacks * (e * (strain[cell] * e));
+            const double g = share * lattice.coefficients[b].dilatation;
+            of_site.theta -= g * pressure_in_bonds.longer(site, b, strain[cell]);
             for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
               of_site.lacks[pressure_in_bonds.unknown_of_traction(cell, m)] +=
-                lacks * pressure_in_bonds.stretch_of_traction(cell, m, b);
+                g * lattice.coefficients[b].length / lattice.rock_of_bonds.modulus(site, b) *
+                pressure_in_bonds.stretch_of_traction(cell, m, b);
           }
     // On the family, what does not count.
     for (unsigned int k = 0; k < of_site.family.size(); ++k)
@@ -137,21 +145,26 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
     if (lattice.zone.sites()[site].owner != rank)
       continue;
 
-    const double length = lattice.coefficients[bond].length;
-    double added = softening_bonds[n].offset * length, dilatation = 0.;
-    if (parameters.in_bonds)
-    {
-      added = length * pressure_in_bonds.stretch(site, bond, pressure_in_bonds.shares(n), strain);
-      dilatation = pressure_in_bonds.dilatation(site, bond, pressure_in_bonds.shares(n), strain);
-    }
-    const Softened now = softened(softening_bonds[n], added, state);
+    // The elongation e, and the force F of the dilatations of both ends; and both by the unknowns.
     const FarEnd end = lattice.zone.far_end(site, bond);
-    const double g = lattice.coefficients[bond].dilatation,
-                 by_stress = 2. * lattice.push_of_dilatation(site, bond) /
-                             lattice.zone.sites()[site].share;
-    std::map<dealii::types::global_dof_index, double> by_dof;
-    std::map<unsigned int, double> by_extra{{softening_bonds.unknown_of_lost_force(n), k}};
-    double force = by_stress * dilatation; // of the dilatations of both ends
+    const double length = lattice.coefficients[bond].length,
+                 g = lattice.coefficients[bond].dilatation,
+                 by_stress =
+                   2. * lattice.push_of_dilatation(site, bond) / lattice.zone.sites()[site].share;
+    std::map<dealii::types::global_dof_index, std::array<double, 2>> by_dof;
+    std::map<unsigned int, std::array<double, 2>> by_extra;
+    double elongation = 0., force = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double e = lattice.coefficients[bond].direction[d],
+                   at_far = end.mirrored >> d & 1 ? -e : e;
+      for (const auto &[s, direction] : {std::pair(site, -e), std::pair(end.site, at_far)})
+      {
+        const auto dof = lattice.zone.sites()[s].dofs[d];
+        elongation += direction * state.current.bulk(dof);
+        by_dof[dof][0] += direction;
+      }
+    }
     for (const unsigned int s : {site, end.site})
     {
       const Dilatation &of_site = of_sites.at(s);
@@ -159,26 +172,43 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
       force += factor * of_site.theta;
       for (unsigned int i = 0; i < of_site.family.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          by_dof[lattice.zone.sites()[of_site.family[i]].dofs[d]] -=
-            now.damage * factor * of_site.functional[i][d];
+          by_dof[lattice.zone.sites()[of_site.family[i]].dofs[d]][1] +=
+            factor * of_site.functional[i][d];
       for (const auto &[m, of_other] : of_site.soft)
-        by_extra[m] += now.damage * factor * of_other;
+        by_extra[m][1] -= factor * of_other;
       for (const auto &[m, of_traction] : of_site.lacks)
-        by_extra[m] += now.damage * factor * of_traction;
+        by_extra[m][1] -= factor * of_traction;
     }
+    double added = softening_bonds[n].offset * length;
     if (parameters.in_bonds)
-      for (const auto &[cell, share] : pressure_in_bonds.shares(n))
-        for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
-          by_extra[pressure_in_bonds.unknown_of_traction(cell, m)] -=
-            share * (now.damage * by_stress * pressure_in_bonds.dilatation_of_traction(cell, m) +
-                     now.by_elongation * force * length * lattice.coefficients[bond].stiffness /
-                       k * pressure_in_bonds.stretch_of_traction(cell, m, bond));
-    for (unsigned int d = 0; d < dim; ++d)
     {
-      const double e = lattice.coefficients[bond].direction[d] * force * now.by_elongation;
-      by_dof[lattice.zone.sites()[site].dofs[d]] += e;
-      by_dof[lattice.zone.sites()[end.site].dofs[d]] -= end.mirrored >> d & 1 ? -e : e;
+      const CellShares &shares = pressure_in_bonds.shares(n);
+      added = length * pressure_in_bonds.stretch(site, bond, shares, strain);
+      force += by_stress * pressure_in_bonds.dilatation(site, bond, shares, strain);
+      const double longer = length * lattice.coefficients[bond].stiffness / k;
+      for (const auto &[cell, share] : shares)
+        for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
+        {
+          auto &of_traction = by_extra[pressure_in_bonds.unknown_of_traction(cell, m)];
+          of_traction[0] += share * longer * pressure_in_bonds.stretch_of_traction(cell, m, bond);
+          of_traction[1] += share * by_stress * pressure_in_bonds.dilatation_of_traction(cell, m);
+        }
     }
+
+    const DrivingElongation driving = driving_elongation(elongation + added, force, k);
+    const double per_elongation = equivalent_stretch(site, bond, 1.),
+                 stretch = per_elongation * driving.value,
+                 kappa = softening_bonds.maximum_stretch(softening_bonds[n], stretch),
+                 damage = lattice.softening.damage(kappa);
+    const double slope = stretch > softening_bonds[n].committed - kink_width
+                           ? (lattice.softening.slope(kappa) - damage) / kappa *
+                               softening_bonds.relaxation() * per_elongation
+                           : 0.;
+    // See assemble_softening().
+    const double carried = parameters.in_bonds ? elongation + added : elongation;
+    const unsigned int lost = softening_bonds.unknown_of_lost_force(n);
+    by_extra[n];
+    by_extra[lost];
     local.bulk.clear();
     local.extra.clear();
     for (const auto &entry : by_dof)
@@ -186,21 +216,33 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
     for (const auto &entry : by_extra)
       local.extra.push_back(entry.first);
     local.reinit();
-    const unsigned int row =
-      by_dof.size() + std::distance(by_extra.begin(), by_extra.find(softening_bonds.unknown_of_lost_force(n)));
+    const auto row_of = [&](const unsigned int extra)
+    { return by_dof.size() + std::distance(by_extra.begin(), by_extra.find(extra)); };
+    const unsigned int row_x = row_of(n), row_y = row_of(lost);
     unsigned int column = 0;
+    const auto add_column = [&](const std::array<double, 2> &by_unknown)
+    {
+      const auto [e, f] = by_unknown;
+      const double damaged = slope * (driving.by_elongation * e + driving.by_force * f);
+      local.matrix(row_x, column) = -k * (damage * e + carried * damaged);
+      local.matrix(row_y, column) = -(damage * f + force * damaged);
+      ++column;
+    };
     for (const auto &entry : by_dof)
-      local.matrix(row, column++) = entry.second;
+      add_column(entry.second);
     for (const auto &entry : by_extra)
-      local.matrix(row, column++) = entry.second;
-    local.residual(row) = k * y - now.damage * force;
+      add_column(entry.second);
+    local.matrix(row_x, row_x) += k;
+    local.matrix(row_y, row_y) += k;
+    local.residual(row_x) = k * (state.current.extra[n] - damage * carried);
+    local.residual(row_y) = k * y - damage * force;
     sink.add(local);
   }
 }
 
-#define INSTANTIATE(dim)                                                                  \
-  template Peridynamics<dim>::Softened Peridynamics<dim>::softened(const SofteningBond &, \
-                                                                   double, const State &) const;  \
+#define INSTANTIATE(dim)                                                \
+  template std::vector<double> Peridynamics<dim>::dilatation_forces(    \
+    const State &, const std::vector<SymmetricTensor<2, dim>> &) const; \
   template void Peridynamics<dim>::assemble_soft_dilatation(const State &, Sink &) const;
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -112,8 +112,8 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
         sink.add(force);
       }
 
-    if (lattice.zone.sites()[site].owner != rank)
-      continue;
+    if (lattice.zone.sites()[site].owner != rank || parameters.state_based)
+      continue; // those rows are assemble_soft_dilatation()'s
     law_of_bond.extra[0] = n;
     const FarEnd end = lattice.zone.far_end(site, bond);
     const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
@@ -215,11 +215,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     changed = true;
   };
   const auto stretch_of = [&](const BondView &view, const double added)
-  {
-    const auto &[site, b] = view;
-    return equivalent_stretch(
-      site, b, lattice.elongation(site, b, u) + added * lattice.coefficients[b].length);
-  };
+  { return stretch_that_counts(view.first, view.second, added, u, of_cells); };
   const auto maximum_stretch = [&](const SofteningBond &bond)
   {
     return softening_bonds.maximum_stretch(bond,

@@ -191,7 +191,7 @@ std::string Peridynamics<dim>::begin_paths(const StepContext &context,
                                            const OfCells &of_cells)
 {
   const std::string reason = new_paths.begin(
-    context, displacement,
+    context, displacement, of_cells.dilatation_forces,
     [&](const Point<dim> &place, const double reach,
         const std::function<double(const Tensor<1, dim> &)> &weight)
     { return mean_stress(place, reach, weight, state, of_cells); },
