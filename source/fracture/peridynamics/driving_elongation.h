@@ -30,7 +30,7 @@ driving_elongation(const double elongation, const double force, const double sti
     return {elongation, 1., 0.};
   const double square = elongation * (elongation + 2. * force / stiffness);
   if (square <= 0.)
-    return {0., 0., 0.};
+    return {-std::sqrt(-square), 0., 0.}; // nothing would be set free
   const double value = std::sqrt(square);
   return {value, (elongation + force / stiffness) / value, elongation / (stiffness * value)};
 }

@@ -200,7 +200,7 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
                  stretch = per_elongation * driving.value,
                  kappa = softening_bonds.maximum_stretch(softening_bonds[n], stretch),
                  damage = lattice.softening.damage(kappa);
-    const double slope = stretch > softening_bonds[n].committed - kink_width
+    const double slope = kappa > 0. && stretch > softening_bonds[n].committed - kink_width
                            ? (lattice.softening.slope(kappa) - damage) / kappa *
                                softening_bonds.relaxation() * per_elongation
                            : 0.;
