@@ -206,36 +206,41 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
                            : 0.;
     // See assemble_softening().
     const double carried = parameters.in_bonds ? elongation + added : elongation;
-    const unsigned int lost = softening_bonds.unknown_of_lost_force(n);
-    by_extra[n];
-    by_extra[lost];
-    local.bulk.clear();
-    local.extra.clear();
-    for (const auto &entry : by_dof)
-      local.bulk.push_back(entry.first);
-    for (const auto &entry : by_extra)
-      local.extra.push_back(entry.first);
-    local.reinit();
-    const auto row_of = [&](const unsigned int extra)
-    { return by_dof.size() + std::distance(by_extra.begin(), by_extra.find(extra)); };
-    const unsigned int row_x = row_of(n), row_y = row_of(lost);
-    unsigned int column = 0;
-    const auto add_column = [&](const std::array<double, 2> &by_unknown)
+    // The rows of both unknowns, a few columns at a time: a local matrix is square.
+    constexpr unsigned int most_columns = 24;
+    const auto enter = [&](const unsigned int column, const std::array<double, 2> &by_unknown)
     {
       const auto [e, f] = by_unknown;
       const double damaged = slope * (driving.by_elongation * e + driving.by_force * f);
-      local.matrix(row_x, column) = -k * (damage * e + carried * damaged);
-      local.matrix(row_y, column) = -(damage * f + force * damaged);
-      ++column;
+      const unsigned int x = local.bulk.size();
+      local.matrix(x, column) -= k * (damage * e + carried * damaged);
+      local.matrix(x + 1, column) -= damage * f + force * damaged;
     };
-    for (const auto &entry : by_dof)
-      add_column(entry.second);
+    local.extra = {n, softening_bonds.unknown_of_lost_force(n)};
+    for (auto entry = by_dof.begin(); entry != by_dof.end();)
+    {
+      local.bulk.clear();
+      const auto first = entry;
+      for (; entry != by_dof.end() && local.bulk.size() < most_columns; ++entry)
+        local.bulk.push_back(entry->first);
+      local.reinit();
+      unsigned int column = 0;
+      for (auto own = first; own != entry; ++own)
+        enter(column++, own->second);
+      sink.add(local);
+    }
+    local.bulk.clear();
     for (const auto &entry : by_extra)
-      add_column(entry.second);
-    local.matrix(row_x, row_x) += k;
-    local.matrix(row_y, row_y) += k;
-    local.residual(row_x) = k * (state.current.extra[n] - damage * carried);
-    local.residual(row_y) = k * y - damage * force;
+      if (entry.first != local.extra[0] && entry.first != local.extra[1])
+        local.extra.push_back(entry.first);
+    local.reinit();
+    for (unsigned int column = 0; column < local.extra.size(); ++column)
+      if (const auto found = by_extra.find(local.extra[column]); found != by_extra.end())
+        enter(column, found->second);
+    local.matrix(0, 0) += k;
+    local.matrix(1, 1) += k;
+    local.residual(0) = k * (state.current.extra[n] - damage * carried);
+    local.residual(1) = k * y - damage * force;
     sink.add(local);
   }
 }
