@@ -90,13 +90,16 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "bonds', where the pressure is part of what breaks a bond.");
   prm.declare_alias("Critical stretch", "Stretch", true);
   prm.declare_entry(
-    "Surface correction", "true", Patterns::Bool(),
+    "Surface correction", "auto", Patterns::Selection("auto|true|false"),
     "Nodes beside a crack have lost bonds that are no part of the crack's opening, "
     "which makes its faces too soft. With the correction, the bonds that are left "
     "are stiffer, in proportion; beside a fracture that grows, once what is missing is 3 % of what "
     "has been made up for. With 'Closure = in bonds' only those beside the "
     "initial cracks: faces of a fracture that grows are those of a crack without load in "
-    "rock under a uniform stress, which do not feel what bonds are left.");
+    "rock under a uniform stress, which do not feel what bonds are left. auto: true, but false "
+    "with "
+    "'Bond law = state-based' and that closure, where cracks would open by up to a tenth too "
+    "little at Poisson's ratios below 1/4.");
   prm.declare_entry(
     "Closure", "auto", Patterns::Selection("auto|conserving|in bonds|as published"),
     "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, and "
@@ -217,6 +220,8 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
       fracture && fracture->dimensionless_toughness() < viscous)
     return {true, "the fluid is viscous (K_m = " + text(fracture->dimensionless_toughness()) +
                     "), and its pressure may break bonds beside the crack"};
+  if (p.state_based && std::isnan(scene.crack_pressure))
+    return {true, "bonds are state-based, whose load without a path is that of bond-based ones"};
   return {false, "cracks lie along the mesh, in isotropic stress"};
 }
 
@@ -277,7 +282,6 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     throw bad("Critical stretch factor",
               "a number from 0.1 to 10, or nothing (an empty entry): fractures take its square "
               "times the energy release rate");
-  p.surface_correction = prm.get_bool("Surface correction");
   p.softening = prm.get_double("Softening");
   if (p.softening > 1. && p.softening < 3.)
     throw bad("Softening", "1, or a number from 3 to 100: between, fractures jump and soften");
@@ -318,6 +322,15 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (p.in_bonds && !p.effective_stretch)
     throw bad("Critical stretch", "reduced by fluid with 'Closure = in bonds', where the pressure "
                                   "is part of what breaks a bond");
+  if (prm.get("Surface correction") == "auto")
+  {
+    const bool needed = !(p.in_bonds && p.state_based);
+    prm.set("Surface correction", needed ? "true" : "false");
+    p.reasons["Surface correction"] =
+      needed ? "faces would be too soft"
+             : "state-based bonds with the pressure in their law open as they should without";
+  }
+  p.surface_correction = prm.get("Surface correction") == "true";
   if (p.explicit_steps)
     p.in_bonds = false; // their pressure is ExplicitBonds' affair, and has no unknowns
   if (prm.get("Bond volumes") == "auto")

@@ -358,6 +358,9 @@ private:
 
   void find_wet_pieces();
 
+  /// Find them again; those that are the same keep their weights. @return whether there are others
+  bool wets_others();
+
   double h = 0.;
   std::vector<Path> paths;
   std::vector<Piece> wet;

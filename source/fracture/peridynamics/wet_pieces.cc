@@ -141,10 +141,18 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
       growth.advance = std::min(advance({p, side}), way({p, side}));
       growth.wet = std::max({growth.wet, growth.advance, fluid({p, side})});
     }
+  return wets_others();
+}
+
+
+bool TrackedPaths::wets_others()
+{
   std::vector<Piece> before;
   before.swap(wet);
   find_wet_pieces();
-  if (wet.size() != before.size())
+  const auto is_same = [](const Piece &a, const Piece &b)
+  { return a.path == b.path && a.begin == b.begin && a.end == b.end; };
+  if (!std::equal(wet.begin(), wet.end(), before.begin(), before.end(), is_same))
     return true;
   for (unsigned int i = 0; i < wet.size(); ++i)
     wet[i].weight = before[i].weight;
@@ -154,14 +162,12 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
 
 bool TrackedPaths::let_fluid_back()
 {
-  const std::size_t before = wet.size();
   for (unsigned int p = 0; p < paths.size(); ++p)
     for (const unsigned int side : {0u, 1u})
       if (Growth &growth = paths[p].ends[side];
           !growth.joined && !is_joined({p, side})) // the other path would be cut off
         growth.wet = std::max(growth.kept, growth.advance);
-  find_wet_pieces();
-  return wet.size() != before;
+  return wets_others();
 }
 
 
