@@ -100,9 +100,13 @@ void foresee_shear(const Lattice<dim> &lattice,
         "On the crack '" + crack.text + "' the in-situ shear stress is " + megapascals(shear) +
         ", which slides its faces, and bonds hold " + megapascals(lattice.strength()) +
         " with cells of " + text(spacing) +
-        " m: without a path those about its ends break, in the first step even. Use "
-        "'Fracture/peridynamics/Tracking = path', smaller cells" +
-        (dim == 2 ? ", or 'cohesive_xfem'." : "."));
+        " m: without a path those about its ends break, in the first step even. Use " +
+        (dim == 3
+           ? "smaller cells."
+           : "'Fracture/peridynamics/Tracking = path'" +
+               std::string(lattice.softening.brittle() ? " with bonds that soften ('Softening')"
+                                                       : "") +
+               ", smaller cells, or 'cohesive_xfem'."));
       return;
     }
 }
@@ -196,9 +200,10 @@ void foresee_oblique_cracks(const Lattice<dim> &lattice,
         "'broken_length' by up to two fifths and 'equivalent_length' by a fifth, its pressure may "
         "be off by a quarter and its aperture by a half" +
         (parameters.growth ? ", and it grows along the axes of the mesh" : "") +
-        ". Use 'Fracture/peridynamics/Tracking = path', for which bonds must be bond-based "
-        "(Poisson's ratio of 1/4) with 'Softening' of 3 or more, 'Fluid = network' and 'Closure = "
-        "in bonds', or 'cohesive_xfem' with 20 cells along the crack.");
+        ". Use 'Fracture/peridynamics/Tracking = path', for which bonds must soften ('Softening' "
+        "of "
+        "3 or more), with 'Fluid = network' and 'Closure = in bonds', or 'cohesive_xfem' with 20 "
+        "cells along the crack.");
       return;
     }
 }
@@ -297,6 +302,11 @@ void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scen
                        "'elastic' with 'Fracture/Model = peridynamics': bonds are as stiff in one "
                        "direction as in another");
     const double nu = bond_based_poisson_ratio(rock.plane_stress);
+    if (parameters.state_based && rock.poisson_ratio < 0. &&
+        (parameters.in_bonds || (parameters.growth && parameters.softening > 1.)))
+      throw EntryError(path + "/Poisson ratio", text(rock.poisson_ratio),
+                       "0 and more with state-based bonds that soften, or whose law has the "
+                       "pressure; less with 'Softening = 1' and 'Closure = conserving'");
     if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
       throw EntryError(
         path + "/Poisson ratio", text(rock.poisson_ratio),

@@ -21,6 +21,9 @@ namespace
 constexpr double remaining_share = 1e-6;
 /// Of the bonds' stiffness at a free face, where about half of them are gone.
 constexpr double most_correction = 2.;
+/// Of `driving_of_equal_strain`, which is zero at a Poisson's ratio of zero, where only what is not
+/// quite equal strain drives the softening.
+constexpr double least_driving = 0.2;
 
 double share_left(const double damage)
 {
@@ -107,13 +110,13 @@ void Lattice<dim>::set_law(const double spacing)
   {
     // The same of all bonds, for their dilatation goes with stiffness times length.
     const BondCoefficients<dim> &bond = coefficients.front();
-    driving_of_equal_strain =
+    const double driving =
       driving_elongation(bond.length,
                          2. * dim * law.dilatation_modulus *
                            dealii::Utilities::fixed_power<dim>(spacing) * bond.dilatation,
                          bond.stiffness)
-        .value /
-      bond.length;
+        .value;
+    driving_of_equal_strain = std::max(least_driving, driving / bond.length);
   }
   const double of_continuum =
     continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);

@@ -97,13 +97,13 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "has been made up for. With 'Closure = in bonds' only those beside the "
     "initial cracks: faces of a fracture that grows are those of a crack without load in "
     "rock under a uniform stress, which do not feel what bonds are left. auto: true, but false "
-    "with "
-    "'Bond law = state-based' and that closure, where cracks would open by up to a tenth too "
-    "little at Poisson's ratios below 1/4.");
+    "with 'Bond law = state-based', that closure and a Poisson's ratio of up to 0.15, where "
+    "initial "
+    "cracks would open by 5 to 14 % too little.");
   prm.declare_entry(
     "Closure", "auto", Patterns::Selection("auto|conserving|in bonds|as published"),
     "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, and "
-    "with inertia where a pressure is given, bonds being bond-based with a horizon of 3 or more; "
+    "with inertia where a pressure is given, with a horizon of 3 or more; "
     "else conserving. conserving: it loads the faces, "
     "and does the work of their opening. in bonds: it is part of the law of bonds, as if rock "
     "under a uniform stress had cracks without load, less the uniform stress; then toughness does "
@@ -126,9 +126,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Tracking", "auto", Patterns::Selection("auto|none|path"),
     "auto: path where a crack is oblique to the mesh, or the in-situ stress along it is not that "
     "across it, or viscosity dominates (K_m < 2, bonds beside the crack might break), and with "
-    "'Closure = in bonds', if it can be: in two dimensions, around cracks that the deck gives and "
-    "fluid presses open, with bond-based bonds that soften, fluid in the segments, "
-    "neither another closure nor inertia; "
+    "'Closure = in bonds' or bonds that are state-based, if it can be: in two dimensions, around "
+    "cracks that the deck gives and fluid presses open, with bonds that soften, fluid in the "
+    "segments, neither another closure nor inertia, Poisson's ratios not negative; "
     "else none. none: any bond softens that is stretched too far; where nothing guides it, the "
     "way of a fracture is the mesh's. path: only those that cross a path, which "
     "runs ahead of each tip, at right angles to the greatest principal stress, "
@@ -186,6 +186,19 @@ std::string why_guided(const Scene<dim> &scene)
 }
 
 
+/// Poisson's ratio up to which state-based bonds with the pressure in their law are closer without
+/// the surface correction (doc/laboratory/bonds_any_rock.md).
+constexpr double hardly_soft = 0.15;
+
+bool has_negative_poisson_ratio(const Rock &rock)
+{
+  for (unsigned int region = 0; region <= Rock::max_regions; ++region)
+    if (rock(region).poisson_ratio < 0.)
+      return true;
+  return false;
+}
+
+
 /// K_m below which bonds that are left to themselves may break beside a fracture. On cells of 0.5 m
 /// they hold at 1.5; larger cells hold less (doc/laboratory/viscous_bonds.md).
 constexpr double viscous = 2.;
@@ -208,6 +221,8 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {false, "the fluid is in the pores' elements"};
   if (!p.effective_stretch)
     return {false, "the critical stretch is that of dry rock"};
+  if (has_negative_poisson_ratio(scene.rock))
+    return {false, "a Poisson's ratio is negative"};
   if (entry_of_time(prm, "Inertia") == "on")
     return {false, "with inertia fractures may fork"};
   if (const std::string closure = prm.get("Closure"); closure != "auto" && closure != "in bonds")
@@ -308,7 +323,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   if (prm.get("Closure") == "auto")
   {
     const bool given =
-      explicit_fluid || (moves_by_given_pressure && !p.tensor_fluid && p.horizon >= 3);
+      explicit_fluid || (moves_by_given_pressure && !p.tensor_fluid && p.horizon >= 3 &&
+                         !has_negative_poisson_ratio(scene.rock));
     prm.set("Closure", p.tracked || given ? "in bonds" : "conserving");
     p.reasons["Closure"] = p.tracked ? "for a path"
                            : given   ? "where a pressure is given in cracks that may fork"
@@ -324,11 +340,12 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
                                   "is part of what breaks a bond");
   if (prm.get("Surface correction") == "auto")
   {
-    const bool needed = !(p.in_bonds && p.state_based);
+    const bool needed =
+      !(p.in_bonds && p.state_based && scene.rock.main().poisson_ratio <= hardly_soft);
     prm.set("Surface correction", needed ? "true" : "false");
     p.reasons["Surface correction"] =
       needed ? "faces would be too soft"
-             : "state-based bonds with the pressure in their law open as they should without";
+             : "at this Poisson's ratio cracks would open too little with it";
   }
   p.surface_correction = prm.get("Surface correction") == "true";
   if (p.explicit_steps)
@@ -355,7 +372,9 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
   // A step that does not converge where the fracture enters a cell is then tried with bonds that
   // soften by less.
   if (p.in_bonds && !p.tracked && p.horizon < 3)
-    throw bad("Horizon", "3 and more with 'Closure = in bonds', or 2 with 'Tracking = path'");
+    throw bad("Horizon", dim == 2
+                           ? "3 and more with 'Closure = in bonds', or 2 with 'Tracking = path'"
+                           : "3 and more with 'Closure = in bonds'");
   p.friction = get_quantity(prm, "Friction coefficient", dimension::number);
   if (p.friction > 0. && (dim != 2 || !p.in_bonds))
     throw bad("Friction coefficient", dim != 2           ? "0 in three dimensions"

@@ -78,6 +78,16 @@ private:
 };
 
 
+/// Young's modulus and Poisson's ratio with which plane strain is what the rock is in its plane.
+std::pair<double, double> plane_strain_constants(const RockProperties &rock)
+{
+  if (!rock.plane_stress)
+    return {rock.young_modulus, rock.poisson_ratio};
+  const double ratio = rock.poisson_ratio / (1. + rock.poisson_ratio);
+  return {2. * rock.shear_modulus() * (1. + ratio), ratio};
+}
+
+
 class LineCrackReference : public ReferenceSolution<2>
 {
 public:
@@ -194,7 +204,7 @@ Made<2> make_line_crack(const ParameterHandler &, const ReferenceInput<2> &input
 {
   const StraightCrack crack = straight_crack(input);
   const RockProperties &rock = input.rock.main();
-  double modulus = rock.young_modulus, ratio = rock.poisson_ratio;
+  auto [modulus, ratio] = plane_strain_constants(rock);
   if (rock.stiffness)
   {
     const LinearStiffness<2> stiffness(rock);
@@ -222,12 +232,12 @@ Made<2> make_crack_in_box(const ParameterHandler &, const ReferenceInput<2> &inp
   const RockProperties &rock = input.rock.main();
   if (std::abs(std::sin(crack.angle)) > 1e-8)
     throw InputError("The reference solution 'crack in box' is for a crack along the x axis.");
+  const auto [modulus, ratio] = plane_strain_constants(rock);
   const double half_width =
     crack.n_wings == 1 ? input.upper[0] - input.lower[0] : 0.5 * (input.upper[0] - input.lower[0]);
   return std::make_unique<CrackInBoxReference>(
-    analytical::CrackInBoxParameters{rock.young_modulus, rock.poisson_ratio, crack.half_length,
-                                     half_width, 0.5 * (input.upper[1] - input.lower[1]),
-                                     input.crack_pressure},
+    analytical::CrackInBoxParameters{modulus, ratio, crack.half_length, half_width,
+                                     0.5 * (input.upper[1] - input.lower[1]), input.crack_pressure},
     crack.n_wings);
 }
 } // namespace stockwork::reference
