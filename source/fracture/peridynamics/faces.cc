@@ -11,55 +11,92 @@ namespace
 {
 /// Of the stiffness of a cell of rock, over that of faces that touch.
 constexpr double softness = 1e-3;
+/// Unknowns that come a few at a time: a local matrix is square.
+constexpr unsigned int most_columns = 24;
 } // namespace
 
 
-/// Their share in the system of equations while it is being assembled.
+/// Their share in the system of equations while it is being assembled, but for what ends of bonds
+/// and bonds that soften have in it.
 struct Faces::Rows
 {
   LocalSystem local;
-  unsigned int n_ends, n_pores, n_modes;
+  unsigned int n_pores;
 
   unsigned int pore(const unsigned int i) const
   {
-    return n_ends + i;
+    return i;
   }
   unsigned int jump(const unsigned int mode) const
   {
-    return n_ends + n_pores + 2 * mode;
+    return n_pores + 2 * mode;
   }
   unsigned int traction(const unsigned int mode) const
   {
     return jump(mode) + 1;
   }
-  unsigned int bond(const unsigned int i) const
-  {
-    return jump(n_modes) + i;
-  }
 };
+
+
+void Faces::assemble_ends(const State &state, Sink &sink) const
+{
+  LocalSystem local;
+  for (unsigned int first = 0; first < ends.size(); first += most_columns)
+  {
+    const unsigned int n = std::min<unsigned int>(most_columns, ends.size() - first);
+    local.bulk.assign(ends.begin() + first, ends.begin() + first + n);
+    local.extra.clear();
+    for (const Mode &mode : modes)
+      local.extra.push_back(mode.traction);
+    local.reinit();
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      local.residual(i) = -in_situ[first + i];
+      for (unsigned int m = 0; m < modes.size(); ++m)
+      {
+        const double by_traction = -unit * modes[m].of_ends[first + i];
+        local.residual(i) += by_traction * state.current.extra[modes[m].traction];
+        local.matrix(i, n + m) = local.matrix(n + m, i) = by_traction;
+      }
+    }
+    sink.add(local);
+  }
+}
+
+
+void Faces::assemble_bonds(Sink &sink) const
+{
+  LocalSystem local;
+  for (unsigned int first = 0; first < bonds.size(); first += most_columns)
+  {
+    const unsigned int n = std::min<unsigned int>(most_columns, bonds.size() - first);
+    local.extra.assign(bonds.begin() + first, bonds.begin() + first + n);
+    for (const Mode &mode : modes)
+      local.extra.push_back(mode.traction);
+    local.reinit();
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int m = 0; m < modes.size(); ++m)
+        local.matrix(n + m, i) = -unit * modes[m].of_bonds[first + i];
+    sink.add(local);
+  }
+}
 
 
 void Faces::assemble(const State &state, Sink &sink) const
 {
   const auto &now = state.current;
   Rows rows;
-  rows.n_ends = ends.size();
   rows.n_pores = pores != nullptr ? pores->bulk.size() : 0;
-  rows.n_modes = modes.size();
   LocalSystem &local = rows.local;
-  local.bulk = ends;
   if (pores != nullptr)
-    local.bulk.insert(local.bulk.end(), pores->bulk.begin(), pores->bulk.end());
+    local.bulk = pores->bulk;
   for (const Mode &mode : modes)
     local.extra.insert(local.extra.end(), {mode.jump, mode.traction});
-  local.extra.insert(local.extra.end(), bonds.begin(), bonds.end());
   const auto pressure = state.segment_unknown ? state.segment_unknown(segment) : std::nullopt;
   if (pressure)
     local.extra.push_back(*pressure);
   local.reinit();
 
-  for (unsigned int i = 0; i < ends.size(); ++i)
-    local.residual(i) = -in_situ[i];
   for (unsigned int m = 0; m < modes.size(); ++m)
   {
     const Mode &mode = modes[m];
@@ -69,16 +106,9 @@ void Faces::assemble(const State &state, Sink &sink) const
     local.matrix(w, y) = local.matrix(y, w) = area * unit;
     double volume = mode.constant;
     for (unsigned int i = 0; i < ends.size(); ++i)
-    {
       volume += mode.of_ends[i] * now.bulk(ends[i]);
-      local.residual(i) -= mode.of_ends[i] * lost;
-      local.matrix(i, y) = local.matrix(y, i) = -mode.of_ends[i] * unit;
-    }
     for (unsigned int i = 0; i < bonds.size(); ++i)
-    {
       volume += mode.of_bonds[i] * now.extra[bonds[i]];
-      local.matrix(y, rows.bond(i)) = -mode.of_bonds[i] * unit;
-    }
     for (unsigned int k = 0; k < modes.size(); ++k)
     {
       volume += mode.of_tractions[k] * unit * now.extra[modes[k].traction];
@@ -100,6 +130,8 @@ void Faces::assemble(const State &state, Sink &sink) const
   if (modes[0].of_tractions[0] > 0.)
     add_contact(state, rows);
   sink.add(local);
+  assemble_ends(state, sink);
+  assemble_bonds(sink);
 }
 
 

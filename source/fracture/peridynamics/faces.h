@@ -36,7 +36,7 @@ struct Faces
   {
     unsigned int jump = 0, traction = 0; ///< numbers of w and y among the extra unknowns
     std::vector<double> of_ends;         ///< V by displacements of `ends` [m^(d-1)]
-    std::vector<double> of_bonds;        ///< V by the elongation of `bonds` without force
+    std::vector<double> of_bonds;        ///< V by the unknowns of `bonds` [m^(d-1)]
     std::vector<double> of_tractions;    ///< V by q of each mode [m^d/Pa]
     double constant = 0.;                ///< V by the stress in situ [m^d]
   };
@@ -47,9 +47,10 @@ struct Faces
   double friction = 0.;      ///< mu
   bool rub = true;           ///< enough bonds have broken to tell opening from slip
   std::vector<Mode> modes;
-  std::vector<dealii::types::global_dof_index> ends; ///< displacements of ends of broken bonds
-  std::vector<double> in_situ;                       ///< force of the stress in situ on them [N]
-  std::vector<unsigned int> bonds;                   ///< that soften
+  /// Displacements of ends of broken bonds, of state-based ones of all their families.
+  std::vector<dealii::types::global_dof_index> ends;
+  std::vector<double> in_situ;             ///< force of the stress in situ on them [N]
+  std::vector<unsigned int> bonds;         ///< unknowns of those that soften
   const LinearFunctional *pores = nullptr; ///< their pressure on the faces; null: there are none
   double biot_coefficient = 0.;
 
@@ -58,5 +59,11 @@ struct Faces
 private:
   struct Rows;
   void add_contact(const State &state, Rows &rows) const;
+
+  /// Forces on ends of broken bonds, and what these add to the jumps.
+  void assemble_ends(const State &state, Sink &sink) const;
+
+  /// What softening bonds add to the jumps.
+  void assemble_bonds(Sink &sink) const;
 };
 } // namespace stockwork::peridynamics

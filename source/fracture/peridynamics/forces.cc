@@ -19,7 +19,8 @@ namespace
 template <int dim>
 std::vector<unsigned int> sites_of_crossing_bonds(const Lattice<dim> &lattice)
 {
-  const int reach = 2 * lattice.parameters.horizon + 3;
+  // State-based ones to families of their ends besides.
+  const int reach = (lattice.parameters.state_based ? 3 : 2) * lattice.parameters.horizon + 3;
   Place<dim> lower, upper;
   lower.fill(std::numeric_limits<int>::max());
   upper.fill(std::numeric_limits<int>::min());

@@ -2,6 +2,7 @@
 
 #include "exchange/flat_parts.h"
 #include "fracture/peridynamics/lattice_moduli.h"
+#include "fracture/peridynamics/state_based.h"
 #include "fracture/peridynamics/wording.h"
 #include "stockwork/base/error.h"
 #include "stockwork/fracture/needs.h"
@@ -302,11 +303,12 @@ void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scen
                        "'elastic' with 'Fracture/Model = peridynamics': bonds are as stiff in one "
                        "direction as in another");
     const double nu = bond_based_poisson_ratio(rock.plane_stress);
-    if (parameters.state_based && rock.poisson_ratio < 0. &&
+    if (parameters.state_based && !softens_by_equal_strain<dim>(rock) &&
         (parameters.in_bonds || (parameters.growth && parameters.softening > 1.)))
       throw EntryError(path + "/Poisson ratio", text(rock.poisson_ratio),
-                       "0 and more with state-based bonds that soften, or whose law has the "
-                       "pressure; less with 'Softening = 1' and 'Closure = conserving'");
+                       std::string(dim == 2 ? "0" : "0.072 (1/14)") +
+                         " and more with state-based bonds that soften, or whose law has the "
+                         "pressure; less with 'Softening = 1' and 'Closure = conserving'");
     if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
       throw EntryError(
         path + "/Poisson ratio", text(rock.poisson_ratio),

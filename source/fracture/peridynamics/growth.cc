@@ -106,27 +106,34 @@ double Peridynamics<dim>::added_stretch(const unsigned int site,
 
 
 template <int dim>
+double Peridynamics<dim>::added_dilatation(const unsigned int site,
+                                           const unsigned int bond,
+                                           const double added,
+                                           const OfCells &of_cells) const
+{
+  if (of_cells.dilatation_forces.empty())
+    return 0.;
+  return parameters.in_bonds
+           ? pressure_in_bonds.dilatation(site, bond, pressure_in_bonds.shares(site, bond, false),
+                                          of_cells.strain)
+           : dim * lattice.rock_of_bonds.modulus(site, bond) * added;
+}
+
+
+template <int dim>
 double Peridynamics<dim>::stretch_that_counts(const unsigned int site,
                                               const unsigned int bond,
                                               const double added,
+                                              const double dilated,
                                               const std::vector<double> &displacement,
                                               const OfCells &of_cells) const
 {
-  double force = 0.;
-  if (!of_cells.dilatation_forces.empty() && !lattice.softening.brittle())
-  {
-    force = lattice.coefficients[bond].dilatation *
-            (of_cells.dilatation_forces[site] +
-             of_cells.dilatation_forces[lattice.zone.far_end(site, bond).site]);
-    if (parameters.in_bonds)
-      force += 2. * lattice.push_of_dilatation(site, bond) / lattice.zone.sites()[site].share *
-               pressure_in_bonds.dilatation(site, bond, pressure_in_bonds.shares(site, bond, false),
-                                            of_cells.strain);
-  }
-  return lattice.driving_stretch(site, bond,
-                                 lattice.elongation(site, bond, displacement) +
-                                   added * lattice.coefficients[bond].length,
-                                 force, relative_energy(site, bond));
+  return lattice.driving_stretch(
+    site, bond,
+    lattice.elongation(site, bond, displacement) + added * lattice.coefficients[bond].length,
+    lattice.force_of_dilatations(site, bond, of_cells.dilatation_forces) +
+      2. * lattice.force_of_dilatation(bond) * dilated,
+    relative_energy(site, bond));
 }
 
 
@@ -149,14 +156,19 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
     const bool breakable = lattice.bonds.can_break(i, b);
     if (b >= half && breakable && lattice.zone.far_end(i, b).mirrored == 0)
       return; // seen from the other end
-    const auto ratio_with = [&](const double more)
-    { return rounded(stretch_that_counts(i, b, more, u, of_cells) / lattice.softening.first); };
+    const auto ratio_with = [&](const double more, const double dilated)
+    {
+      return rounded(stretch_that_counts(i, b, more, dilated, u, of_cells) /
+                     lattice.softening.first);
+    };
     const double most = most_of_cells / lattice.rock_of_bonds.modulus(i, b) +
                         (parameters.in_bonds ? 0. : lattice.in_situ_stretch(i, b));
-    if ((of_cells.dilatation_forces.empty() && ratio_with(most) < least) ||
-        softening_bonds.find(i, b) != nullptr)
+    const bool dilates = lattice.law.dilatation_modulus > 0. && !of_cells.dilatation_forces.empty();
+    const double most_dilated = dilates ? dim * std::max(most_of_cells, most) : 0.;
+    if (ratio_with(most, most_dilated) < least || softening_bonds.find(i, b) != nullptr)
       return;
-    const double ratio = ratio_with(added_stretch(i, b, of_cells));
+    const double added = added_stretch(i, b, of_cells),
+                 ratio = ratio_with(added, added_dilatation(i, b, added, of_cells));
     if (ratio < least)
       return;
     if (breakable)
@@ -348,8 +360,11 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
                                                const std::vector<double> &) const;              \
   template double Peridynamics<dim>::added_stretch(unsigned int, unsigned int, const OfCells &) \
     const;                                                                                      \
-  template double Peridynamics<dim>::stretch_that_counts(                                       \
-    unsigned int, unsigned int, double, const std::vector<double> &, const OfCells &) const;    \
+  template double Peridynamics<dim>::added_dilatation(unsigned int, unsigned int, double,       \
+                                                      const OfCells &) const;                   \
+  template double Peridynamics<dim>::stretch_that_counts(unsigned int, unsigned int, double,    \
+                                                         double, const std::vector<double> &,   \
+                                                         const OfCells &) const;                \
   template std::vector<Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretched(          \
     const std::vector<double> &, const OfCells &, Rim &) const;                                 \
   template void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &);                 \

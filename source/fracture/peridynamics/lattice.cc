@@ -21,8 +21,8 @@ namespace
 constexpr double remaining_share = 1e-6;
 /// Of the bonds' stiffness at a free face, where about half of them are gone.
 constexpr double most_correction = 2.;
-/// Of `driving_of_equal_strain`, which is zero at a Poisson's ratio of zero, where only what is not
-/// quite equal strain drives the softening.
+/// Of `driving_of_equal_strain`. At the least Poisson's ratio (softens_by_equal_strain()) that is
+/// zero, and only what is not quite equal drives the softening.
 constexpr double least_driving = 0.2;
 
 double share_left(const double damage)
@@ -119,7 +119,7 @@ void Lattice<dim>::set_law(const double spacing)
     driving_of_equal_strain = std::max(least_driving, driving / bond.length);
   }
   const double of_continuum =
-    continuum_critical_stretch<dim>(rock, horizon, parameters.state_based);
+    continuum_critical_stretch<dim>(rock, horizon, parameters.state_based && softening.brittle());
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
   critical_stretch =
     !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor * of_continuum
@@ -131,7 +131,8 @@ void Lattice<dim>::set_law(const double spacing)
   softening.last = critical_stretch * std::sqrt(parameters.softening);
   // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
   if (parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
-    relief_by_fluid = spacing * softening.when_wet() / softening.first / (2. * at_one);
+    relief_by_fluid =
+      spacing * softening.when_wet() / softening.first / (2. * at_one * driving_of_equal_strain);
 }
 
 
@@ -185,13 +186,16 @@ double Lattice<dim>::in_situ_stretch(const unsigned int site, const unsigned int
 template <int dim>
 double Lattice<dim>::dilatation_factor(const unsigned int site) const
 {
-  if (!parameters.surface_correction || corrected_damage[site] == 0.)
-    return 1.;
-  double left = 0.; // of the dilatation of a uniform expansion, which is dim
-  for (unsigned int b = 0; b < stencil.size(); ++b)
-    if (!bonds.is_broken(site, b))
-      left += coefficients[b].dilatation * coefficients[b].length;
-  return left > 0. ? std::min(dim / left, most_correction) : most_correction;
+  return parameters.surface_correction ? 1. / share_left(corrected_damage[site]) : 1.;
+}
+
+
+template <int dim>
+double Lattice<dim>::share_that_lacks(const unsigned int site) const
+{
+  return damage[site] == 0.               ? 0.
+         : !parameters.surface_correction ? 1.
+                                          : 1. - corrected_damage[site] / damage[site];
 }
 
 
@@ -308,7 +312,6 @@ void Lattice<dim>::append_family(const unsigned int site, std::vector<unsigned i
 }
 
 
-/// What breaks a bond is its energy; bonds beside a crack are stiffer.
 template <int dim>
 double Lattice<dim>::push(const BondView &view) const
 {
@@ -319,6 +322,7 @@ double Lattice<dim>::push(const BondView &view) const
 }
 
 
+/// What breaks a bond is its energy; bonds beside a crack are stiffer.
 template <int dim>
 double Lattice<dim>::equivalent_stretch(const unsigned int site,
                                         const unsigned int bond,

@@ -150,13 +150,34 @@ public:
                                       : rock_of_bonds.dilatation_modulus(site);
   }
 
-  /// Force on a bond by the dilatation at one end, over that; with a uniform stress the lattice's,
-  /// whatever the rock is [N/m^(d-1) times m^(d-1)].
-  double push_of_dilatation(const unsigned int site, const unsigned int bond) const
+  /// Whether any dilatation has an energy.
+  bool has_dilatations() const
+  {
+    return parameters.state_based && (law.state_based() || !rock_of_bonds.is_uniform());
+  }
+
+  /// Force on a bond by the dilatation of one end, over that, where rock is under a uniform stress:
+  /// the lattice's, whatever the rock is there [Pa m^(d-1)].
+  double force_of_dilatation(const unsigned int bond) const
   {
     return law.dilatation_modulus * dealii::Utilities::fixed_power<dim>(zone.spacing()) *
-           zone.sites()[site].share * coefficients[bond].dilatation;
+           coefficients[bond].dilatation;
   }
+
+  /// The force on a bond by those of both its ends.
+  /// @param forces of sites, see Peridynamics::dilatation_forces()
+  double force_of_dilatations(const unsigned int site,
+                              const unsigned int bond,
+                              const std::vector<double> &forces) const
+  {
+    return forces.empty() ? 0.
+                          : coefficients[bond].dilatation *
+                              (forces[site] + forces[zone.far_end(site, bond).site]);
+  }
+
+  /// Of what the dilatation of a site lacks by broken bonds, the share that the surface correction
+  /// does not make up for.
+  double share_that_lacks(unsigned int site) const;
 
   /// By `Surface correction`, of the dilatation of a site that has lost bonds: with it, a uniform
   /// expansion has the same dilatation as everywhere.

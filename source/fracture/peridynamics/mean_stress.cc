@@ -36,17 +36,13 @@ SymmetricTensor<2, dim> Peridynamics<dim>::stress_of_bonds(const unsigned int si
       for (const auto &[cell, share] : pressure_in_bonds.shares(site, b, false))
         force -= share * (lattice.coefficients[b].stiffness * lattice.coefficients[b].length *
                             (e * (of_cells.strain[cell] * e)) +
-                          2. * lattice.push_of_dilatation(site, b) /
-                            lattice.zone.sites()[site].share * trace(of_cells.strain[cell]));
+                          2. * lattice.force_of_dilatation(b) * trace(of_cells.strain[cell]));
     else
     {
       const auto found = lost.find({site, b});
       force = lattice.stiffness(site, b) * (lattice.elongation(site, b, displacement) -
                                             (found != lost.end() ? found->second : 0.));
-      if (!of_cells.dilatation_forces.empty())
-        force += lattice.coefficients[b].dilatation *
-                 (of_cells.dilatation_forces[site] +
-                  of_cells.dilatation_forces[lattice.zone.far_end(site, b).site]);
+      force += lattice.force_of_dilatations(site, b, of_cells.dilatation_forces);
     }
     stress += 0.5 * force * lattice.coefficients[b].length * symmetrize(outer_product(e, e));
   }
@@ -92,8 +88,9 @@ Peridynamics<dim>::mean_stress(const Point<dim> &centre,
 {
   std::map<BondView, double> lost = lost_elongations(state, 0);
   if (parameters.state_based)
-    for (const auto &[view, force] : lost_elongations(state, softening_bonds.size()))
-      lost[view] += force;
+    for (const auto &[view, elongation] :
+         lost_elongations(state, softening_bonds.unknown_of_lost_force(0)))
+      lost[view] += elongation;
   SymmetricTensor<2, dim> sum;
   double weights = 0.;
   for (unsigned int i = 0; i < lattice.zone.sites().size(); ++i)

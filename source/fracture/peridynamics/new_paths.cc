@@ -68,10 +68,7 @@ NewPaths<dim>::overstretched(const std::vector<double> &displacement,
                              i, 0, lattice.zone.position(lattice.zone.sites()[i].place)))[0] <= 0.;
       for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
       {
-        double force = 0.;
-        if (!dilatation_forces.empty())
-          force = lattice.coefficients[b].dilatation *
-                  (dilatation_forces[i] + dilatation_forces[lattice.zone.far_end(i, b).site]);
+        double force = lattice.force_of_dilatations(i, b, dilatation_forces);
         const auto stretch_by = [&](const double elongation) {
           return lattice.driving_stretch(i, b, elongation, force,
                                          lattice.rock_of_bonds.energy(i, b));
@@ -93,8 +90,8 @@ NewPaths<dim>::overstretched(const std::vector<double> &displacement,
           const double in_situ =
             std::min(lattice.dry_stretch(i, b, middle, e), lattice.in_situ_stretch(i, b));
           longer += lattice.coefficients[b].length * in_situ;
-          force +=
-            2. * lattice.push_of_dilatation(i, b) / lattice.zone.sites()[i].share * dim * in_situ;
+          force += 2. * lattice.force_of_dilatation(b) * dim * in_situ *
+                   lattice.rock_of_bonds.modulus(i, b);
         }
         const double stretch = rounded(stretch_by(longer) / lattice.softening.first);
         if (stretch < 1. - nearly_most ||

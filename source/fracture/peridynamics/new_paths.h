@@ -33,8 +33,8 @@ public:
 
   /// Paths begin where bonds are stretched most, if that is too far.
   /// @param displacement of all sites [m]
-  /// @return why the run cannot go on; empty: it can
   /// @param dilatation_forces of sites, if they are state-based, see Peridynamics
+  /// @return why the run cannot go on; empty: it can
   std::string begin(const StepContext &context,
                     const std::vector<double> &displacement,
                     const std::vector<double> &dilatation_forces,

@@ -5,6 +5,7 @@
 #include "exchange/flat_parts.h"
 #include "flow/permeability_tensor.h"
 #include "fracture/peridynamics/foresight.h"
+#include "fracture/peridynamics/state_based.h"
 #include "fracture/peridynamics/wording.h"
 #include "mesh/box_list.h"
 #include "mesh/interpret_entry.h"
@@ -186,16 +187,18 @@ std::string why_guided(const Scene<dim> &scene)
 }
 
 
-/// Poisson's ratio up to which state-based bonds with the pressure in their law are closer without
-/// the surface correction (doc/laboratory/bonds_any_rock.md).
-constexpr double hardly_soft = 0.15;
+/// lambda/G, at a Poisson's ratio of 0.15, up to which state-based bonds with the pressure in their
+/// law are closer without the surface correction (doc/laboratory/bonds_any_rock.md).
+constexpr double hardly_soft = 0.4286;
 
-bool has_negative_poisson_ratio(const Rock &rock)
+/// See softens_by_equal_strain(), of all rock.
+template <int dim>
+bool may_be_in_bonds(const Rock &rock)
 {
   for (unsigned int region = 0; region <= Rock::max_regions; ++region)
-    if (rock(region).poisson_ratio < 0.)
-      return true;
-  return false;
+    if (!softens_by_equal_strain<dim>(rock(region)))
+      return false;
+  return true;
 }
 
 
@@ -221,7 +224,7 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {false, "the fluid is in the pores' elements"};
   if (!p.effective_stretch)
     return {false, "the critical stretch is that of dry rock"};
-  if (has_negative_poisson_ratio(scene.rock))
+  if (!may_be_in_bonds<dim>(scene.rock))
     return {false, "a Poisson's ratio is negative"};
   if (entry_of_time(prm, "Inertia") == "on")
     return {false, "with inertia fractures may fork"};
@@ -236,7 +239,7 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {true, "the fluid is viscous (K_m = " + text(fracture->dimensionless_toughness()) +
                     "), and its pressure may break bonds beside the crack"};
   if (p.state_based && std::isnan(scene.crack_pressure))
-    return {true, "bonds are state-based, whose load without a path is that of bond-based ones"};
+    return {true, "bonds are state-based, and without a path their pressures may be 6 % off"};
   return {false, "cracks lie along the mesh, in isotropic stress"};
 }
 
@@ -322,9 +325,8 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
     p.has_inertia && !p.tracked && !std::isnan(scene.crack_pressure) && scene.crack_pressure != 0.;
   if (prm.get("Closure") == "auto")
   {
-    const bool given =
-      explicit_fluid || (moves_by_given_pressure && !p.tensor_fluid && p.horizon >= 3 &&
-                         !has_negative_poisson_ratio(scene.rock));
+    const bool given = explicit_fluid || (moves_by_given_pressure && !p.tensor_fluid &&
+                                          p.horizon >= 3 && may_be_in_bonds<dim>(scene.rock));
     prm.set("Closure", p.tracked || given ? "in bonds" : "conserving");
     p.reasons["Closure"] = p.tracked ? "for a path"
                            : given   ? "where a pressure is given in cracks that may fork"
@@ -340,8 +342,9 @@ Parameters<dim> Parameters<dim>::parse(dealii::ParameterHandler &prm, const Scen
                                   "is part of what breaks a bond");
   if (prm.get("Surface correction") == "auto")
   {
-    const bool needed =
-      !(p.in_bonds && p.state_based && scene.rock.main().poisson_ratio <= hardly_soft);
+    const RockProperties &rock = scene.rock.main();
+    const bool needed = !(p.in_bonds && p.state_based && !rock.stiffness &&
+                          rock.lame_lambda() <= hardly_soft * rock.shear_modulus());
     prm.set("Surface correction", needed ? "true" : "false");
     p.reasons["Surface correction"] =
       needed ? "faces would be too soft"

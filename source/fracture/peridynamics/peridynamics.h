@@ -276,11 +276,21 @@ private:
   std::vector<Candidate>
   overstretched(const std::vector<double> &displacement, const OfCells &of_cells, Rim &rim) const;
 
-  /// Of a bond and what is added to its stretch, the stretch that counts for softening and
-  /// breaking, as of a bond of the lattice's stiffness in the rock outside of regions.
+  /// What counts in the dilatations of a bond's ends besides displacements: what the same stress
+  /// strains the lattice by.
+  /// @param added see added_stretch()
+  double added_dilatation(unsigned int site,
+                          unsigned int bond,
+                          double added,
+                          const OfCells &of_cells) const;
+
+  /// Of a bond and what is added to its stretch and to its ends' dilatations, the stretch that
+  /// counts for softening and breaking, as of a bond of the lattice's stiffness in the rock outside
+  /// of regions.
   double stretch_that_counts(unsigned int site,
                              unsigned int bond,
                              double added,
+                             double dilated,
                              const std::vector<double> &displacement,
                              const OfCells &of_cells) const;
 

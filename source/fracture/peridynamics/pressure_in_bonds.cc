@@ -287,8 +287,9 @@ void PressureInBonds<dim>::follow()
     for (const Segment<dim> &segment : fracture.segments)
       pores_of_pieces.push_back(pores_across(lattice.zone, segment));
   make_faces(broken_shares(across));
-  add_broken(across);
-  add_softening();
+  ByUnknown by_unknown(fracture.cells.size());
+  add_broken(across, by_unknown);
+  add_softening(by_unknown);
 }
 
 
@@ -360,7 +361,7 @@ double PressureInBonds<dim>::pull(const unsigned int site,
   // Half of a bond belongs to each end.
   return 0.5 * lattice.zone.sites()[site].share * lattice.coefficients[bond].stiffness *
            lattice.coefficients[bond].length * (direction * (strain * direction)) +
-         lattice.push_of_dilatation(site, bond) * trace(strain);
+         lattice.zone.sites()[site].share * lattice.force_of_dilatation(bond) * trace(strain);
 }
 
 
@@ -376,7 +377,8 @@ double PressureInBonds<dim>::longer(const unsigned int site,
 
 
 template <int dim>
-void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across)
+void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across,
+                                      ByUnknown &by_unknown)
 {
   const unsigned int n = n_modes();
   ByDof by_dof(fracture.cells.size());
@@ -388,7 +390,7 @@ void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across
       continue;
     const Tensor<1, dim> &e = lattice.coefficients[b].direction;
     const double least = same_place * pull(i, b, e, of_pressure),
-                 dilates = lattice.push_of_dilatation(i, b);
+                 dilates = lattice.zone.sites()[i].share * lattice.force_of_dilatation(b);
     const FarEnd end = lattice.zone.far_end(i, b);
     for (const auto &[cell, share] : shares(i, b, true))
     {
@@ -423,8 +425,8 @@ void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across
       }
     }
   }
-  if (lattice.law.state_based())
-    add_dilatations(across, by_dof);
+  if (lattice.has_dilatations())
+    add_dilatations(across, by_dof, by_unknown);
   for (unsigned int k = 0; k < fracture.owned_cells.size(); ++k)
     for (const auto &[dof, sums] : by_dof[fracture.owned_cells[k]])
     {
@@ -438,7 +440,8 @@ void PressureInBonds<dim>::add_broken(const std::vector<BondAcross<dim>> &across
 
 template <int dim>
 void PressureInBonds<dim>::add_dilatations(const std::vector<BondAcross<dim>> &across,
-                                           ByDof &by_dof)
+                                           ByDof &by_dof,
+                                           ByUnknown &by_unknown)
 {
   const unsigned int n = n_modes();
   std::map<unsigned int, std::vector<unsigned int>> broken_of; // bonds, by site
@@ -455,11 +458,14 @@ void PressureInBonds<dim>::add_dilatations(const std::vector<BondAcross<dim>> &a
   std::vector<Tensor<1, dim>> functional;
   for (const auto &[i, broken] : broken_of)
   {
-    if (lattice.dilatation_factor(i) != 1.)
+    const double share_of_site = lattice.share_that_lacks(i);
+    if (share_of_site == 0.)
       continue; // others make up for what is missing
     // Of the strains of each cell, what broken bonds lack: as far as they belong to it, and all.
+    // (As in add_broken(), what tractions do to the jumps of cells beside theirs is taken to be
+    // theirs.)
     const auto lacks = [&](const unsigned int b, const Strain &strain)
-    { return lattice.coefficients[b].dilatation * longer(i, b, strain); };
+    { return share_of_site * lattice.coefficients[b].dilatation * longer(i, b, strain); };
     std::map<unsigned int, std::array<double, 3>> own;
     for (const unsigned int b : broken)
       for (const auto &[cell, share] : shares(i, b, true))
@@ -477,7 +483,7 @@ void PressureInBonds<dim>::add_dilatations(const std::vector<BondAcross<dim>> &a
     for (const auto &[cell, of_cell] : own)
     {
       for (unsigned int k = 0; k < family.size(); ++k)
-        for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int d = 0; d < dim && functional[k].norm_square() > 0.; ++d)
         {
           auto &of_dof = by_dof[cell][lattice.zone.sites()[family[k]].dofs[d]];
           for (unsigned int m = 0; m < of_dof.size(); ++m)
@@ -496,18 +502,15 @@ void PressureInBonds<dim>::add_dilatations(const std::vector<BondAcross<dim>> &a
       }
       if (const auto soft = soft_of.find(i); soft != soft_of.end())
         for (const auto &[number, g] : soft->second)
-        {
-          faces_of[cell]->bonds.push_back(number);
           for (unsigned int m = 0; m < n; ++m)
-            faces_of[cell]->modes[m].of_bonds.push_back(-modulus * of_cell[m] * g);
-        }
+            by_unknown[cell][number][m] -= modulus * of_cell[m] * g;
     }
   }
 }
 
 
 template <int dim>
-void PressureInBonds<dim>::add_softening()
+void PressureInBonds<dim>::add_softening(ByUnknown &by_unknown)
 {
   softening_shares.clear();
   for (unsigned int number = 0; number < softening_bonds.size(); ++number)
@@ -515,25 +518,58 @@ void PressureInBonds<dim>::add_softening()
     const auto &[site, bond] = softening_bonds[number].view;
     const Tensor<1, dim> &e = lattice.coefficients[bond].direction;
     softening_shares.push_back(shares(site, bond, false));
+    const double push = lattice.push({site, bond});
+    double by_dilatation = 0.;
+    if (parameters.state_based)
+      for (const auto &[s, b] : lattice.bonds.views_of(site, bond))
+        by_dilatation += lattice.zone.sites()[s].share * lattice.force_of_dilatation(b);
     for (const auto &[cell, share] : softening_shares.back())
-      if (Faces *own = faces_of[cell])
-      {
-        const double push = share * lattice.push(softening_bonds[number].view);
-        own->bonds.push_back(number);
+      if (faces_of[cell] != nullptr)
         for (unsigned int m = 0; m < n_modes(); ++m)
         {
-          double &of_bond = own->modes[m].of_bonds.emplace_back(push * (e * (modes[cell][m] * e)));
+          const double of_force = share * push * (e * (modes[cell][m] * e));
+          by_unknown[cell][number][m] += of_force + share * by_dilatation * trace(modes[cell][m]);
           if (parameters.state_based)
-            for (const auto &[s, b] : lattice.bonds.views_of(site, bond))
-              of_bond += share * lattice.push_of_dilatation(s, b) * trace(modes[cell][m]);
+            by_unknown[cell][softening_bonds.unknown_of_lost_force(number)][m] += of_force;
         }
-        if (!parameters.state_based)
-          continue;
-        own->bonds.push_back(softening_bonds.unknown_of_lost_force(number));
-        for (unsigned int m = 0; m < n_modes(); ++m)
-          own->modes[m].of_bonds.push_back(push * (e * (modes[cell][m] * e)));
-      }
   }
+  for (unsigned int cell = 0; cell < by_unknown.size(); ++cell)
+    for (const auto &[unknown, of_modes] : by_unknown[cell])
+    {
+      faces_of[cell]->bonds.push_back(unknown);
+      for (unsigned int m = 0; m < n_modes(); ++m)
+        faces_of[cell]->modes[m].of_bonds.push_back(of_modes[m]);
+    }
+}
+
+
+template <int dim>
+double PressureInBonds<dim>::lacked_dilatation(const unsigned int site,
+                                               const std::vector<Strain> &strain) const
+{
+  double sum = 0.;
+  for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+    if (lattice.bonds.is_broken(site, b))
+      for (const auto &[cell, share] : shares(site, b, true))
+        sum += share * lattice.coefficients[b].dilatation * longer(site, b, strain[cell]);
+  return sum;
+}
+
+
+template <int dim>
+std::vector<std::pair<unsigned int, double>>
+PressureInBonds<dim>::lacked_by_tractions(const unsigned int site) const
+{
+  const double unit = 1. / (lattice.strain_of_pressure * lattice.zone.spacing());
+  std::vector<std::pair<unsigned int, double>> result;
+  for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
+    if (lattice.bonds.is_broken(site, b))
+      for (const auto &[cell, share] : shares(site, b, true))
+        for (unsigned int m = 0; m < n_modes(); ++m)
+          result.emplace_back(unknown_of_traction(cell, m),
+                              share * lattice.coefficients[b].dilatation * unit *
+                                longer(site, b, modes[cell][m]));
+  return result;
 }
 
 

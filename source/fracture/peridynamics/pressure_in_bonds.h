@@ -26,6 +26,13 @@ namespace stockwork::peridynamics
 /// that is the sum of k l D e* / (C11 + (d-1) C12), and each bond's goes to the cell where it
 /// crosses the fracture. What stress in situ acts on the plane of the fracture belongs to p; what
 /// shear does, is a uniform field of its own.
+///
+/// Of state-based bonds the dilatations are those of the rock under that stress, too: theta* = sum
+/// g (1 - D) e*, over what is left of the bonds. So faces read the lost force of dilatations k y =
+/// D A V g (theta* + theta'*) besides, k l y / (C11 + (d-1) C12), and of both ends A V g D e* d /
+/// (C11 + (d-1) C12); and sites lack what broken bonds would have of the uniform expansion. It is
+/// exact where moduli of regions are in one ratio; where Poisson's ratios differ, a uniform
+/// pressure strains them by other than a uniform stress would.
 template <int dim>
 class PressureInBonds
 {
@@ -83,6 +90,13 @@ public:
   /// Of a bond's ends, across one cell, by a unit of the unknown of its traction.
   double dilatation_of_traction(unsigned int cell, unsigned int mode) const;
 
+  /// Of a site, the dilatation that its broken bonds would have by those tractions, and do not.
+  double lacked_dilatation(unsigned int site,
+                           const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
+
+  /// The same by the unknowns of the tractions, which may come more than once.
+  std::vector<std::pair<unsigned int, double>> lacked_by_tractions(unsigned int site) const;
+
   /// By what a broken bond is longer by a stress that strains the lattice so, the more the softer
   /// it is [m].
   double
@@ -131,11 +145,14 @@ private:
   /// Faces and segments of this rank, but for what bonds do to them.
   void make_faces(const std::vector<double> &broken_share);
 
+  /// Of each cell and unknown of a softening bond, what it adds to the jumps.
+  using ByUnknown = std::vector<std::map<unsigned int, std::array<double, 2>>>;
+
   /// What broken bonds add to their jumps, and the force of the stress in situ.
-  void add_broken(const std::vector<BondAcross<dim>> &across);
+  void add_broken(const std::vector<BondAcross<dim>> &across, ByUnknown &by_unknown);
 
   /// What softening bonds add to their jumps.
-  void add_softening();
+  void add_softening(ByUnknown &by_unknown);
 
   /// Of each cell and dof at an end of its bonds, what it adds to the jumps, and the force of the
   /// stress in situ.
@@ -143,7 +160,8 @@ private:
 
   /// What broken bonds do by the dilatations of their ends, if they are state-based: in rock under
   /// the traction these would not have the broken bonds' part of it.
-  void add_dilatations(const std::vector<BondAcross<dim>> &across, ByDof &by_dof);
+  void
+  add_dilatations(const std::vector<BondAcross<dim>> &across, ByDof &by_dof, ByUnknown &by_unknown);
 
   /// Force on one end of a bond by the stress that strains the lattice so; by a strain per
   /// traction, of which a jump of its ends reads this for each metre of elongation [m^(d-1)].
@@ -151,7 +169,6 @@ private:
               unsigned int bond,
               const dealii::Tensor<1, dim> &direction,
               const Strain &strain) const;
-
 
   /// Those that cross a path; without paths the broken ones.
   std::vector<BondAcross<dim>> bonds_across() const;

@@ -5,7 +5,8 @@
 //   theta = sum g (1 - D) e,   force on the ends of a bond  (1 - D) (k e + A V g (theta + theta')).
 //
 // Both x = D e and the force that is lost, over k, y = D A V g (theta + theta')/k, are unknowns, so
-// that the matrix of bonds that hold stays as it is.
+// that the matrix of bonds that hold stays as it is. With the pressure in the bonds e and theta are
+// those of rock under that stress (PressureInBonds); D follows from DrivingElongation.
 #include "base/kink.h"
 #include "fracture/peridynamics/driving_elongation.h"
 #include "fracture/peridynamics/peridynamics.h"
@@ -24,29 +25,23 @@ std::vector<double>
 Peridynamics<dim>::dilatation_forces(const State &state,
                                      const std::vector<SymmetricTensor<2, dim>> &strain) const
 {
-  if (!lattice.law.state_based())
+  if (!lattice.has_dilatations() || lattice.softening.brittle())
     return {};
-  const std::map<BondView, double> lost = lost_elongations(state, 0);
-  std::vector<double> forces(lattice.zone.sites().size(), 0.);
+  std::vector<double> lost(lattice.zone.sites().size(), 0.), forces(lost);
+  for (const auto &[view, elongation] : lost_elongations(state, 0))
+    lost[view.first] += lattice.coefficients[view.second].dilatation * elongation;
   std::vector<unsigned int> family;
   std::vector<Tensor<1, dim>> functional;
   for (const auto *sites : {&lattice.zone.peridynamic_sites(), &lattice.zone.rim_sites()})
     for (const unsigned int i : *sites)
     {
       const double modulus = lattice.find_dilatation(i, family, functional);
-      double theta = 0.;
+      double theta = -lost[i];
       for (unsigned int k = 0; k < family.size(); ++k)
         for (unsigned int d = 0; d < dim; ++d)
           theta += functional[k][d] * displacement[family[k] * dim + d];
-      const bool is_damaged = lattice.zone.sites()[i].peridynamic,
-                 lacks = parameters.in_bonds && lattice.dilatation_factor(i) == 1.;
-      for (unsigned int b = 0; is_damaged && b < lattice.stencil.size(); ++b)
-        if (const auto found = lost.find({i, b}); found != lost.end())
-          theta -= lattice.coefficients[b].dilatation * found->second;
-        else if (lacks && lattice.bonds.is_broken(i, b))
-          for (const auto &[cell, share] : pressure_in_bonds.shares(i, b, true))
-            theta -= share * lattice.coefficients[b].dilatation *
-                     pressure_in_bonds.longer(i, b, strain[cell]);
+      if (const double share = parameters.in_bonds ? lattice.share_that_lacks(i) : 0.; share > 0.)
+        theta -= share * pressure_in_bonds.lacked_dilatation(i, strain);
       forces[i] = theta * modulus / lattice.zone.sites()[i].share;
     }
   return forces;
@@ -89,18 +84,12 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
       local.extra.push_back(n);
     }
     // What faces do to the family by that, is in their own rows.
-    if (parameters.in_bonds && lattice.dilatation_factor(site) == 1.)
-      for (unsigned int b = 0; b < lattice.stencil.size(); ++b)
-        if (lattice.bonds.is_broken(site, b))
-          for (const auto &[cell, share] : pressure_in_bonds.shares(site, b, true))
-          {
-            const double g = share * lattice.coefficients[b].dilatation;
-            of_site.theta -= g * pressure_in_bonds.longer(site, b, strain[cell]);
-            for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
-              of_site.lacks[pressure_in_bonds.unknown_of_traction(cell, m)] +=
-                g * lattice.coefficients[b].length / lattice.rock_of_bonds.modulus(site, b) *
-                pressure_in_bonds.stretch_of_traction(cell, m, b);
-          }
+    if (const double share = parameters.in_bonds ? lattice.share_that_lacks(site) : 0.; share > 0.)
+    {
+      of_site.theta -= share * pressure_in_bonds.lacked_dilatation(site, strain);
+      for (const auto &[unknown, by_traction] : pressure_in_bonds.lacked_by_tractions(site))
+        of_site.lacks[unknown] += share * by_traction;
+    }
     // On the family, what does not count.
     for (unsigned int k = 0; k < of_site.family.size(); ++k)
     {
@@ -149,8 +138,7 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
     const FarEnd end = lattice.zone.far_end(site, bond);
     const double length = lattice.coefficients[bond].length,
                  g = lattice.coefficients[bond].dilatation,
-                 by_stress =
-                   2. * lattice.push_of_dilatation(site, bond) / lattice.zone.sites()[site].share;
+                 by_stress = 2. * lattice.force_of_dilatation(bond);
     std::map<dealii::types::global_dof_index, std::array<double, 2>> by_dof;
     std::map<unsigned int, std::array<double, 2>> by_extra;
     double elongation = 0., force = 0.;
@@ -185,17 +173,24 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
       const CellShares &shares = pressure_in_bonds.shares(n);
       added = length * pressure_in_bonds.stretch(site, bond, shares, strain);
       force += by_stress * pressure_in_bonds.dilatation(site, bond, shares, strain);
-      const double longer = length * lattice.coefficients[bond].stiffness / k;
+      // What is stiffer has less of it, see PressureInBonds::stretch().
+      const double per_stretch = length * lattice.coefficients[bond].stiffness / k;
       for (const auto &[cell, share] : shares)
         for (unsigned int m = 0; m < pressure_in_bonds.n_modes(); ++m)
         {
           auto &of_traction = by_extra[pressure_in_bonds.unknown_of_traction(cell, m)];
-          of_traction[0] += share * longer * pressure_in_bonds.stretch_of_traction(cell, m, bond);
+          of_traction[0] +=
+            share * per_stretch * pressure_in_bonds.stretch_of_traction(cell, m, bond);
           of_traction[1] += share * by_stress * pressure_in_bonds.dilatation_of_traction(cell, m);
         }
     }
 
-    const DrivingElongation driving = driving_elongation(elongation + added, force, k);
+    // Stress in situ is not the bond's to carry but where it is part of its law.
+    const double released =
+      parameters.in_bonds
+        ? 0.
+        : by_stress * dim * lattice.rock_of_bonds.modulus(site, bond) * softening_bonds[n].offset;
+    const DrivingElongation driving = driving_elongation(elongation + added, force + released, k);
     const double per_elongation = equivalent_stretch(site, bond, 1.),
                  stretch = per_elongation * driving.value,
                  kappa = softening_bonds.maximum_stretch(softening_bonds[n], stretch),
@@ -204,7 +199,6 @@ void Peridynamics<dim>::assemble_soft_dilatation(const State &state, Sink &sink)
                            ? (lattice.softening.slope(kappa) - damage) / kappa *
                                softening_bonds.relaxation() * per_elongation
                            : 0.;
-    // See assemble_softening().
     const double carried = parameters.in_bonds ? elongation + added : elongation;
     // The rows of both unknowns, a few columns at a time: a local matrix is square.
     constexpr unsigned int most_columns = 24;

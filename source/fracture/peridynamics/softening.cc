@@ -90,7 +90,7 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
   law_of_bond.extra.resize(1);
   law_of_bond.bulk.resize(2 * dim);
   std::vector<dealii::SymmetricTensor<2, dim>> strain;
-  if (parameters.in_bonds && !softening_bonds.empty())
+  if (parameters.in_bonds && !parameters.state_based && !softening_bonds.empty())
     strain = pressure_in_bonds.strain(state);
   for (unsigned int n = 0; n < softening_bonds.size(); ++n)
   {
@@ -215,7 +215,11 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     changed = true;
   };
   const auto stretch_of = [&](const BondView &view, const double added)
-  { return stretch_that_counts(view.first, view.second, added, u, of_cells); };
+  {
+    const auto &[site, b] = view;
+    return stretch_that_counts(site, b, added, added_dilatation(site, b, added, of_cells), u,
+                               of_cells);
+  };
   const auto maximum_stretch = [&](const SofteningBond &bond)
   {
     return softening_bonds.maximum_stretch(bond,

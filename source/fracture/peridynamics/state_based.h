@@ -25,6 +25,17 @@ BondLaw state_based_law(const RockProperties &rock,
                         const std::vector<StencilBond<dim>> &stencil,
                         const double spacing);
 
+/// Whether bonds that soften would set free energy where rock is stretched by the same in all
+/// directions, see DrivingElongation: 1 + 2 d (lambda - G)/((d + 2) G) is not negative. From a
+/// Poisson's ratio of 0 on in a plane, of 1/14 in space.
+template <int dim>
+bool softens_by_equal_strain(const RockProperties &rock)
+{
+  constexpr double least = (dim - 2.) / (2. * dim); // lambda/G
+  return rock.stiffness ||                          // refused where it is of no use
+         rock.lame_lambda() > (least - 1e-9) * rock.shear_modulus();
+}
+
 /// The dilatation of a site as a linear functional: theta = sum_b coefficients[b] . u_b +
 /// coefficients[n] . u, with u_b the displacement of the neighbour over bond b of n, u its own.
 ///

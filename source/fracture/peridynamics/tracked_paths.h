@@ -358,7 +358,7 @@ private:
 
   void find_wet_pieces();
 
-  /// Find them again; those that are the same keep their weights. @return whether there are others
+  /// Find them again. If all are the same they keep their weights. @return whether there are others
   bool wets_others();
 
   double h = 0.;
