@@ -204,6 +204,20 @@ private:
   /// do to its ends. See soft_dilatation.cc.
   void assemble_soft_dilatation(const State &state, Sink &sink) const;
 
+  struct SoftSite;
+  struct SoftBond;
+  std::map<unsigned int, SoftSite>
+  soft_sites(const State &state, const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
+  SoftBond soft_bond(unsigned int number,
+                     const std::map<unsigned int, SoftSite> &sites,
+                     const State &state,
+                     const std::vector<dealii::SymmetricTensor<2, dim>> &strain) const;
+  void assemble_on_family(const SoftSite &site, const State &state, Sink &sink) const;
+  void assemble_on_ends(unsigned int number, const State &state, Sink &sink) const;
+  /// The rows of both unknowns of a bond.
+  void
+  assemble_law(unsigned int number, const SoftBond &bond, const State &state, Sink &sink) const;
+
   // With tracked paths (tracking.cc).
 
   /// Find the bonds that cross paths, if these are others than before.
