@@ -396,6 +396,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   {
     chosen.insert(chosen.begin(), chosen_for_flow.begin(), chosen_for_flow.end());
     check_minimum_aperture(*this, warnings);
+    check_vapour(prm, *this, warnings);
   }
   refuse_regions(prm, rock, model_name, model->requirements().regional_rock);
   refuse_absent_regions(prm, geometry);

@@ -413,6 +413,32 @@ void check_minimum_aperture(const Case<dim> &the_case, std::vector<std::string> 
 }
 
 
+template <int dim>
+void check_vapour(ParameterHandler &prm,
+                  const Case<dim> &the_case,
+                  std::vector<std::string> &warnings)
+{
+  if (!the_case.network.may_cavitate())
+    return;
+  prm.enter_subsection("Fracture flow");
+  const double vapour = get_quantity(prm, "Vapour pressure", dimension::pressure);
+  prm.leave_subsection();
+  constexpr double noticeable = 1e-3;
+  for (const InitialCrack<dim> &crack : the_case.scene.cracks)
+    if (const double closing = closing_stress(the_case.scene, crack);
+        vapour - closing > noticeable * std::abs(closing))
+    {
+      warnings.push_back("Fracture flow/Vapour pressure, " +
+                         to_string(vapour, dimension::pressure) +
+                         ", is more than the stress in situ that presses the crack '" + crack.text +
+                         "' together, " + to_string(closing, dimension::pressure) +
+                         ": vapour opens it by itself, and where that is enough it grows without "
+                         "end, without fluid.");
+      return;
+    }
+}
+
+
 /// BDF2 goes on from earlier states. Where a rate changes within a step, or what fills a segment,
 /// the sum of its rates is not what has come, and no balance of a step shows that.
 template <int dim>
@@ -516,6 +542,8 @@ void check_restarts(ParameterHandler &prm, const Case<dim> &the_case)
   template void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings);       \
   template void check_minimum_aperture(const Case<dim> &the_case,                                  \
                                        std::vector<std::string> &warnings);                        \
+  template void check_vapour(ParameterHandler &prm, const Case<dim> &the_case,                     \
+                             std::vector<std::string> &warnings);                                  \
   template void check_restarts(ParameterHandler &prm, const Case<dim> &the_case);                  \
   template void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_case);
 INSTANTIATE(2)

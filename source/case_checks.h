@@ -69,6 +69,12 @@ void check_cracks(const Case<dim> &the_case, std::vector<std::string> &warnings)
 template <int dim>
 void check_minimum_aperture(const Case<dim> &the_case, std::vector<std::string> &warnings);
 
+/// Vapour that opens a crack by itself.
+template <int dim>
+void check_vapour(dealii::ParameterHandler &prm,
+                  const Case<dim> &the_case,
+                  std::vector<std::string> &warnings);
+
 /// What a scheme in time needs, and what it cannot be with.
 template <int dim>
 void check_scheme(const Deck &deck, dealii::ParameterHandler &prm, const Case<dim> &the_case);

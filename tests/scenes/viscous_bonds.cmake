@@ -21,3 +21,13 @@ stockwork_restart_test(NAME scenes/viscous_bonds/restart DECK ${turned} AFTER 12
 
 # Anywhere, in any stress, beside the aligned fracture under the same 30 MPa.
 stockwork_campaign_test(turned_stressed 2915 peridynamics "" "" .viscous --pressed 30 --km-from 0.02 --km-to 0.5)
+
+# Vapour that has a greater pressure than presses the crack together opens it by itself, in any model.
+foreach(setting "6 MPa;SAYS" "1 kPa;WITHOUT")
+  list(GET setting 0 vapour)
+  list(GET setting 1 says)
+  string(REPLACE " " "_" name "${vapour}")
+  stockwork_check_test(NAME scenes/vapour_opens/${name} DECK prm/kgd/viscosity/cohesive_xfem.prm LABELS quick
+    SET "Resolution=coarse" "Time/Scheme=backward Euler" "Fracture flow/Vapour pressure=${vapour}"
+    ${says} "is more than the stress in situ that presses the crack")
+endforeach()
