@@ -18,7 +18,7 @@ stockwork_same_test(NAME scenes/state_based_path/ranks DECK ${turned} RANKS 1,2 
   SET "${state_based}" "Rock/Poisson ratio=0.35")
 stockwork_restart_test(NAME scenes/state_based_path/restart DECK ${turned} AFTER 5 TOLERANCE 1e-8 IGNORE balance_error
   SET "${state_based}" "Rock/Poisson ratio=0.35" "Checkpoint/Steps between=1")
-# Rock that shortens across when it is pressed along: nothing would drive the softening of bonds that are stretched in all directions.
+# A negative Poisson's ratio is refused with bonds that soften (errors/peridynamics_auxetic), and not with brittle ones.
 stockwork_check_test(NAME scenes/state_based_path/negative/brittle DECK prm/kgd/sun/peridynamics.prm LABELS quick
   SET "Resolution=coarse" "${state_based}" "Rock/Poisson ratio=-0.1" "Fracture/peridynamics/Softening=1"
   SAYS "Fracture/peridynamics/Tracking = none: bonds are brittle")

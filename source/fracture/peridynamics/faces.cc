@@ -1,6 +1,7 @@
 #include "fracture/peridynamics/faces.h"
 
 #include "base/kink.h"
+#include "fracture/peridynamics/few_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace
 {
 /// Of the stiffness of a cell of rock, over that of faces that touch.
 constexpr double softness = 1e-3;
-/// Unknowns that come a few at a time: a local matrix is square.
-constexpr unsigned int most_columns = 24;
 } // namespace
 
 

@@ -1,5 +1,6 @@
 #include "fracture/peridynamics/peridynamics.h"
 
+#include "fracture/peridynamics/few_columns.h"
 #include "fracture/peridynamics/state_based.h"
 #include "stockwork/exchange/released_traction.h"
 
@@ -219,8 +220,6 @@ void Peridynamics<dim>::assemble_dilatations(const unsigned int i,
   std::sort(coupled.begin(), coupled.end());
   coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
 
-  // A few columns at a time: a local matrix is square, and only its first rows are used.
-  const unsigned int most_columns = 32;
   const auto &rows = lattice.zone.sites()[i].dofs;
   for (unsigned int first = 0; first < coupled.size(); first += most_columns)
   {

@@ -201,10 +201,9 @@ void foresee_oblique_cracks(const Lattice<dim> &lattice,
         "'broken_length' by up to two fifths and 'equivalent_length' by a fifth, its pressure may "
         "be off by a quarter and its aperture by a half" +
         (parameters.growth ? ", and it grows along the axes of the mesh" : "") +
-        ". Use 'Fracture/peridynamics/Tracking = path', for which bonds must soften ('Softening' "
-        "of "
-        "3 or more), with 'Fluid = network' and 'Closure = in bonds', or 'cohesive_xfem' with 20 "
-        "cells along the crack.");
+        ". Use 'Fracture/peridynamics/Tracking = path' (bonds that soften, 'Softening' of 3 or "
+        "more; 'Fluid = network'; 'Closure = in bonds'), or 'cohesive_xfem' with 20 cells along "
+        "the crack.");
       return;
     }
 }

@@ -343,9 +343,8 @@ double Lattice<dim>::driving_stretch(const unsigned int site,
                                      const double dilatation_force,
                                      const double relative_energy) const
 {
-  const double driving = driving_elongation(elongation, softening.brittle() ? 0. : dilatation_force,
-                                            stiffness(site, bond))
-                           .value;
+  const double driving =
+    driving_elongation(elongation, dilatation_force, stiffness(site, bond)).value;
   return equivalent_stretch(site, bond, driving, relative_energy);
 }
 

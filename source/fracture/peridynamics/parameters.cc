@@ -98,9 +98,8 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "has been made up for. With 'Closure = in bonds' only those beside the "
     "initial cracks: faces of a fracture that grows are those of a crack without load in "
     "rock under a uniform stress, which do not feel what bonds are left. auto: true, but false "
-    "with 'Bond law = state-based', that closure and a Poisson's ratio of up to 0.15, where "
-    "initial "
-    "cracks would open by 5 to 14 % too little.");
+    "with 'Bond law = state-based', that closure and a Poisson's ratio of up to 0.15: there "
+    "initial cracks would open by 5 to 14 % too little.");
   prm.declare_entry(
     "Closure", "auto", Patterns::Selection("auto|conserving|in bonds|as published"),
     "What the pressure in a crack does to the rock. auto: in bonds where a path is tracked, and "

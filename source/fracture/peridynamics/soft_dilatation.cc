@@ -9,6 +9,7 @@
 // those of rock under that stress (PressureInBonds); D follows from DrivingElongation.
 #include "base/kink.h"
 #include "fracture/peridynamics/driving_elongation.h"
+#include "fracture/peridynamics/few_columns.h"
 #include "fracture/peridynamics/peridynamics.h"
 
 #include <algorithm>
@@ -18,13 +19,6 @@ namespace stockwork::peridynamics
 {
 using dealii::SymmetricTensor;
 using dealii::Tensor;
-
-namespace
-{
-/// Unknowns that come a few at a time: a local matrix is square.
-constexpr unsigned int most_columns = 24;
-} // namespace
-
 
 /// The dilatation of a site that has bonds which soften.
 template <int dim>
