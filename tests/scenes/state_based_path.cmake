@@ -18,10 +18,10 @@ stockwork_same_test(NAME scenes/state_based_path/ranks DECK ${turned} RANKS 1,2 
   SET "${state_based}" "Rock/Poisson ratio=0.35")
 stockwork_restart_test(NAME scenes/state_based_path/restart DECK ${turned} AFTER 5 TOLERANCE 1e-8 IGNORE balance_error
   SET "${state_based}" "Rock/Poisson ratio=0.35" "Checkpoint/Steps between=1")
-# A negative Poisson's ratio is refused with bonds that soften (errors/peridynamics_auxetic), and not with brittle ones.
-stockwork_check_test(NAME scenes/state_based_path/negative/brittle DECK prm/kgd/sun/peridynamics.prm LABELS quick
-  SET "Resolution=coarse" "${state_based}" "Rock/Poisson ratio=-0.1" "Fracture/peridynamics/Softening=1"
-  SAYS "Fracture/peridynamics/Tracking = none: bonds are brittle")
+# A negative Poisson's ratio is refused with bonds that may break (errors/peridynamics_auxetic), and not with others.
+stockwork_check_test(NAME scenes/state_based_path/negative/whole DECK prm/kgd/sun/peridynamics.prm LABELS quick
+  SET "Resolution=coarse" "${state_based}" "Rock/Poisson ratio=-0.1" "Fracture/peridynamics/Growth=false"
+  SAYS "Fracture/peridynamics/Tracking = none: a Poisson's ratio is negative")
 # Static cracks along the mesh and oblique to it, at any Poisson's ratio: 1 to 3.3 % off; with the surface correction 9.4 % at 0.
 foreach(poisson_ratio 0 0.1 0.35 0.45)
   stockwork_case_test(NAME scenes/state_based_path/static/${poisson_ratio} DECK prm/inclined/30/peridynamics.prm

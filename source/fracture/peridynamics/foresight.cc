@@ -303,11 +303,11 @@ void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scen
                        "direction as in another");
     const double nu = bond_based_poisson_ratio(rock.plane_stress);
     if (parameters.state_based && !softens_by_equal_strain<dim>(rock) &&
-        (parameters.in_bonds || (parameters.growth && parameters.softening > 1.)))
+        (parameters.in_bonds || parameters.growth))
       throw EntryError(path + "/Poisson ratio", text(rock.poisson_ratio),
                        std::string(dim == 2 ? "0" : "0.072 (1/14)") +
-                         " and more with state-based bonds that soften, or whose law has the "
-                         "pressure; less with 'Softening = 1' and 'Closure = conserving'");
+                         " and more with state-based bonds that may break, or whose law has the "
+                         "pressure; less with 'Growth = false' and 'Closure = conserving'");
     if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
       throw EntryError(
         path + "/Poisson ratio", text(rock.poisson_ratio),

@@ -198,6 +198,9 @@ std::vector<typename Peridynamics<dim>::Candidate> Peridynamics<dim>::overstretc
 template <int dim>
 void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
 {
+  // What stress in situ does between the faces of a dry path is its bonds', for it has no segments:
+  // they keep their unknowns.
+  std::vector<SofteningBond> dry;
   // The most stretched first, those as much stretched with them.
   for (unsigned int k = 0; k < candidates.size(); ++k)
   {
@@ -206,13 +209,27 @@ void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
           candidates[parameters.bonds_per_pass - 1].stretch - 0.5 * same_stretch)
       break;
     const auto [stretch, site, bond] = candidates[k];
-    if (lattice.bonds.is_broken(site, bond))
+    const BondView view = lattice.bonds.views_of(site, bond).front();
+    if (lattice.bonds.is_broken(site, bond) ||
+        std::any_of(dry.begin(), dry.end(), [&](const auto &other) { return other.view == view; }))
       continue; // the image of another
     dissipated += relative_energy(site, bond) * lattice.energy_at_unit_stretch({site, bond}) *
                   std::pow(stretch * lattice.critical_stretch, 2);
+    if (parameters.tracked && pressure_in_bonds.dry_stretch(site, bond) != 0.)
+    {
+      SofteningBond broken;
+      broken.view = view;
+      broken.committed = broken.trial = 2. * lattice.softening.last; // it does not heal
+      dry.push_back(broken);
+      continue;
+    }
     lattice.bonds.set_broken(site, bond);
     cracked.set_broken(site, bond);
   }
+  if (dry.empty())
+    return;
+  dry.insert(dry.end(), softening_bonds.begin(), softening_bonds.end());
+  softening_bonds.replace(std::move(dry));
 }
 
 
@@ -345,7 +362,11 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   }
 
   if (lattice.softening.brittle())
+  {
     break_bonds(candidates);
+    if (parameters.tracked)
+      tips.advance(paths, {});
+  }
 
   refresh_segments();
   ++passes;

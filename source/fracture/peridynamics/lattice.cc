@@ -60,7 +60,7 @@ void Lattice<dim>::setup(const ZoneShape<dim> &shape,
   for (const auto &cell : mesh_view.triangulation.active_cell_iterators())
     regions.push_back(cell->material_id());
   rock_of_bonds.reinit(
-    zone, stencil, scene.rock, parameters.state_based && parameters.softening == 1.,
+    zone, stencil, scene.rock,
     [&](const unsigned int cell, const Point<dim> &centre)
     { return scene.rock.at(regions[cell], centre); },
     collectives);
@@ -99,14 +99,10 @@ void Lattice<dim>::set_law(const double spacing)
   softening.last = std::sqrt(parameters.softening);
   BondLaw springs = law;
   springs.dilatation_modulus = 0.;
-  // What bonds across a plane take that break at a stretch. Those that soften take what springs do,
-  // see DrivingElongation.
-  const double of_springs = crossing_energy<dim>(stencil, springs, spacing, 1.),
-               at_one =
-                 softening.brittle() ? crossing_energy<dim>(stencil, law, spacing, 1.) : of_springs;
-  energy_over_spring = at_one / of_springs;
+  // What bonds across a plane take is what springs do, see DrivingElongation.
+  const double at_one = peridynamics::crossing_energy<dim>(stencil, springs, spacing, 1.);
   driving_of_equal_strain = 1.;
-  if (!softening.brittle() && !coefficients.empty())
+  if (!coefficients.empty())
   {
     // The same of all bonds, for their dilatation goes with stiffness times length.
     const BondCoefficients<dim> &bond = coefficients.front();
@@ -118,21 +114,30 @@ void Lattice<dim>::set_law(const double spacing)
         .value;
     driving_of_equal_strain = std::max(least_driving, driving / bond.length);
   }
-  const double of_continuum =
-    continuum_critical_stretch<dim>(rock, horizon, parameters.state_based && softening.brittle());
+  const double of_continuum = continuum_critical_stretch<dim>(rock, horizon),
+               trapping = softening.brittle()
+                            ? trapping_factor(parameters.horizon,
+                                              law.dilatation_modulus / rock.shear_modulus())
+                            : 1.;
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
-  critical_stretch =
-    !std::isnan(parameters.stretch_factor) ? parameters.stretch_factor * of_continuum
-    : parameters.softening > 1.
-      ? std::sqrt(rock.energy_release_rate / at_one)
-      : of_continuum *
-          trapping_factor(parameters.horizon, law.dilatation_modulus / rock.shear_modulus());
+  critical_stretch = !std::isnan(parameters.stretch_factor)
+                       ? parameters.stretch_factor * of_continuum
+                     : softening.brittle() ? of_continuum * trapping
+                                           : std::sqrt(rock.energy_release_rate / at_one);
   softening.first = critical_stretch / std::sqrt(parameters.softening);
   softening.last = critical_stretch * std::sqrt(parameters.softening);
-  // Of bonds across a plane that break at a stretch less by x, energy(1) 2 s_0 x remains unspent.
+  crossing_energy = at_one * critical_stretch * critical_stretch;
   if (parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
-    relief_by_fluid =
-      spacing * softening.when_wet() / softening.first / (2. * at_one * driving_of_equal_strain);
+  {
+    // What drives bonds across a plane over their elongation, in the mean square, when nothing but
+    // the opening strains them: the energy of dilatations counts twice, see DrivingElongation.
+    const double driving_of_opening =
+      std::sqrt(2. * peridynamics::crossing_energy<dim>(stencil, law, spacing, 1.) / at_one - 1.);
+    // A crack takes at_one (s_0/trapping)^2, so 2 at_one s_0 x/trapping^2 less if bonds break at a
+    // stretch less by x.
+    relief_by_fluid = spacing * softening.when_wet() / softening.first * trapping * trapping /
+                      (2. * at_one * driving_of_equal_strain * driving_of_opening);
+  }
 }
 
 
@@ -252,7 +257,7 @@ double Lattice<dim>::energy_at_unit_stretch(const BondView &view) const
   for (const auto &[s, b] : bonds.views_of(view.first, view.second))
     energy += 0.25 * zone.sites()[s].share * volume_share(s, b) * coefficients[b].stiffness *
               coefficients[b].length * coefficients[b].length;
-  return energy_over_spring * energy;
+  return energy;
 }
 
 

@@ -212,7 +212,7 @@ public:
   std::vector<BondCoefficients<dim>> coefficients;
   SofteningLaw softening;
   double critical_stretch = 0.;
-  double energy_over_spring = 1.; ///< that a breaking bond sets free, over that of a mere spring
+  double crossing_energy = 0.;    ///< of all bonds across a plane, when they have broken [J/m^2]
   double strain_of_pressure = 0.; ///< of the lattice, in each direction [1/Pa]
   double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
   /// What drives the damage of a bond that softens, over its stretch, where rock is stretched by

@@ -101,16 +101,9 @@ double crossing_energy(const std::vector<StencilBond<dim>> &stencil,
 }
 
 template <int dim>
-double
-continuum_critical_stretch(const RockProperties &rock, const double horizon, const bool state_based)
+double continuum_critical_stretch(const RockProperties &rock, const double horizon)
 {
-  const double shear = rock.shear_modulus();
-  double stiffness = (dim == 2 ? 6. / M_PI : 3.) * shear;
-  // int_0^1 theta^2 dz/(s delta) with theta of a site z delta from the plane: the integral of |xi|
-  // over the cap beyond it. In 3-D theta = 6 (1/4 - z/3 + z^4/12), in a plane
-  // theta = (2/pi) (acos z - z/2 ((1 - z^2)^1/2 + z^2 acosh(1/z))).
-  if (state_based)
-    stiffness += (dim == 2 ? 0.3225997 : 26. / 45.) * (rock.lame_lambda() - shear);
+  const double stiffness = (dim == 2 ? 6. / M_PI : 3.) * rock.shear_modulus();
   return std::sqrt(rock.energy_release_rate / (stiffness * horizon));
 }
 
@@ -121,9 +114,9 @@ double trapping_factor(const unsigned int m, const double dilatation)
                                : m == 4 ? 1.38
                                : m == 5 ? 1.215
                                         : 1. + 0.157 * 36. / (m * m);
-  // Through the forces at Poisson's ratios of 0.15, 0.25 and 0.35, those of plane strain.
+  // Poisson's ratio in plane strain, over 1/4.
   const double more = (1. + dilatation) / (2. * (2. + dilatation)) - 0.25;
-  return 1. / std::sqrt(1. + (driving_force - 1.) * (1. + (1.35 - 1.2 * more) * more / 0.477));
+  return 1. / std::sqrt(1. + (driving_force - 1.) * (1. - 1.57 * more));
 }
 
 #define STOCKWORK_INSTANTIATE(dim)                                                             \
@@ -136,7 +129,7 @@ double trapping_factor(const unsigned int m, const double dilatation)
                                        const std::vector<StencilBond<dim>> &, const double);   \
   template double crossing_energy<dim>(const std::vector<StencilBond<dim>> &, const BondLaw &, \
                                        const double, const double);                            \
-  template double continuum_critical_stretch<dim>(const RockProperties &, const double, const bool);
+  template double continuum_critical_stretch<dim>(const RockProperties &, const double);
 
 STOCKWORK_INSTANTIATE(2)
 STOCKWORK_INSTANTIATE(3)

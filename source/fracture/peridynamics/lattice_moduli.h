@@ -60,24 +60,22 @@ double crossing_energy(const std::vector<StencilBond<dim>> &stencil,
                        const double spacing,
                        const double stretch);
 
-/// The stretch for which the crossing energy is G_c when sums are integrals [-]. Bond-based Eq. 19
-/// (plane strain and plane stress) and sqrt(5 G_c/(9 K delta)) in 3-D (Silling and Askari 2005),
-/// all of them (G_c/(g delta G))^1/2 with g = 6/pi in a plane and 3 in space; state-based with the
-/// energy of the dilatation, which adds 0.32260 (lambda - G) and 26/45 (lambda - G) to g G.
+/// The stretch for which the crossing energy is G_c when sums are integrals [-]. Eq. 19 (plane
+/// strain and plane stress) and sqrt(5 G_c/(9 K delta)) in 3-D (Silling and Askari 2005), all of
+/// them (G_c/(g delta G))^1/2 with g = 6/pi in a plane and 3 in space. Of state-based bonds as
+/// well, which take what springs do, see DrivingElongation.
 template <int dim>
-double continuum_critical_stretch(const RockProperties &rock,
-                                  const double horizon,
-                                  const bool state_based = false);
+double continuum_critical_stretch(const RockProperties &rock, const double horizon);
 
 /// What a critical stretch is multiplied by so that a crack along the lattice grows steadily at
 /// G_c: the inverse square root of J/G_c that it needs at the hardest bond of each cell. For plane
 /// strain and exact volumes that is 1.785 (m = 2), 1.477 (3), 1.38 (4), 1.215 (5) and 1.157 (6),
 /// found by growing a crack in a large lattice (tests/unit/peridynamics_trapping_test.cc), the same
 /// for isotropic volumes from m = 3 on. A study that took J from a domain integral in smaller
-/// bodies found 1.31 (m = 3, rising with the body) and 1.17 (4). State-based, m = 3: 1.33 at
-/// Poisson's ratio 0.15, 1.60 at 0.35; between, and for other m, the excess over one is taken to
-/// change alike. In 3-D the same is taken: a crack through a slab of four cells then takes 0.84 G_c
-/// (m = 3; 0.90 in a plane).
+/// bodies found 1.31 (m = 3, rising with the body) and 1.17 (4). State-based, m = 3: 1.65 at
+/// Poisson's ratio 0, 1.59 at 0.15, 1.39 at 0.35, 1.34 at 0.4 (1.8 at 0.45, which is not followed);
+/// for other m the excess over one is taken to change alike. In 3-D the same is taken: a crack
+/// through a slab of four cells then takes 0.84 G_c (m = 3; 0.90 in a plane).
 /// @param dilatation BondLaw::dilatation_modulus over the shear modulus
 double trapping_factor(const unsigned int m, const double dilatation = 0.);
 

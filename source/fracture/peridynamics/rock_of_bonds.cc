@@ -111,7 +111,6 @@ void RockOfBonds<dim>::reinit(
   const Zone<dim> &zone,
   const std::vector<StencilBond<dim>> &stencil,
   const Rock &rock,
-  const bool state_based,
   const std::function<RockProperties(unsigned int, const Point<dim> &)> &of_cell,
   const Collectives &collectives)
 {
@@ -129,7 +128,7 @@ void RockOfBonds<dim>::reinit(
   const auto energy_of = [&](const RockProperties &properties)
   {
     return properties.shear_modulus() *
-           std::pow(continuum_critical_stretch<dim>(properties, 1., state_based), 2);
+           std::pow(continuum_critical_stretch<dim>(properties, 1.), 2);
   };
   int reach = 0;
   for (const StencilBond<dim> &bond : stencil)

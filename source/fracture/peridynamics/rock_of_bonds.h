@@ -29,7 +29,6 @@ public:
   reinit(const Zone<dim> &zone,
          const std::vector<StencilBond<dim>> &stencil,
          const Rock &rock,
-         const bool state_based,
          const std::function<RockProperties(unsigned int, const dealii::Point<dim> &)> &of_cell,
          const Collectives &collectives);
 

@@ -50,7 +50,7 @@ std::vector<double>
 Peridynamics<dim>::dilatation_forces(const State &state,
                                      const std::vector<SymmetricTensor<2, dim>> &strain) const
 {
-  if (!lattice.has_dilatations() || lattice.softening.brittle())
+  if (!lattice.has_dilatations())
     return {};
   std::vector<double> lost(lattice.zone.sites().size(), 0.), forces(lost);
   for (const auto &[view, elongation] : lost_elongations(state, 0))

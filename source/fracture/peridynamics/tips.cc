@@ -33,6 +33,14 @@ typename Tips<dim>::OfEnds Tips<dim>::energy(const TrackedPaths &paths) const
 {
   OfEnds energy = committed_energy;
   energy.resize(paths.n_paths(), {{0., 0.}});
+  if (lattice.softening.brittle())
+  {
+    energy.assign(paths.n_paths(), {{0., 0.}});
+    for (const BondAcross<dim> &bond : crossing_bonds)
+      if (softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
+        if (const auto end = paths.end_at(bond.crossing))
+          energy[end->path][end->side] += energy_of_bond(bond);
+  }
   for (unsigned int n = 0; n < ends.size(); ++n)
     if (const auto &end = ends[n])
     {
@@ -106,6 +114,10 @@ Tips<dim>::fluid_ahead(const TrackedPaths &paths,
         reach(bond.view);
     for (const BondView &view : about_to_soften)
       reach(view);
+    if (lattice.softening.brittle())
+      for (const BondAcross<dim> &bond : crossing_bonds)
+        if (softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
+          reach(bond.view);
   }
   return farthest;
 }
@@ -118,7 +130,7 @@ template <int dim>
 bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_to_soften) const
 {
   const OfEnds dissipated = energy(paths);
-  const double h = lattice.zone.spacing(), unit = h * lattice.scene.rock.main().energy_release_rate;
+  const double h = lattice.zone.spacing(), unit = h * lattice.crossing_energy;
   const OfEnds fluid = fluid_ahead(paths, about_to_soften);
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
@@ -146,8 +158,8 @@ double Tips<dim>::energy_of_bond(const BondAcross<dim> &bond) const
   if (bond.was_cut ||
       lattice.bonds.views_of(bond.view.first, bond.view.second).front() != bond.view)
     return 0.;
-  return lattice.energy_at_unit_stretch(bond.view) *
-         lattice.softening.dissipated(lattice.softening.last);
+  return lattice.energy_at_unit_stretch(bond.view) * lattice.softening.first *
+         lattice.softening.last;
 }
 
 
@@ -171,7 +183,7 @@ double Tips<dim>::broken_length(const TrackedPaths &paths) const
     if (paths.end_at(bond.crossing) &&
         softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
       energy += energy_of_bond(bond);
-  return paths.initial_length() + energy / lattice.scene.rock.main().energy_release_rate;
+  return paths.initial_length() + energy / lattice.crossing_energy;
 }
 
 template class Tips<2>;

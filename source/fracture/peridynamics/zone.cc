@@ -126,7 +126,9 @@ void Zone<dim>::find_far_ends(const std::vector<StencilBond<dim>> &stencil,
     }
   missing = collectives.gather(missing);
   if (!missing.empty())
-    throw unsuitable_mesh(std::min_element(missing.begin(), missing.end())->second);
+    throw unsuitable_mesh(
+      std::min_element(missing.begin(), missing.end())->second +
+      (with_rim ? " State-based bonds need two horizons in place of one." : ""));
 }
 
 
