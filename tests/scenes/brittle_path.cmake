@@ -3,8 +3,8 @@
 set(brittle "Fracture/peridynamics/Softening=1" "Fracture/peridynamics/Tracking=path")
 stockwork_case_test(NAME scenes/brittle_path/short_steps DECK prm/kgd/sun/peridynamics.prm
   SET "Resolution=coarse" "Time/End time=5 s" "Time/Maximum step=0.04" "Output/Fields=false" ${brittle}
-  EXPECT "errors/equivalent_length/mean < 0.03" "errors/inlet_aperture/mean < 0.055"
-         "errors/net_inlet_pressure/mean < 0.075" "final/extent_y < 1e-9" "fluid_balance/relative_error < 1e-8")
+  EXPECT "errors/equivalent_length/mean < 0.035" "errors/inlet_aperture/mean < 0.075" "errors/net_inlet_pressure/mean < 0.09"
+         "final/extent_y < 0.02" "rejected_steps < 5" "fluid_balance/relative_error < 1e-8")
 # At 27 degrees, a third of a cell off, in -23/-17 MPa: the length by energy and the volume.
 set(turned tests/data/turned_in_situ.prm)
 stockwork_case_test(NAME scenes/brittle_path/turned DECK ${turned} SET ${brittle}

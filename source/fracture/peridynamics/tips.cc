@@ -116,7 +116,7 @@ Tips<dim>::fluid_ahead(const TrackedPaths &paths,
       reach(view);
     if (lattice.softening.brittle())
       for (const BondAcross<dim> &bond : crossing_bonds)
-        if (softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
+        if (!bond.was_cut && softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
           reach(bond.view);
   }
   return farthest;
