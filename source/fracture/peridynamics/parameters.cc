@@ -141,7 +141,8 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "well, at a net pressure that is 4 to 13 % low.");
   prm.declare_entry("Bonds per pass", default_bonds_per_pass, Patterns::Integer(1),
                     "Brittle bonds that break, the most stretched first, before the step is solved "
-                    "again. Bonds that soften all follow their stretch at once.");
+                    "again: with many, bonds may break that would hold once the others have. Bonds "
+                    "that soften all follow their stretch at once.");
   prm.declare_entry("Most advances per step", "20", Patterns::Integer(1),
                     "Cells by which a tip may advance within a time step, else it is taken again "
                     "with half its length. Not more than twice: in viscous fluid a tip may jump, "

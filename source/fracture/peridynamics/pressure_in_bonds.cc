@@ -442,13 +442,13 @@ void PressureInBonds<dim>::add_softening(ByUnknown &by_unknown)
 }
 
 
-/// The force that softens linearly parts at 2 G_c over the strength, which goes with the root of
-/// G_c and of the modulus.
+/// Brittle bonds leave no bridges. The force that softens linearly parts at 2 G_c over the
+/// strength, which goes with the root of G_c and of the modulus.
 template <int dim>
 double PressureInBonds<dim>::bare_aperture(const unsigned int cell) const
 {
   if constexpr (dim == 2)
-    if (parameters.tracked)
+    if (parameters.tracked && !lattice.softening.brittle())
     {
       const TrackedPaths::Piece &piece = paths.wet_pieces()[cell];
       const RockProperties &main = scene.rock.main(),
