@@ -4,9 +4,9 @@
 
 namespace stockwork::peridynamics
 {
-/// What drives the damage D of a bond that softens: the energy that it would set free. With k and e
-/// its stiffness and elongation, and F the force that the dilatations of its ends exert on it, that
-/// is
+/// What drives the damage D of a bond, or breaks it: the energy that it would set free. With k and
+/// e its stiffness and elongation, and F the force that the dilatations of its ends exert on it,
+/// that is
 ///
 ///   -dW/dD = 1/2 k e^2 + e F,
 ///

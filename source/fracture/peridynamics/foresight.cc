@@ -285,9 +285,10 @@ std::optional<analytical::KgdParameters> driven_fracture(const Scene<dim> &scene
 template <int dim>
 void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scene<dim> &scene)
 {
-  // lambda/G at a Poisson's ratio of 0.45. Up to 0.4 the calibration of brittle bonds is within 3 %
-  // (trapping_factor()); at 0.49 cracks broke in pieces (doc/laboratory/bonds_any_rock.md).
-  constexpr double most_brittle = 9. * (1. + 1e-9);
+  // lambda/G at a Poisson's ratio of 0.4, up to which the calibration of brittle bonds is within 3
+  // % (trapping_factor()); at 0.45 cracks would take a third more than G_c, at 0.49 they broke in
+  // pieces (doc/laboratory/bonds_any_rock.md).
+  constexpr double most_brittle = 4. * (1. + 1e-9);
   needs::cracks_without_proppant(scene, "peridynamics");
   if (parameters.in_bonds && parameters.softening == 1.)
     for (const InitialCrack<dim> &crack : scene.cracks)
@@ -314,7 +315,7 @@ void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scen
     if (parameters.state_based && parameters.softening == 1. && parameters.growth &&
         rock.lame_lambda() > most_brittle * rock.shear_modulus())
       throw EntryError(path + "/Poisson ratio", text(rock.poisson_ratio),
-                       "0.45 or less with state-based bonds that are brittle ('Softening = 1')");
+                       "0.4 or less with state-based bonds that are brittle ('Softening = 1')");
     if (!parameters.state_based && std::abs(rock.poisson_ratio - nu) > 1e-6)
       throw EntryError(
         path + "/Poisson ratio", text(rock.poisson_ratio),
@@ -332,7 +333,7 @@ void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scen
       rock, "peridynamics",
       "where the strength follows from the energy release rate and the cells' size", path);
     needs::energy_of_all_modes(rock, "peridynamics",
-                               "whose bonds break by their stretch, whatever the mode", path);
+                               "whose bonds break by what they hold, whatever the mode", path);
     if (rock.is_random() && rock.random->varies(RandomField::tensile_strength))
       throw EntryError(path + "/Random field/Properties", "one with 'tensile strength'",
                        "a list without it with the fracture model 'peridynamics', where the "

@@ -199,8 +199,20 @@ template <int dim>
 void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
 {
   // What stress in situ does between the faces of a dry path is its bonds', for it has no segments:
-  // they keep their unknowns.
+  // they keep their unknowns as long as it is dry.
+  const auto is_dry = [this](const BondView &view)
+  { return parameters.tracked && pressure_in_bonds.dry_stretch(view.first, view.second) != 0.; };
+  const auto break_bond = [this](const BondView &view)
+  {
+    lattice.bonds.set_broken(view.first, view.second);
+    cracked.set_broken(view.first, view.second);
+  };
   std::vector<SofteningBond> dry;
+  for (const SofteningBond &bond : softening_bonds)
+    if (is_dry(bond.view))
+      dry.push_back(bond);
+    else
+      break_bond(bond.view);
   // The most stretched first, those as much stretched with them.
   for (unsigned int k = 0; k < candidates.size(); ++k)
   {
@@ -215,20 +227,16 @@ void Peridynamics<dim>::break_bonds(const std::vector<Candidate> &candidates)
       continue; // the image of another
     dissipated += relative_energy(site, bond) * lattice.energy_at_unit_stretch({site, bond}) *
                   std::pow(stretch * lattice.critical_stretch, 2);
-    if (parameters.tracked && pressure_in_bonds.dry_stretch(site, bond) != 0.)
+    if (!is_dry(view))
+      break_bond(view);
+    else
     {
       SofteningBond broken;
       broken.view = view;
-      broken.committed = broken.trial = 2. * lattice.softening.last; // it does not heal
+      broken.committed = broken.trial = lattice.softening.last;
       dry.push_back(broken);
-      continue;
     }
-    lattice.bonds.set_broken(site, bond);
-    cracked.set_broken(site, bond);
   }
-  if (dry.empty())
-    return;
-  dry.insert(dry.end(), softening_bonds.begin(), softening_bonds.end());
   softening_bonds.replace(std::move(dry));
 }
 
@@ -365,7 +373,10 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
   {
     break_bonds(candidates);
     if (parameters.tracked)
-      tips.advance(paths, {});
+    {
+      tips.look_at(paths);
+      tips.advance(paths, {}); // there are other bonds, whether or not there are other segments
+    }
   }
 
   refresh_segments();

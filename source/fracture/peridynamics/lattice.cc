@@ -61,6 +61,8 @@ void Lattice<dim>::setup(const ZoneShape<dim> &shape,
     regions.push_back(cell->material_id());
   rock_of_bonds.reinit(
     zone, stencil, scene.rock,
+    [this](const RockProperties &rock)
+    { return rock.energy_release_rate * std::pow(trapping(rock), 2); },
     [&](const unsigned int cell, const Point<dim> &centre)
     { return scene.rock.at(regions[cell], centre); },
     collectives);
@@ -100,44 +102,48 @@ void Lattice<dim>::set_law(const double spacing)
   BondLaw springs = law;
   springs.dilatation_modulus = 0.;
   // What bonds across a plane take is what springs do, see DrivingElongation.
-  const double at_one = peridynamics::crossing_energy<dim>(stencil, springs, spacing, 1.);
-  driving_of_equal_strain = 1.;
+  const double at_one = crossing_energy<dim>(stencil, springs, spacing, 1.);
+  // Squares of what drives bonds over their stretch: where rock is stretched by the same in all
+  // directions (the same of all bonds, for their dilatation goes with stiffness times length), and
+  // of bonds across a plane, in the mean, when nothing but its opening strains them (the energy of
+  // dilatations counts twice, see DrivingElongation).
+  double of_equal_strain = 1., of_opening = 1.;
   if (!coefficients.empty())
   {
-    // The same of all bonds, for their dilatation goes with stiffness times length.
     const BondCoefficients<dim> &bond = coefficients.front();
-    const double driving =
-      driving_elongation(bond.length,
-                         2. * dim * law.dilatation_modulus *
-                           dealii::Utilities::fixed_power<dim>(spacing) * bond.dilatation,
-                         bond.stiffness)
-        .value;
-    driving_of_equal_strain = std::max(least_driving, driving / bond.length);
+    of_equal_strain = 1. + 4. * dim * law.dilatation_modulus *
+                             dealii::Utilities::fixed_power<dim>(spacing) * bond.dilatation /
+                             (bond.stiffness * bond.length);
+    of_opening = 2. * crossing_energy<dim>(stencil, law, spacing, 1.) / at_one - 1.;
   }
-  const double of_continuum = continuum_critical_stretch<dim>(rock, horizon),
-               trapping = softening.brittle()
-                            ? trapping_factor(parameters.horizon,
-                                              law.dilatation_modulus / rock.shear_modulus())
-                            : 1.;
+  driving_of_equal_strain = std::max(least_driving, std::sqrt(std::max(0., of_equal_strain)));
+  const double of_continuum = continuum_critical_stretch<dim>(rock, horizon);
   // Where the lattice does not trap fractures, all that counts is what crossing bonds hold.
   critical_stretch = !std::isnan(parameters.stretch_factor)
                        ? parameters.stretch_factor * of_continuum
-                     : softening.brittle() ? of_continuum * trapping
+                     : softening.brittle() ? of_continuum * trapping(rock)
                                            : std::sqrt(rock.energy_release_rate / at_one);
   softening.first = critical_stretch / std::sqrt(parameters.softening);
   softening.last = critical_stretch * std::sqrt(parameters.softening);
-  crossing_energy = at_one * critical_stretch * critical_stretch;
+  energy_across = at_one * critical_stretch * critical_stretch;
+  // A crack takes at_one (s_0/trapping)^2, so 2 at_one s_0 y/trapping^2 less if bonds break when
+  // they are driven by y less. The opening of a cell that gets wet is the stretch at which it does
+  // over the root of of_opening; and a stretch x, the same in all directions, drives bonds that are
+  // about to break by x (of_opening + of_equal_strain)/(2 of_opening^1/2) more.
   if (parameters.effective_stretch && !parameters.in_bonds && at_one > 0.)
-  {
-    // What drives bonds across a plane over their elongation, in the mean square, when nothing but
-    // the opening strains them: the energy of dilatations counts twice, see DrivingElongation.
-    const double driving_of_opening =
-      std::sqrt(2. * peridynamics::crossing_energy<dim>(stencil, law, spacing, 1.) / at_one - 1.);
-    // A crack takes at_one (s_0/trapping)^2, so 2 at_one s_0 x/trapping^2 less if bonds break at a
-    // stretch less by x.
-    relief_by_fluid = spacing * softening.when_wet() / softening.first * trapping * trapping /
-                      (2. * at_one * driving_of_equal_strain * driving_of_opening);
-  }
+    relief_by_fluid = spacing * softening.when_wet() / softening.first *
+                      std::pow(trapping(rock), 2) / (at_one * (of_opening + of_equal_strain));
+}
+
+
+template <int dim>
+double Lattice<dim>::trapping(const RockProperties &rock) const
+{
+  if (parameters.softening > 1.)
+    return 1.;
+  return trapping_factor(parameters.horizon, parameters.state_based
+                                               ? rock.lame_lambda() / rock.shear_modulus() - 1.
+                                               : 0.);
 }
 
 

@@ -212,14 +212,20 @@ public:
   std::vector<BondCoefficients<dim>> coefficients;
   SofteningLaw softening;
   double critical_stretch = 0.;
-  double crossing_energy = 0.;    ///< of all bonds across a plane, when they have broken [J/m^2]
+  /// What all bonds across a plane take, as springs [J/m^2]: G_c of those that soften; less of
+  /// brittle ones, by what the lattice traps cracks.
+  double energy_across = 0.;
   double strain_of_pressure = 0.; ///< of the lattice, in each direction [1/Pa]
   double relief_by_fluid = 0.;    ///< stretch that a fluid's pressure relieves bonds of [1/Pa]
-  /// What drives the damage of a bond that softens, over its stretch, where rock is stretched by
+  /// What drives the damage of a bond, over its stretch, where rock is stretched by
   /// the same in all directions.
   double driving_of_equal_strain = 1.;
 
 private:
+  /// What the critical stretch of bonds in a rock is reduced by, see trapping_factor(); 1 of those
+  /// that soften.
+  double trapping(const RockProperties &rock) const;
+
   std::vector<bool> unbreakable; ///< sites; empty: none
 };
 } // namespace stockwork::peridynamics

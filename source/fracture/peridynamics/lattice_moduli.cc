@@ -114,7 +114,8 @@ double trapping_factor(const unsigned int m, const double dilatation)
                                : m == 4 ? 1.38
                                : m == 5 ? 1.215
                                         : 1. + 0.157 * 36. / (m * m);
-  // Poisson's ratio in plane strain, over 1/4.
+  // Poisson's ratio in plane strain, less 1/4. 1.57: a line through the forces of the header,
+  // within 2.5 %.
   const double more = (1. + dilatation) / (2. * (2. + dilatation)) - 0.25;
   return 1. / std::sqrt(1. + (driving_force - 1.) * (1. - 1.57 * more));
 }

@@ -73,7 +73,7 @@ double continuum_critical_stretch(const RockProperties &rock, const double horiz
 /// found by growing a crack in a large lattice (tests/unit/peridynamics_trapping_test.cc), the same
 /// for isotropic volumes from m = 3 on. A study that took J from a domain integral in smaller
 /// bodies found 1.31 (m = 3, rising with the body) and 1.17 (4). State-based, m = 3: 1.65 at
-/// Poisson's ratio 0, 1.59 at 0.15, 1.39 at 0.35, 1.34 at 0.4 (1.8 at 0.45, which is not followed);
+/// Poisson's ratio 0, 1.59 at 0.15, 1.39 at 0.35, 1.34 at 0.4 (1.8 at 0.45, which is refused);
 /// for other m the excess over one is taken to change alike. In 3-D the same is taken: a crack
 /// through a slab of four cells then takes 0.84 G_c (m = 3; 0.90 in a plane).
 /// @param dilatation BondLaw::dilatation_modulus over the shear modulus

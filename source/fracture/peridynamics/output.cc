@@ -46,7 +46,7 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
         elastic += lattice.energy_at_unit_stretch(softening_bonds[n].view) *
                    (lattice.softening.separation(softening_bonds[n].trial) -
                     lattice.softening.dissipated(softening_bonds[n].trial)) /
-                   lattice.crossing_energy;
+                   lattice.energy_across;
     result.length = paths.length() + tips.half_process_zones(paths);
     result.equivalent_length = elastic - 0.5 * length_that_holds();
     result.broken_length = std::max(0., tips.broken_length(paths) - length_that_holds());
@@ -76,7 +76,7 @@ double Peridynamics<dim>::length_that_holds() const
                   (lattice.softening.first * lattice.softening.last -
                    (softened != nullptr ? lattice.softening.separation(softened->trial) : 0.));
       }
-  return energy / lattice.crossing_energy;
+  return energy / lattice.energy_across;
 }
 
 

@@ -75,9 +75,8 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
     "Critical stretch factor", "", Patterns::Anything(),
     "Of the stretch at which bonds break, over the one that follows from the rock's "
     "energy release rate when sums are integrals. Empty: the one with which a crack "
-    "on the lattice grows at that rate: of bond-based bonds 0.986 for those that soften, and for "
-    "brittle ones 0.823 with a horizon of 3, 0.851 with 4, and by Poisson's ratio of state-based "
-    "brittle ones.");
+    "on the lattice grows at that rate: 0.986 for bonds that soften; for brittle ones 0.823 with a "
+    "horizon of 3, 0.851 with 4, at a Poisson's ratio of 1/4, and more at a greater one.");
   prm.declare_entry("Softening", "4", Patterns::Double(1., greatest_softening),
                     "The stretch at which a bond is broken over the one at which it begins to "
                     "soften, with the same energy. 1: bonds are brittle, as in the paper, and a "

@@ -442,7 +442,7 @@ void PressureInBonds<dim>::add_softening(ByUnknown &by_unknown)
 }
 
 
-/// Brittle bonds leave no bridges. The force that softens linearly parts at 2 G_c over the
+/// The force that softens linearly parts at 2 G_c over the
 /// strength, which goes with the root of G_c and of the modulus.
 template <int dim>
 double PressureInBonds<dim>::bare_aperture(const unsigned int cell) const
@@ -458,7 +458,7 @@ double PressureInBonds<dim>::bare_aperture(const unsigned int cell) const
                std::sqrt(here.energy_release_rate / main.energy_release_rate *
                          main.shear_modulus() / here.shear_modulus());
     }
-  return 0.; // an initial crack has no bridges
+  return 0.; // initial cracks and brittle bonds leave no bridges
 }
 
 

@@ -111,6 +111,7 @@ void RockOfBonds<dim>::reinit(
   const Zone<dim> &zone,
   const std::vector<StencilBond<dim>> &stencil,
   const Rock &rock,
+  const std::function<double(const RockProperties &)> &energy_across,
   const std::function<RockProperties(unsigned int, const Point<dim> &)> &of_cell,
   const Collectives &collectives)
 {
@@ -124,12 +125,6 @@ void RockOfBonds<dim>::reinit(
   if (is_one)
     return;
 
-  // Of a bond that is about to break.
-  const auto energy_of = [&](const RockProperties &properties)
-  {
-    return properties.shear_modulus() *
-           std::pow(continuum_critical_stretch<dim>(properties, 1.), 2);
-  };
   int reach = 0;
   for (const StencilBond<dim> &bond : stencil)
     for (unsigned int d = 0; d < dim; ++d)
@@ -140,9 +135,10 @@ void RockOfBonds<dim>::reinit(
     for (unsigned int d = 0; d < dim; ++d)
       centre[d] += 0.5 * zone.spacing();
     const RockProperties here = of_cell(index, centre);
-    cells.push_back({place, here.shear_modulus() / main.shear_modulus(),
-                     std::isnan(main.energy_release_rate) ? 1. : energy_of(here) / energy_of(main),
-                     here.lame_lambda() - here.shear_modulus(), here.biot_coefficient});
+    cells.push_back(
+      {place, here.shear_modulus() / main.shear_modulus(),
+       std::isnan(main.energy_release_rate) ? 1. : energy_across(here) / energy_across(main),
+       here.lame_lambda() - here.shear_modulus(), here.biot_coefficient});
   }
   cells = collectives.gather(cells);
   // No bond that is known here goes through a cell whose corners are not.

@@ -23,12 +23,13 @@ template <int dim>
 class RockOfBonds
 {
 public:
-  /// Collective. @p of_cell gives the rock of a cell that this rank owns, by its active cell index
-  /// and its centre.
+  /// Collective. @p energy_across gives what bonds across a plane take in such rock, in any unit;
+  /// @p of_cell the rock of a cell that this rank owns, by its active cell index and its centre.
   void
   reinit(const Zone<dim> &zone,
          const std::vector<StencilBond<dim>> &stencil,
          const Rock &rock,
+         const std::function<double(const RockProperties &)> &energy_across,
          const std::function<RockProperties(unsigned int, const dealii::Point<dim> &)> &of_cell,
          const Collectives &collectives);
 

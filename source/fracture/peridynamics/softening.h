@@ -35,9 +35,9 @@ struct SofteningLaw
   /// Of a bond whose greatest stretch has been kappa; 0 is elastic, 1 is broken.
   double damage(const double kappa) const
   {
-    return kappa <= first  ? 0.
-           : kappa >= last ? 1.
-                           : last / kappa * (kappa - first) / (last - first);
+    return kappa >= last    ? 1.
+           : kappa <= first ? 0.
+                            : last / kappa * (kappa - first) / (last - first);
   }
 
   /// The stretch up to which damage comes.
@@ -49,7 +49,7 @@ struct SofteningLaw
   /// Of damage times stretch by the stretch, where the stretch is the greatest so far.
   double slope(const double kappa) const
   {
-    return kappa <= first ? 0. : kappa >= last ? 1. : last / (last - first);
+    return kappa >= last ? 1. : kappa <= first ? 0. : last / (last - first);
   }
 
   /// Stretch at which fluid gets into a cell.
@@ -68,7 +68,7 @@ struct SofteningLaw
   /// back if it were unloaded. In the same unit.
   double separation(const double kappa) const
   {
-    const double left = std::clamp((last - kappa) / (last - first), 0., 1.);
+    const double left = kappa >= last ? 0. : std::clamp((last - kappa) / (last - first), 0., 1.);
     return first * last * (1. - left * left);
   }
 };

@@ -8,8 +8,8 @@
 
 namespace stockwork::peridynamics
 {
-/// A bond that softens. Its unknown is what has become of its elongation without any force, D times
-/// the elongation [m].
+/// A bond that softens, or a broken one across a dry path in stress in situ. Its unknown is what
+/// has become of its elongation without any force, D times the elongation [m].
 struct SofteningBond
 {
   BondView view;

@@ -31,16 +31,16 @@ void Tips<dim>::look_at(const TrackedPaths &paths)
 template <int dim>
 typename Tips<dim>::OfEnds Tips<dim>::energy(const TrackedPaths &paths) const
 {
-  OfEnds energy = committed_energy;
-  energy.resize(paths.n_paths(), {{0., 0.}});
   if (lattice.softening.brittle())
   {
-    energy.assign(paths.n_paths(), {{0., 0.}});
+    OfEnds energy(paths.n_paths(), {{0., 0.}}); // of those that have broken
     for (const BondAcross<dim> &bond : crossing_bonds)
-      if (softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
-        if (const auto end = paths.end_at(bond.crossing))
-          energy[end->path][end->side] += energy_of_bond(bond);
+      if (const auto end = is_broken(bond) ? paths.end_at(bond.crossing) : std::nullopt)
+        energy[end->path][end->side] += energy_of_bond(bond);
+    return energy;
   }
+  OfEnds energy = committed_energy;
+  energy.resize(paths.n_paths(), {{0., 0.}});
   for (unsigned int n = 0; n < ends.size(); ++n)
     if (const auto &end = ends[n])
     {
@@ -116,7 +116,7 @@ Tips<dim>::fluid_ahead(const TrackedPaths &paths,
       reach(view);
     if (lattice.softening.brittle())
       for (const BondAcross<dim> &bond : crossing_bonds)
-        if (!bond.was_cut && softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
+        if (!bond.was_cut && is_broken(bond))
           reach(bond.view);
   }
   return farthest;
@@ -130,7 +130,7 @@ template <int dim>
 bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_to_soften) const
 {
   const OfEnds dissipated = energy(paths);
-  const double h = lattice.zone.spacing(), unit = h * lattice.crossing_energy;
+  const double h = lattice.zone.spacing(), unit = h * lattice.energy_across;
   const OfEnds fluid = fluid_ahead(paths, about_to_soften);
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
@@ -153,13 +153,20 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
 
 
 template <int dim>
+bool Tips<dim>::is_broken(const BondAcross<dim> &bond) const
+{
+  return softening_bonds.damage(bond.view.first, bond.view.second) >= 1.;
+}
+
+
+template <int dim>
 double Tips<dim>::energy_of_bond(const BondAcross<dim> &bond) const
 {
   if (bond.was_cut ||
       lattice.bonds.views_of(bond.view.first, bond.view.second).front() != bond.view)
     return 0.;
-  return lattice.energy_at_unit_stretch(bond.view) * lattice.softening.first *
-         lattice.softening.last;
+  return lattice.energy_at_unit_stretch(bond.view) *
+         lattice.softening.dissipated(lattice.softening.last);
 }
 
 
@@ -180,10 +187,9 @@ double Tips<dim>::broken_length(const TrackedPaths &paths) const
 {
   double energy = 0.;
   for (const BondAcross<dim> &bond : crossing_bonds)
-    if (paths.end_at(bond.crossing) &&
-        softening_bonds.damage(bond.view.first, bond.view.second) >= 1.)
+    if (paths.end_at(bond.crossing) && is_broken(bond))
       energy += energy_of_bond(bond);
-  return paths.initial_length() + energy / lattice.crossing_energy;
+  return paths.initial_length() + energy / lattice.energy_across;
 }
 
 template class Tips<2>;

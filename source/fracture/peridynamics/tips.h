@@ -59,6 +59,8 @@ private:
   /// What all bonds take across the way of an end [J/m].
   double energy_of_way(const TrackedPaths &paths, const TrackedPaths::End &end) const;
 
+  bool is_broken(const BondAcross<dim> &bond) const;
+
   /// What a bond takes that crosses the way of an end; nil if an open crack of the deck has cut it,
   /// and as seen from its other ends [J/m].
   double energy_of_bond(const BondAcross<dim> &bond) const;
