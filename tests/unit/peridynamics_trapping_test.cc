@@ -285,7 +285,7 @@ TEST_CASE("driving force with isotropic volumes, and of state-based rock")
 {
   CHECK(driving_force(lattice_rock(0.25), 3, VolumeRule::isotropic) ==
         doctest::Approx(1.48).epsilon(0.03));
-  using Measured = std::pair<double, double>; // Poisson's ratio, J/G_c
+  using Measured = std::pair<double, double>; // Poisson's ratio, J/G_c that trapping_factor() names
   for (const auto &[nu, measured] :
        {Measured{0., 1.647}, Measured{0.15, 1.590}, Measured{0.35, 1.390}, Measured{0.4, 1.343}})
   {

@@ -285,9 +285,9 @@ std::optional<analytical::KgdParameters> driven_fracture(const Scene<dim> &scene
 template <int dim>
 void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scene<dim> &scene)
 {
-  // lambda/G at a Poisson's ratio of 0.4, up to which the calibration of brittle bonds is within 3
-  // % (trapping_factor()); at 0.45 cracks would take a third more than G_c, at 0.49 they broke in
-  // pieces (doc/laboratory/bonds_any_rock.md).
+  // lambda/G at a Poisson's ratio of 0.4. So far the calibration of brittle bonds is right to 3 per
+  // cent (trapping_factor()); at 0.45 cracks would take a third more than G_c, at 0.49 they broke
+  // in pieces (doc/laboratory/bonds_any_rock.md).
   constexpr double most_brittle = 4. * (1. + 1e-9);
   needs::cracks_without_proppant(scene, "peridynamics");
   if (parameters.in_bonds && parameters.softening == 1.)

@@ -442,8 +442,8 @@ void PressureInBonds<dim>::add_softening(ByUnknown &by_unknown)
 }
 
 
-/// The force that softens linearly parts at 2 G_c over the
-/// strength, which goes with the root of G_c and of the modulus.
+/// The force that softens linearly parts at 2 G_c over the strength, which goes with the root of
+/// G_c and of the modulus.
 template <int dim>
 double PressureInBonds<dim>::bare_aperture(const unsigned int cell) const
 {

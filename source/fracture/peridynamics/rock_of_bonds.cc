@@ -125,6 +125,7 @@ void RockOfBonds<dim>::reinit(
   if (is_one)
     return;
 
+  const double of_main = energy_across(main);
   int reach = 0;
   for (const StencilBond<dim> &bond : stencil)
     for (unsigned int d = 0; d < dim; ++d)
@@ -135,10 +136,9 @@ void RockOfBonds<dim>::reinit(
     for (unsigned int d = 0; d < dim; ++d)
       centre[d] += 0.5 * zone.spacing();
     const RockProperties here = of_cell(index, centre);
-    cells.push_back(
-      {place, here.shear_modulus() / main.shear_modulus(),
-       std::isnan(main.energy_release_rate) ? 1. : energy_across(here) / energy_across(main),
-       here.lame_lambda() - here.shear_modulus(), here.biot_coefficient});
+    cells.push_back({place, here.shear_modulus() / main.shear_modulus(),
+                     std::isnan(of_main) ? 1. : energy_across(here) / of_main,
+                     here.lame_lambda() - here.shear_modulus(), here.biot_coefficient});
   }
   cells = collectives.gather(cells);
   // No bond that is known here goes through a cell whose corners are not.
