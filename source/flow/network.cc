@@ -124,7 +124,7 @@ void Network<dim>::set_segments(const dealii::ArrayView<const Segment<dim>> &seg
   std::vector<typename Segment<dim>::Neighbour> neighbours; // one array is sent faster than many
   for (const Segment<dim> &segment : owned)
   {
-    numbers.push_back({segment.key, segment.centre, segment.normal, segment.area,
+    numbers.push_back({segment.key, segment.part_of, segment.centre, segment.normal, segment.area,
                        segment.pore_pressure.constant, !segment.pore_pressure.bulk.empty(),
                        segment.region, segment.pore_distance, segment.has_pressure_of_pores,
                        segment.share_of_pores, bridges_count(segment) ? segment.bare_aperture : 0.,
@@ -481,6 +481,7 @@ typename Network<dim>::Values Network<dim>::evaluate(const StepContext &context,
     if (old != history.end())
       reference -= old->second.vapour / network[i].area;
   }
+  hand_over_room(context, state, collectives, values);
   values.pore_pressure.assign(all.begin() + 2 * n, all.begin() + 3 * n);
   values.pressure = pressures(state.current);
   values.pressure_reference = pressures(reference_state);

@@ -329,6 +329,7 @@ private:
     std::vector<double> filter_cake_drop; ///< of pressure across the face, for linear leak-off
     std::vector<double> vapour;           ///< volume at the end of the step [m^3]
     std::vector<bool> cavitates;          ///< the pressure is the least, else there is no vapour
+    std::vector<double> handed_over;      ///< see History [m^3]
   };
 
   /// What a segment remembers.
@@ -339,12 +340,14 @@ private:
     double leaked = 0.;   ///< volume through both faces so far [m^3]
     double volume = 0.;   ///< between the faces [m^3]
     double vapour = 0.;   ///< part of it that holds no fluid [m^3]
-    bool bare = false;    ///< the faces have been bare once
+    /// Room that it got from another segment in the last step; less than nothing: gave to [m^3]
+    double handed_over = 0.;
+    bool bare = false; ///< the faces have been bare once
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &exposure &wetted &leaked &volume &vapour &bare;
+      ar &exposure &wetted &leaked &volume &vapour &handed_over &bare;
     }
   };
 
@@ -375,6 +378,12 @@ private:
   std::optional<unsigned int> number(std::uint64_t key) const;
 
   Values evaluate(const StepContext &, const State &, const Collectives &) const;
+
+  /// What segments hold from before the step, where some have become segments of their own: these
+  /// have what was in their room, and those that the room was part of have so much less. See
+  /// Segment::part_of.
+  void
+  hand_over_room(const StepContext &, const State &, const Collectives &, Values &values) const;
 
   /// Of the edge to a neighbour: what the apertures conduct, and proppant if both have it.
   Transmissibility

@@ -125,6 +125,7 @@ void Network<dim>::commit(const StepContext &context,
     entry.leaked += leaked[i];
     entry.volume = network[i].area * values.aperture[i];
     entry.vapour = values.vapour[i];
+    entry.handed_over = values.handed_over[i];
   }
   rollback(); // nothing is on trial any more
 }

@@ -13,6 +13,7 @@ template <int dim>
 struct SegmentNumbers
 {
   std::uint64_t key = 0;
+  std::uint64_t part_of = 0; ///< see Segment
   dealii::Point<dim> centre;
   dealii::Tensor<1, dim> normal;
   double area = 0.;

@@ -73,7 +73,7 @@ void Wells<dim>::check_distances() const
 
 
 template <int dim>
-bool Wells<dim>::sources_reach(const Point<dim> &place, const double size) const
+bool Wells<dim>::sources_reach(const dealii::Point<dim> &place, const double size) const
 {
   for (const Well &well : wells)
     if (well.in_rock)
@@ -166,9 +166,10 @@ void Wells<dim>::check_openings() const
 }
 
 
-#define INSTANTIATE(dim)                                                        \
-  template void Wells<dim>::set_mesh(const MeshView<dim> &, const Scene<dim> &, \
-                                     const Collectives &);                      \
+#define INSTANTIATE(dim)                                                             \
+  template void Wells<dim>::set_mesh(const MeshView<dim> &, const Scene<dim> &,      \
+                                     const Collectives &);                           \
+  template bool Wells<dim>::sources_reach(const dealii::Point<dim> &, double) const; \
   template void Wells<dim>::locate(const std::vector<NetworkSegment<dim>> &, bool);
 INSTANTIATE(2)
 INSTANTIATE(3)

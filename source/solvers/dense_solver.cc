@@ -13,6 +13,7 @@
 namespace stockwork
 {
 using dealii::FullMatrix;
+using dealii::LAPACKFullMatrix;
 using dealii::Vector;
 
 namespace
@@ -112,6 +113,18 @@ void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
   for (unsigned int i = 0; i < n; ++i)
     if (!(std::abs(lu(i, i)) > std::numeric_limits<double>::epsilon()))
       throw SolveError("the matrix is singular");
+}
+
+
+void DenseSolver::Factor::solve(LAPACKFullMatrix<double> &columns) const
+{
+  for (unsigned int j = 0; j < columns.n(); ++j)
+    for (unsigned int i = 0; i < columns.m(); ++i)
+      columns(i, j) *= scaling[i];
+  lu.solve(columns, true);
+  for (unsigned int j = 0; j < columns.n(); ++j)
+    for (unsigned int i = 0; i < columns.m(); ++i)
+      columns(i, j) *= scaling[i];
 }
 
 
@@ -225,16 +238,22 @@ bool DenseSolver::eliminate(const FullMatrix<double> &matrix)
   for (unsigned int i = 0; i < columns.m(); ++i)
     known.emplace(bytes_of_row(columns, i), i);
   FullMatrix<double> result(rest.size(), kept.size());
-  Vector<double> x(kept.size());
+  std::vector<unsigned int> others;
   for (unsigned int i = 0; i < rest.size(); ++i)
     if (const auto found = known.find(bytes_of_row(wanted, i)); found != known.end())
       std::memcpy(&result(i, 0), &eliminated(found->second, 0), kept.size() * sizeof(double));
     else
-    {
-      std::copy(&wanted(i, 0), &wanted(i, 0) + kept.size(), x.begin());
-      kept_factor.solve(x);
-      std::copy(x.begin(), x.end(), &result(i, 0));
-    }
+      others.push_back(i);
+  // All others at once: the factor is read once for several of them.
+  if (!others.empty())
+  {
+    LAPACKFullMatrix<double> x(kept.size(), others.size());
+    for (unsigned int j = 0; j < others.size(); ++j)
+      std::copy(&wanted(others[j], 0), &wanted(others[j], 0) + kept.size(), &x(0, j));
+    kept_factor.solve(x);
+    for (unsigned int j = 0; j < others.size(); ++j)
+      std::copy(&x(0, j), &x(0, j) + kept.size(), &result(others[j], 0));
+  }
   known.clear();
   columns.swap(wanted);
   eliminated.swap(result);

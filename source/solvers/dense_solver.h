@@ -46,6 +46,9 @@ private:
 
     void solve(dealii::Vector<double> &) const;
 
+    /// Each column.
+    void solve(dealii::LAPACKFullMatrix<double> &columns) const;
+
   private:
     std::vector<double> scaling;
     dealii::LAPACKFullMatrix<double> lu;

@@ -71,6 +71,14 @@ struct Segment
   /// Mean aperture [m]. Known on the rank that owns the host cell only.
   LinearFunctional opening;
 
+  /// Where a segment that appears within a step has room that was part of another one's opening at
+  /// the end of the last step, as a process zone's is part of the last segment behind it: the key
+  /// of that one, which hands over what `room_before` says of the states before; 0: of none.
+  std::uint64_t part_of = 0;
+
+  /// Mean aperture of that room [m]. Same rank as the opening; nothing without `part_of`.
+  LinearFunctional room_before;
+
   /// Share of the opening that had been room in the rock's pores, with fluid in it, before there
   /// was a segment: Biot's coefficient where the opening is strain of the rock's own elements (see
   /// CellRole::fracture_normal), zero where it is a jump.

@@ -260,6 +260,8 @@ void PressureInBonds<dim>::follow()
   ByUnknown by_unknown(fracture.cells.size());
   add_broken(across, by_unknown);
   add_softening(by_unknown);
+  if (parameters.tracked && !scene.has_pore_pressure && !lattice.softening.brittle())
+    find_room_before();
 }
 
 
@@ -439,6 +441,36 @@ void PressureInBonds<dim>::add_softening(ByUnknown &by_unknown)
       for (unsigned int m = 0; m < n_modes(); ++m)
         faces_of[cell]->modes[m].of_bonds.push_back(of_modes[m]);
     }
+}
+
+
+template <int dim>
+void PressureInBonds<dim>::find_room_before()
+{
+  for (unsigned int k = 0; k < fracture.owned_cells.size(); ++k)
+  {
+    const auto &part_of = paths.wet_pieces()[fracture.owned_cells[k]].part_of;
+    if (!part_of)
+      continue;
+    const Faces &own = faces[k];
+    const Faces::Mode &across = own.modes[0];
+    Segment<dim> &segment = fracture.owned_segments[k];
+    segment.part_of = fracture.segments[*part_of].key;
+    LinearFunctional &room = segment.room_before;
+    room = LinearFunctional();
+    room.bulk = own.ends;
+    for (const double of_end : across.of_ends)
+      room.bulk_coefficients.push_back(of_end / segment.area);
+    room.extra = own.bonds;
+    for (const double of_bond : across.of_bonds)
+      room.extra_coefficients.push_back(of_bond / segment.area);
+    for (unsigned int m = 0; m < n_modes(); ++m)
+    {
+      room.extra.push_back(unknown_of_traction(*part_of, m));
+      room.extra_coefficients.push_back(own.unit * across.of_tractions[m] / segment.area);
+    }
+    room.constant = across.constant / segment.area;
+  }
 }
 
 

@@ -163,6 +163,11 @@ private:
   void
   add_dilatations(const std::vector<BondAcross<dim>> &across, ByDof &by_dof, ByUnknown &by_unknown);
 
+  /// Of segments on pieces that fluid has reached within the step: what bonds there read before,
+  /// under the traction of the piece that they belonged to. In porous rock a piece is there before
+  /// it opens, and brittle bonds read nothing before they break.
+  void find_room_before();
+
   /// Force on one end of a bond by the stress that strains the lattice so; by a strain per
   /// traction, of which a jump of its ends reads this for each metre of elongation [m^(d-1)].
   double pull(unsigned int site,

@@ -5,6 +5,15 @@
 
 namespace stockwork::peridynamics
 {
+namespace
+{
+/// So far before a piece fluid gets into it, in spacings: with less the pressure on the process
+/// zone is too high where toughness dominates, with more too low
+/// (doc/laboratory/peridynamics_paths.md, The front of the fluid).
+constexpr double before_piece = 0.25;
+} // namespace
+
+
 template <int dim>
 Tips<dim>::Tips(const Lattice<dim> &lattice,
                 const SofteningBonds<dim> &softening_bonds,
@@ -89,6 +98,23 @@ double Tips<dim>::half_process_zones(const TrackedPaths &paths) const
 }
 
 
+template <int dim>
+typename Tips<dim>::OfEnds Tips<dim>::energy_to_come(const TrackedPaths &paths) const
+{
+  OfEnds result(paths.n_paths(), {{0., 0.}});
+  if (!lattice.softening.brittle())
+    for (unsigned int n = 0; n < ends.size(); ++n)
+      if (const auto &end = ends[n])
+      {
+        const SofteningBond &bond = softening_bonds[n];
+        result[end->path][end->side] +=
+          lattice.energy_at_unit_stretch(bond.view) *
+          (lattice.softening.separation(bond.trial) - lattice.softening.dissipated(bond.trial));
+      }
+  return result;
+}
+
+
 /// In porous rock the elements' strain across what softens is opening: the pores around must not
 /// feel it, so the fluid of the piece that is there takes it, and leaks into them.
 template <int dim>
@@ -131,7 +157,7 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
 {
   const OfEnds dissipated = energy(paths);
   const double h = lattice.zone.spacing(), unit = h * lattice.energy_across;
-  const OfEnds fluid = fluid_ahead(paths, about_to_soften);
+  const OfEnds fluid = fluid_ahead(paths, about_to_soften), to_come = energy_to_come(paths);
   return paths.set_advances(
     [&](const TrackedPaths::End &end)
     {
@@ -148,7 +174,16 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
                ? by_energy
                : begin + (by_energy - begin) * (way - begin) / std::max(h, way - begin - missing);
     },
-    [&](const TrackedPaths::End &end) { return fluid[end.path][end.side]; });
+    [&](const TrackedPaths::End &end)
+    {
+      if (lattice.scene.has_pore_pressure)
+        return fluid[end.path][end.side];
+      const double tip = paths.advance(end);
+      // What begins beyond another path is dry at first; and where two meet, fluid goes with tips.
+      if (tip == 0. || paths.is_all_way(end.path) || paths.has_met(end))
+        return tip;
+      return tip + h * (rounded(to_come[end.path][end.side] / unit) + before_piece);
+    });
 }
 
 

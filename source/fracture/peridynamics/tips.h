@@ -35,6 +35,10 @@ public:
   /// What bonds across the way of each end have dissipated [J/m].
   OfEnds energy(const TrackedPaths &paths) const;
 
+  /// What they have stored besides while they part, which would come back if they were unloaded
+  /// [J/m]. By that of G_c the tip of the elastic crack that is the same from afar is ahead.
+  OfEnds energy_to_come(const TrackedPaths &paths) const;
+
   /// Whether nothing has softened across the way of an end. @param energy see above
   bool is_untouched(const TrackedPaths::End &end, const OfEnds &energy) const;
 
@@ -65,8 +69,8 @@ private:
   /// and as seen from its other ends [J/m].
   double energy_of_bond(const BondAcross<dim> &bond) const;
 
-  /// Of each end of a path, how far along its way fluid is ahead of the tip [m]: nowhere, but in
-  /// porous rock in all of the process zone, with what is about to soften.
+  /// Of each end of a path in porous rock, how far along its way fluid is [m]: in all of the
+  /// process zone, with what is about to soften.
   OfEnds fluid_ahead(const TrackedPaths &paths, const std::vector<BondView> &about_to_soften) const;
 
   const Lattice<dim> &lattice;

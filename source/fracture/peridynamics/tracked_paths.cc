@@ -162,8 +162,11 @@ unsigned int TrackedPaths::piece_at(const Crossing &crossing) const
 {
   const Path &path = paths[crossing.path];
   unsigned int piece = 0;
-  while (piece + 1 < path.n_pieces() && path.begin(piece + 1) < crossing.arc)
-    ++piece;
+  for (unsigned int end = path.n_pieces(); piece + 1 < end;)
+    if (const unsigned int middle = (piece + end) / 2; path.begin(middle) < crossing.arc)
+      piece = middle;
+    else
+      end = middle;
   return piece;
 }
 

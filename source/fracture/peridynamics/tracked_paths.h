@@ -21,9 +21,9 @@ dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress
 /// crack, and ahead of each of its ends that is in rock the way that it will take. Bonds soften
 /// only where they cross one. How far a tip has come on its way is known from the energy that has
 /// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
-/// paths: those that a tip has come to, or in porous rock its process zone, and of a path that
-/// begins beyond another one, or where there is none, the first when it has taken a tenth of its
-/// energy.
+/// paths: up to the tip of the elastic crack that is the same from afar, a little ahead of that, or
+/// in porous rock all of the process zone; and of a path that begins beyond another one, or where
+/// there is none, those that a tip has come to, the first when it has taken a tenth of its energy.
 class TrackedPaths
 {
 public:
@@ -44,6 +44,9 @@ public:
     bool at_tip;       ///< the fluid ends here, within rock
     std::vector<unsigned int> neighbours;
     double weight = 1.; ///< in the shares of bonds
+    /// Of a piece that fluid has reached within the step, the last one that it had reached before,
+    /// which until then the bonds here belonged to.
+    std::optional<unsigned int> part_of = std::nullopt;
   };
 
   /// An end that grows, by its path and its side (0: before the first point, 1: after the last).
@@ -255,6 +258,7 @@ private:
     unsigned int n_points = 0;     ///< of its way
     double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
     double kept = 0.;              ///< of the fluid at the last step [m]
+    double front = 0.;             ///< of the fluid by the tip as it is, in this step [m]
     bool joined = false;           ///< it has met another path
     bool passes = false;           ///< and came past it
     unsigned int joined_path = 0;  ///< which
@@ -351,7 +355,8 @@ private:
   void join_where_it_begins(const End &end);
 
   /// Pieces of the ways of a path that its tips, and fluid if there is any, have reached.
-  std::array<unsigned int, 2> reached(unsigned int path) const;
+  /// @param fluid how far it is, now or at the last step
+  std::array<unsigned int, 2> reached(unsigned int path, const double Growth::*fluid) const;
 
   /// Fluid gets into dry paths where those that have some meet them.
   void wet_what_is_joined();

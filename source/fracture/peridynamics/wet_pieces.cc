@@ -6,13 +6,15 @@
 
 namespace stockwork::peridynamics
 {
-std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p) const
+std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p,
+                                                  const double Growth::*fluid) const
 {
   const Path &path = paths[p];
   std::array<unsigned int, 2> result{{0, 0}};
   for (const unsigned int side : {0u, 1u})
   {
     const Growth &growth = path.ends[side];
+    const double front = growth.*fluid;
     double inner = 0.;
     for (unsigned int k = growth.n_points; k > 0; --k)
     {
@@ -21,7 +23,7 @@ std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p) const
       // rock, and not by the first bond that is stretched too far: its pressure on all of the
       // first horizon would part the rest.
       const bool is_first = is_all_way(p) && k == growth.n_points;
-      if (growth.wet <= inner + (is_first ? SofteningLaw::wet_damage * length : same_spot * h))
+      if (front <= inner + (is_first ? SofteningLaw::wet_damage * length : same_spot * h))
         break;
       ++result[side];
       inner += length;
@@ -37,7 +39,7 @@ void TrackedPaths::wet_what_is_joined()
   const auto holds = [&](const unsigned int p, const double arc)
   {
     const Path &path = paths[p];
-    const std::array<unsigned int, 2> come_to = reached(p);
+    const std::array<unsigned int, 2> come_to = reached(p, &Growth::wet);
     return arc >= path.begin(path.ends[0].n_points - come_to[0]) &&
            arc <= path.begin(path.n_pieces() - path.ends[1].n_points + come_to[1]);
   };
@@ -50,7 +52,8 @@ void TrackedPaths::wet_what_is_joined()
       {
         const Growth &growth = paths[p].ends[side];
         if (!growth.joined || paths[p].dry == paths[growth.joined_path].dry ||
-            reached(p)[side] < growth.n_points || !holds(growth.joined_path, growth.joined_arc))
+            reached(p, &Growth::wet)[side] < growth.n_points ||
+            !holds(growth.joined_path, growth.joined_arc))
           continue;
         paths[p].dry = paths[growth.joined_path].dry = false;
         changed = true;
@@ -71,9 +74,12 @@ void TrackedPaths::find_wet_pieces()
     const Path &path = paths[p];
     if (path.dry)
       continue;
-    const std::array<unsigned int, 2> come_to = reached(p);
+    const std::array<unsigned int, 2> come_to = reached(p, &Growth::wet),
+                                      came_to = reached(p, &Growth::kept);
     const unsigned int first = path.ends[0].n_points - come_to[0],
-                       end = path.n_pieces() - path.ends[1].n_points + come_to[1];
+                       end = path.n_pieces() - path.ends[1].n_points + come_to[1],
+                       first_before = path.ends[0].n_points - came_to[0],
+                       end_before = path.n_pieces() - path.ends[1].n_points + came_to[1];
     for (unsigned int i = first; i < end; ++i)
     {
       Piece piece{p, path.point(i), path.point(i + 1), path.begin(i), 0., false, {}};
@@ -83,6 +89,9 @@ void TrackedPaths::find_wet_pieces()
         piece.neighbours.push_back(number - 1);
       if (i + 1 < end)
         piece.neighbours.push_back(number + 1);
+      if (first_before < end_before && (i < first_before || i >= end_before))
+        piece.part_of =
+          i < first_before ? number + (first_before - i) : number - (i - end_before + 1);
       for (const unsigned int side : {0u, 1u})
       {
         const Growth &growth = path.ends[side];
@@ -139,7 +148,8 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
       if (growth.n_points == 0)
         continue;
       growth.advance = std::min(advance({p, side}), way({p, side}));
-      growth.wet = std::max({growth.wet, growth.advance, fluid({p, side})});
+      growth.front = std::clamp(fluid({p, side}), growth.advance, way({p, side}));
+      growth.wet = std::max(growth.wet, growth.front);
     }
   return wets_others();
 }
@@ -166,7 +176,7 @@ bool TrackedPaths::let_fluid_back()
     for (const unsigned int side : {0u, 1u})
       if (Growth &growth = paths[p].ends[side];
           !growth.joined && !is_joined({p, side})) // the other path would be cut off
-        growth.wet = std::max(growth.kept, growth.advance);
+        growth.wet = std::max(growth.kept, growth.front);
   return wets_others();
 }
 

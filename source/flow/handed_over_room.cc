@@ -1,0 +1,77 @@
+// Room of a fracture that was part of one segment and becomes another one.
+#include "flow/network.h"
+
+#include <algorithm>
+
+namespace stockwork
+{
+namespace
+{
+/// Weight of the state before the last one in what the fluid changes from (BDF2; TimeScheme), less
+/// than nothing there.
+double weight_of_state_before(const StepContext &context)
+{
+  if (context.balances_fractures_by_step())
+    return 0.;
+  const double rate = context.rate * context.dt, steps = (rate - 1.) / (2. - rate);
+  return steps * steps / (1. + 2. * steps);
+}
+} // namespace
+
+
+/// Without this all of the fluid in a new segment would have to come from the one behind within the
+/// step, through the narrowest part of the fracture: the shorter the step, the greater the pressure
+/// that takes.
+template <int dim>
+void Network<dim>::hand_over_room(const StepContext &context,
+                                  const State &state,
+                                  const Collectives &collectives,
+                                  Values &values) const
+{
+  const unsigned int n = network.size();
+  values.handed_over.assign(n, 0.);
+  const double weight = weight_of_state_before(context);
+  std::vector<std::pair<unsigned int, unsigned int>> heirs; // and from whom
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const auto old = history.find(network[i].key);
+    if (old != history.end())
+      values.aperture_reference[i] -= weight * old->second.handed_over / network[i].area;
+    const auto fresh = appeared.find(network[i].key);
+    if (network[i].part_of == 0 || fresh == appeared.end() || fresh->second == 0)
+      continue;
+    if (const auto from = number(network[i].part_of); from && history.count(network[*from].key) > 0)
+      heirs.emplace_back(i, *from);
+  }
+  if (heirs.empty())
+    return;
+
+  std::vector<double> reference(n, 0.), committed(n, 0.);
+  const Unknowns &reference_state = state.fracture_reference(context);
+  for (unsigned int k = 0; k < owned.size(); ++k)
+    if (owned[k].part_of != 0)
+    {
+      reference[owned_index[k]] += value(owned[k].room_before, reference_state);
+      committed[owned_index[k]] += value(owned[k].room_before, state.committed);
+    }
+  collectives.sum(reference);
+  collectives.sum(committed);
+  for (const auto &[i, from] : heirs)
+  {
+    // None gives what it does not have.
+    const double there = std::max(0., network[from].area * values.aperture_reference[from]),
+                 given = std::clamp(network[i].area * reference[i], 0., there);
+    values.aperture_reference[i] += given / network[i].area;
+    values.aperture_reference[from] -= given / network[from].area;
+    const double before = std::max(0., network[i].area * committed[i]);
+    values.handed_over[i] += before;
+    values.handed_over[from] -= before;
+  }
+}
+
+
+template void
+Network<2>::hand_over_room(const StepContext &, const State &, const Collectives &, Values &) const;
+template void
+Network<3>::hand_over_room(const StepContext &, const State &, const Collectives &, Values &) const;
+} // namespace stockwork
