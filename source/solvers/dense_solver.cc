@@ -22,6 +22,8 @@ namespace
 constexpr unsigned int minimum_kept = 64;
 /// The kept part is chosen anew when so many more unknowns are outside of it.
 constexpr unsigned int most_new = 48;
+/// Matrices, at most, before what to keep is looked for again where it was of no use.
+constexpr unsigned int most_waits = 64;
 
 /// The entries of a row as bytes: equal or not, nothing else matters.
 std::string_view bytes_of_row(const FullMatrix<double> &matrix, const unsigned int row)
@@ -143,6 +145,8 @@ void DenseSolver::forget()
   kept.clear();
   kept_identities.clear();
   last_identities.clear();
+  waits = n_used = 0;
+  has_chosen = false;
   columns.reinit(0, 0);
 }
 
@@ -265,8 +269,27 @@ bool DenseSolver::eliminate(const FullMatrix<double> &matrix)
 
 void DenseSolver::factorise(FullMatrix<double> matrix, const std::vector<unsigned int> &identities)
 {
-  if (!find_kept(matrix, identities) || matrix.m() - kept.size() > rest_when_chosen + most_new)
-    choose_kept(matrix, identities);
+  if (waits > 0)
+    --waits;
+  else if (find_kept(matrix, identities) && matrix.m() - kept.size() <= rest_when_chosen + most_new)
+    ++n_used;
+  else
+  {
+    // What changes all over from one matrix to the next is not worth a factor to be kept.
+    if (n_used > 0)
+      waits_for = 1;
+    waits = has_chosen && n_used == 0 ? waits_for : 0;
+    n_used = 0;
+    has_chosen = waits == 0 && !last_identities.empty(); // the first shows nothing
+    if (has_chosen)
+      choose_kept(matrix, identities);
+    else
+    {
+      waits_for = std::min(2 * waits, most_waits);
+      kept.clear();
+      kept_identities.clear();
+    }
+  }
   std::vector<bool> is_kept(matrix.m(), false);
   for (const unsigned int i : kept)
     is_kept[i] = true;

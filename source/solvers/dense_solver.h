@@ -68,6 +68,10 @@ private:
   dealii::FullMatrix<double> kept_matrix; ///< F
   Factor kept_factor;
   unsigned int rest_when_chosen = 0;
+  bool has_chosen = false;    ///< what to keep, and does not wait
+  unsigned int n_used = 0;    ///< matrices for which it has been of use
+  unsigned int waits = 0;     ///< so many to come without
+  unsigned int waits_for = 1; ///< the next time that it is of no use
 
   // The last matrix: what has changed since is not kept.
   dealii::FullMatrix<double> last_matrix;

@@ -125,7 +125,7 @@ TEST_CASE("pieces of a path read an opening that is the same everywhere alike, a
       return std::sqrt(squares);
     };
     most_before = std::max(most_before, deviation());
-    paths.share_evenly(readings, apart);
+    paths.share_evenly([&] { return readings; }, apart);
     const double even = deviation();
     CHECK(even < 0.005);
 
@@ -137,7 +137,7 @@ TEST_CASE("pieces of a path read an opening that is the same everywhere alike, a
                     crack({centre + distance * n - 12.5 * t, centre + distance * n + 12.5 * t})},
                    1., anywhere);
       const double before = deviation();
-      paths.share_evenly(readings, apart);
+      paths.share_evenly([&] { return readings; }, apart);
       CHECK(deviation() == doctest::Approx(distance > apart ? even : before));
     }
   }

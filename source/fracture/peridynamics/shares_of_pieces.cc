@@ -91,7 +91,7 @@ bool TrackedPaths::is_apart(const unsigned int path, const double distance) cons
 
 /// Each bond is shared out wholly, so a uniform pressure remains one; and each piece shall have as
 /// much of bonds as it is long. Both by turns (iterative proportional fitting; Sinkhorn 1967).
-void TrackedPaths::share_evenly(const Readings &readings, const double apart)
+void TrackedPaths::share_evenly(const std::function<Readings()> &read, const double apart)
 {
   for (Piece &piece : wet)
     piece.weight = 1.;
@@ -102,23 +102,25 @@ void TrackedPaths::share_evenly(const Readings &readings, const double apart)
     is_even[p] = !begins_along_lattice(paths[p]) && is_apart(p, apart);
   if (std::none_of(is_even.begin(), is_even.end(), [](const bool even) { return even; }))
     return;
+  const Readings readings = read();
   for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
   {
-    std::vector<double> read(wet.size(), 0.), all_read(paths.size(), 0.), length(paths.size(), 0.);
+    std::vector<double> by_piece(wet.size(), 0.), by_path(paths.size(), 0.),
+      length(paths.size(), 0.);
     for (const auto &[crossing, reading] : readings)
       if (is_even[crossing.path])
         for (const auto &[piece, share] : shares(crossing, same_spot * h))
         {
-          read[piece] += share * reading;
-          all_read[crossing.path] += share * reading;
+          by_piece[piece] += share * reading;
+          by_path[crossing.path] += share * reading;
         }
     for (const Piece &piece : wet)
       length[piece.path] += piece.end - piece.begin;
     for (unsigned int i = 0; i < wet.size(); ++i)
       if (const unsigned int p = wet[i].path; is_even[p])
-        if (const double wanted = all_read[p] / length[p] * (wet[i].end - wet[i].begin);
-            std::abs(read[i] - wanted) < most_of_lattice * wanted)
-          wet[i].weight *= wanted / read[i];
+        if (const double wanted = by_path[p] / length[p] * (wet[i].end - wet[i].begin);
+            std::abs(by_piece[i] - wanted) < most_of_lattice * wanted)
+          wet[i].weight *= wanted / by_piece[i];
   }
 }
 } // namespace stockwork::peridynamics

@@ -91,7 +91,7 @@ public:
   /// oblique to the lattice is crossed by up to 5 per cent more bonds here than there, in the mean
   /// over two pieces. Of paths that are nearer to another one shares stay as they are.
   /// @param apart farther than bonds and ways reach [m]
-  void share_evenly(const Readings &readings, double apart);
+  void share_evenly(const std::function<Readings()> &read, double apart);
 
   /// The end whose way is crossed there; nothing on an initial crack.
   std::optional<End> end_at(const Crossing &crossing) const;

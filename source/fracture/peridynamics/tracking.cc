@@ -107,18 +107,22 @@ void Peridynamics<dim>::follow_paths()
   if constexpr (dim == 2)
   {
     const double h = lattice.zone.spacing();
-    TrackedPaths::Readings readings;
-    for (const BondAcross<dim> &bond : crossing_bonds)
+    const auto read = [&]
     {
-      const auto &[site, b] = bond.view;
-      readings.emplace_back(bond.crossing, lattice.zone.sites()[site].share *
-                                             lattice.coefficients[b].stiffness *
-                                             lattice.coefficients[b].length *
-                                             std::abs(bond.direction * paths.left(bond.crossing)));
-    }
+      TrackedPaths::Readings readings;
+      for (const BondAcross<dim> &bond : crossing_bonds)
+      {
+        const auto &[site, b] = bond.view;
+        readings.emplace_back(bond.crossing,
+                              lattice.zone.sites()[site].share * lattice.coefficients[b].stiffness *
+                                lattice.coefficients[b].length *
+                                std::abs(bond.direction * paths.left(bond.crossing)));
+      }
+      return readings;
+    };
     // A way ends within a horizon of the tip, and bonds across it a horizon farther on; so do they
     // on the other path, and some more.
-    paths.share_evenly(readings, (4. * parameters.horizon + 2.) * h);
+    paths.share_evenly(read, (4. * parameters.horizon + 2.) * h);
     for (const TrackedPaths::Piece &piece : paths.wet_pieces())
     {
       Segment<dim> segment;
