@@ -7,10 +7,10 @@ namespace stockwork::peridynamics
 {
 namespace
 {
-/// So far before a piece fluid gets into it, in spacings: with less the pressure on the process
-/// zone is too high where toughness dominates, with more too low
-/// (doc/laboratory/peridynamics_paths.md, The front of the fluid).
-constexpr double before_piece = 0.25;
+/// Of the fluid over the tip, in spacings. Where viscosity dominates nothing softens ahead of the
+/// tip, and with less the fracture becomes too long (doc/laboratory/peridynamics_paths.md, The
+/// front of the fluid).
+constexpr double least_lead = 0.25;
 } // namespace
 
 
@@ -149,6 +149,11 @@ Tips<dim>::fluid_ahead(const TrackedPaths &paths,
 }
 
 
+/// In elastic rock fluid is in pieces that lie in the process zone all along. Of one in which the
+/// force falls linearly from its end to the tip that is broken, the end is half of it ahead of the
+/// tip by the energy dissipated, three times as far as the tip of the elastic crack that is the
+/// same from afar.
+///
 /// Where a way meets another path, the bonds across both belong to that one, so its last part takes
 /// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
 /// has broken.
@@ -182,7 +187,8 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
       // What begins beyond another path is dry at first; and where two meet, fluid goes with tips.
       if (tip == 0. || paths.is_all_way(end.path) || paths.has_met(end))
         return tip;
-      return tip + h * (rounded(to_come[end.path][end.side] / unit) + before_piece);
+      const double end_of_zone = 3. * rounded(to_come[end.path][end.side] / unit);
+      return tip + h * std::max(least_lead, end_of_zone - 1.);
     });
 }
 

@@ -36,7 +36,7 @@ public:
   OfEnds energy(const TrackedPaths &paths) const;
 
   /// What they have stored besides while they part, which would come back if they were unloaded
-  /// [J/m]. By that of G_c the tip of the elastic crack that is the same from afar is ahead.
+  /// [J/m]. Over G_c, by so much the tip of the elastic crack that is the same from afar is ahead.
   OfEnds energy_to_come(const TrackedPaths &paths) const;
 
   /// Whether nothing has softened across the way of an end. @param energy see above
