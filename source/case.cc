@@ -361,6 +361,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
   boundary_conditions.parse_parameters(prm, [this](const std::string &side)
                                        { return geometry.side(side); });
   network.parse_parameters(prm);
+  scene.leaks_by_carter = network.leak_off_law() == LeakOff::carter;
   network.set_fluid(rock.fluid().viscosity, rock.fluid().compressibility,
                     rock.main().permeability / rock.fluid().viscosity);
   for (const types::material_id region : regions)

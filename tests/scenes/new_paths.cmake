@@ -64,11 +64,11 @@ stockwork_case_test(NAME scenes/passing_tips/turned DECK tests/data/en_echelon_t
 
 # A natural crack on a row of nodes that is met from the side to which these belong: 0.681 mm and 0.916 MPa at 25 s in place of 0.532
 # and 0.702 (coarse; on half the cells 0.675 and 0.909 in place of 0.527 and 0.695).
-stockwork_check_test(NAME scenes/row_of_nodes DECK tests/data/met_from_the_left.prm LABELS quick
-  SET "Resolution=coarse"
+stockwork_check_test(NAME scenes/row_of_nodes DECK prm/natural_crack/peridynamics.prm LABELS quick
+  SET "Resolution=coarse" "Fracture/peridynamics/Tracking=path"
   SAYS "The crack '4 m, -2 m -> 4 m, 2 m' lies on a row of nodes, which belong to its left side")
-stockwork_check_test(NAME scenes/row_of_nodes/other_order DECK prm/natural_crack/peridynamics.prm LABELS quick
+stockwork_check_test(NAME scenes/row_of_nodes/other_order DECK tests/data/met_from_the_right.prm LABELS quick
   SET "Resolution=coarse" SAYS "The deck is in order" WITHOUT "row of nodes")
-stockwork_case_test(NAME scenes/row_of_nodes/opens DECK prm/natural_crack/peridynamics.prm LABELS nightly SET "Resolution=coarse"
+stockwork_case_test(NAME scenes/row_of_nodes/opens DECK tests/data/met_from_the_right.prm LABELS nightly SET "Resolution=coarse"
   EXPECT "final/inlet_aperture = 5.35e-4 within 0.01" "final/inlet_pressure = 7.09e5 within 0.02" # of cut cells, coarse: 0.538 mm, 0.71 MPa
          "minimum/minimum_aperture > -1e-7")

@@ -102,6 +102,9 @@ struct Scene
   /// network solves for it.
   double crack_pressure = std::numeric_limits<double>::quiet_NaN();
 
+  /// Fluid leaks from fractures by Carter's law, out of the model.
+  bool leaks_by_carter = false;
+
   /// The greatest rate of the first well, of both wings [m^2/s; m^3/s in 3-D]; zero: none is given.
   double injection_rate = 0.;
 

@@ -21,7 +21,7 @@ dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress
 /// crack, and ahead of each of its ends that is in rock the way that it will take. Bonds soften
 /// only where they cross one. How far a tip has come on its way is known from the energy that has
 /// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
-/// paths: those that lie in the process zone all along, and a little ahead of the tip; or
+/// paths: most of which lie in the process zone, and a little ahead of the tip; or
 /// in porous rock all of the process zone; and of a path that begins beyond another one, or where
 /// there is none, those that a tip has come to, the first when it has taken a tenth of its energy.
 class TrackedPaths
