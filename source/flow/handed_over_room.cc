@@ -46,24 +46,24 @@ void Network<dim>::hand_over_room(const StepContext &context,
   if (heirs.empty())
     return;
 
-  std::vector<double> reference(n, 0.), committed(n, 0.);
+  std::vector<double> room(2 * n, 0.); // in what the fluid changes from, and in the last state
   const Unknowns &reference_state = state.fracture_reference(context);
   for (unsigned int k = 0; k < owned.size(); ++k)
     if (owned[k].part_of != 0)
     {
-      reference[owned_index[k]] += value(owned[k].room_before, reference_state);
-      committed[owned_index[k]] += value(owned[k].room_before, state.committed);
+      room[owned_index[k]] += value(owned[k].room_before, reference_state);
+      room[n + owned_index[k]] += value(owned[k].room_before, state.committed);
     }
-  collectives.sum(reference);
-  collectives.sum(committed);
+  collectives.sum(room);
   for (const auto &[i, from] : heirs)
   {
     // None gives what it does not have.
     const double there = std::max(0., network[from].area * values.aperture_reference[from]),
-                 given = std::clamp(network[i].area * reference[i], 0., there);
+                 given = std::clamp(network[i].area * room[i], 0., there);
     values.aperture_reference[i] += given / network[i].area;
     values.aperture_reference[from] -= given / network[from].area;
-    const double before = std::max(0., network[i].area * committed[i]);
+    const double before = std::clamp(network[i].area * room[n + i], 0.,
+                                     std::max(0., history.at(network[from].key).volume));
     values.handed_over[i] += before;
     values.handed_over[from] -= before;
   }

@@ -146,6 +146,7 @@ void DenseSolver::forget()
   kept_identities.clear();
   last_identities.clear();
   waits = n_used = 0;
+  waits_for = 1;
   has_chosen = false;
   columns.reinit(0, 0);
 }
@@ -285,7 +286,8 @@ void DenseSolver::factorise(FullMatrix<double> matrix, const std::vector<unsigne
       choose_kept(matrix, identities);
     else
     {
-      waits_for = std::min(2 * waits, most_waits);
+      if (waits > 0)
+        waits_for = std::min(2 * waits, most_waits);
       kept.clear();
       kept_identities.clear();
     }

@@ -130,6 +130,35 @@ TEST_CASE("What has not changed keeps its factor, and the solution is that of a 
 }
 
 
+TEST_CASE("Where a kept factor was of no use, the next is waited for")
+{
+  const Identities all = range(0, 120);
+  DenseSolver solver;
+  const auto n_kept = [&](const double factor)
+  {
+    FullMatrix<double> matrix = matrix_of(all, 1);
+    matrix *= factor;
+    solver.factorise(matrix, all);
+    CHECK(error_of(solver, matrix) < 1e-12);
+    return solver.n_kept();
+  };
+  n_kept(1.);
+  CHECK(n_kept(1.) > 0);  // chosen,
+  CHECK(n_kept(2.) == 0); // of no use:
+  CHECK(n_kept(2.) == 0); // wait for one,
+  CHECK(n_kept(2.) > 0);  // chosen,
+  CHECK(n_kept(3.) == 0); // of no use: wait for two,
+  CHECK(n_kept(3.) == 0);
+  CHECK(n_kept(3.) == 0);
+  CHECK(n_kept(3.) > 0);  // chosen,
+  CHECK(n_kept(3.) > 0);  // of use:
+  CHECK(n_kept(4.) == 0); // nothing is the same as in the last,
+  CHECK(n_kept(4.) == 0); // which was of no use: wait for one
+  CHECK(n_kept(4.) == 0);
+  CHECK(n_kept(4.) > 0);
+}
+
+
 TEST_CASE("Unknowns without identity are not kept")
 {
   const Identities nobody(120, DenseSolver::anonymous);

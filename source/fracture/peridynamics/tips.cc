@@ -152,10 +152,10 @@ Tips<dim>::fluid_ahead(const TrackedPaths &paths,
 }
 
 
-/// In elastic rock fluid is in pieces most of which lie in the process zone. Of one in which the
-/// force falls linearly from its end to the tip that is broken, the end is half of it ahead of the
-/// tip by the energy dissipated, three times as far as the tip of the elastic crack that is the
-/// same from afar.
+/// In elastic rock fluid is in pieces most of which lie in the process zone. If the force falls
+/// linearly over a zone of length L, the energy dissipated puts the tip at L/2, and that of the
+/// elastic crack that is the same from afar is L/6 ahead of it: the end of the zone three times as
+/// far.
 ///
 /// Where a way meets another path, the bonds across both belong to that one, so its last part takes
 /// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
@@ -190,7 +190,7 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
       // What begins beyond another path is dry at first; and where two meet, fluid goes with tips.
       // Carter's law takes most from fresh faces, and would suck a process zone shut.
       if (tip == 0. || paths.is_all_way(end.path) || paths.has_met(end) ||
-          lattice.scene.leaks_by_carter)
+          lattice.scene.leaks_by_carter || lattice.softening.brittle())
         return tip;
       const double end_of_zone = 3. * rounded(to_come[end.path][end.side] / unit);
       return tip + h * std::max(least_lead, end_of_zone - share_in_zone);

@@ -21,9 +21,10 @@ dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress
 /// crack, and ahead of each of its ends that is in rock the way that it will take. Bonds soften
 /// only where they cross one. How far a tip has come on its way is known from the energy that has
 /// been dissipated across it. Pieces that fluid has reached are segments, in the order of the
-/// paths: most of which lie in the process zone, and a little ahead of the tip; or
-/// in porous rock all of the process zone; and of a path that begins beyond another one, or where
-/// there is none, those that a tip has come to, the first when it has taken a tenth of its energy.
+/// paths: those that a tip has come to; in elastic rock the next one, too, as soon as most of it
+/// lies in the process zone, or a little before the tip comes to it; in porous rock all of the
+/// process zone. Of a path that begins beyond another one, or where there is none, the first when
+/// it has taken a tenth of its energy.
 class TrackedPaths
 {
 public:
@@ -124,7 +125,8 @@ public:
         growth.kept = growth.wet;
   }
 
-  /// Fluid leaves pieces that it has reached in this step, and that tips have not come to.
+  /// Fluid leaves pieces that it has reached in this step, and that its front, by the tips as they
+  /// are, is not in.
   /// @return whether there are any
   bool let_fluid_back();
 
@@ -258,7 +260,7 @@ private:
     unsigned int n_points = 0;     ///< of its way
     double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
     double kept = 0.;              ///< of the fluid at the last step [m]
-    double front = 0.;             ///< of the fluid by the tip as it is, in this step [m]
+    double front = 0.;             ///< of the fluid by the tip as it is; not kept [m]
     bool joined = false;           ///< it has met another path
     bool passes = false;           ///< and came past it
     unsigned int joined_path = 0;  ///< which

@@ -19,9 +19,9 @@ std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p,
     for (unsigned int k = growth.n_points; k > 0; --k)
     {
       const double length = path.length(side == 0 ? k - 1 : path.n_pieces() - k);
-      // Elsewhere fluid is behind the tip. Beyond another path it comes through a face of whole
-      // rock, and not by the first bond that is stretched too far: its pressure on all of the
-      // first horizon would part the rest.
+      // Elsewhere fluid is in a piece as soon as its front is. Beyond another path it comes through
+      // a face of whole rock, and not by the first bond that is stretched too far: its pressure on
+      // all of the first horizon would part the rest.
       const bool is_first = is_all_way(p) && k == growth.n_points;
       if (front <= inner + (is_first ? SofteningLaw::wet_damage * length : same_spot * h))
         break;
