@@ -7,14 +7,14 @@ namespace stockwork
 {
 namespace
 {
-/// Weight of the state before the last one in what the fluid changes from (BDF2; TimeScheme), less
-/// than nothing there.
+/// What the fluid changes from is (1 + c) times the last state less c times the one before (BDF2,
+/// see TimeScheme): c, by the ratio of the two steps. Zero with the other schemes.
 double weight_of_state_before(const StepContext &context)
 {
   if (context.balances_fractures_by_step())
     return 0.;
-  const double rate = context.rate * context.dt, steps = (rate - 1.) / (2. - rate);
-  return steps * steps / (1. + 2. * steps);
+  const double rate = context.rate * context.dt, ratio = (rate - 1.) / (2. - rate);
+  return ratio * ratio / (1. + 2. * ratio);
 }
 } // namespace
 

@@ -120,13 +120,15 @@ void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
 
 void DenseSolver::Factor::solve(LAPACKFullMatrix<double> &columns) const
 {
-  for (unsigned int j = 0; j < columns.n(); ++j)
-    for (unsigned int i = 0; i < columns.m(); ++i)
-      columns(i, j) *= scaling[i];
+  const auto scale = [&]
+  {
+    for (unsigned int j = 0; j < columns.n(); ++j)
+      for (unsigned int i = 0; i < columns.m(); ++i)
+        columns(i, j) *= scaling[i];
+  };
+  scale();
   lu.solve(columns, true);
-  for (unsigned int j = 0; j < columns.n(); ++j)
-    for (unsigned int i = 0; i < columns.m(); ++i)
-      columns(i, j) *= scaling[i];
+  scale();
 }
 
 
