@@ -3,9 +3,7 @@
 #include "stockwork/base/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <string_view>
 #include <unordered_map>
@@ -30,20 +28,6 @@ std::string_view bytes_of_row(const FullMatrix<double> &matrix, const unsigned i
 {
   return {reinterpret_cast<const char *>(&matrix(row, 0)), matrix.n() * sizeof(double)};
 }
-/// max |a_i| b_i, several at a time.
-double greatest_product(const double *const a, const std::vector<double> &b)
-{
-  constexpr unsigned int lanes = 8;
-  double greatest[lanes] = {};
-  unsigned int i = 0;
-  for (; i + lanes <= b.size(); i += lanes)
-    for (unsigned int lane = 0; lane < lanes; ++lane)
-      greatest[lane] = std::max(greatest[lane], std::abs(a[i + lane]) * b[i + lane]);
-  for (; i < b.size(); ++i)
-    greatest[0] = std::max(greatest[0], std::abs(a[i]) * b[i]);
-  return *std::max_element(greatest, greatest + lanes);
-}
-
 /// Few vertices of a graph of which each edge has one: those with the most edges first. A row of
 /// the fluid changes against several openings, an opening against few rows of the fluid.
 std::vector<bool> cover(const std::vector<std::vector<unsigned int>> &neighbours)
@@ -73,73 +57,6 @@ bool same_bytes(const FullMatrix<double> &a, const FullMatrix<double> &b)
          (a.empty() || std::memcmp(&a(0, 0), &b(0, 0), a.n_elements() * sizeof(double)) == 0);
 }
 } // namespace
-
-
-void DenseSolver::Factor::reinit(const FullMatrix<double> &matrix)
-{
-  const unsigned int n = matrix.m();
-  scaling.assign(n, 1.);
-  std::vector<double> size(n);
-  for (unsigned int sweep = 0; sweep < 3; ++sweep)
-  {
-    std::fill(size.begin(), size.end(), 0.);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const double *const row = &matrix(i, 0);
-      const double greatest = greatest_product(row, scaling);
-      for (unsigned int j = 0; j < n; ++j)
-        size[j] = std::max(size[j], std::abs(row[j]) * scaling[i]);
-      size[i] = std::max(size[i], greatest);
-    }
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      if (!(size[i] > 0.) || !std::isfinite(size[i]))
-        throw SolveError("a row of the matrix is zero or not a number");
-      scaling[i] = std::sqrt(scaling[i] / size[i]);
-    }
-  }
-  // LAPACK stores by column: of the transposed matrix.
-  lu.reinit(n, n);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      lu(j, i) = matrix(i, j) * scaling[i] * scaling[j];
-  try
-  {
-    lu.compute_lu_factorization();
-  }
-  catch (const dealii::LACExceptions::ExcSingular &)
-  {
-    throw SolveError("the matrix is singular");
-  }
-  // Entries are of order one, so a pivot of the size of their rounding errors is a zero.
-  for (unsigned int i = 0; i < n; ++i)
-    if (!(std::abs(lu(i, i)) > std::numeric_limits<double>::epsilon()))
-      throw SolveError("the matrix is singular");
-}
-
-
-void DenseSolver::Factor::solve(LAPACKFullMatrix<double> &columns) const
-{
-  const auto scale = [&]
-  {
-    for (unsigned int j = 0; j < columns.n(); ++j)
-      for (unsigned int i = 0; i < columns.m(); ++i)
-        columns(i, j) *= scaling[i];
-  };
-  scale();
-  lu.solve(columns, true);
-  scale();
-}
-
-
-void DenseSolver::Factor::solve(Vector<double> &x) const
-{
-  for (unsigned int i = 0; i < x.size(); ++i)
-    x(i) *= scaling[i];
-  lu.solve(x, true);
-  for (unsigned int i = 0; i < x.size(); ++i)
-    x(i) *= scaling[i];
-}
 
 
 void DenseSolver::forget()
@@ -302,10 +219,11 @@ void DenseSolver::factorise(FullMatrix<double> matrix, const std::vector<unsigne
     if (!is_kept[i])
       rest.push_back(i);
 
-  FullMatrix<double> small(rest.size(), rest.size());
-  small.extract_submatrix_from(matrix, rest, rest);
+  FullMatrix<double> small;
   if (!kept.empty() && !rest.empty())
   {
+    small.reinit(rest.size(), rest.size());
+    small.extract_submatrix_from(matrix, rest, rest);
     const bool anew = eliminate(matrix);
     rows.reinit(rest.size(), kept.size());
     rows.extract_submatrix_from(matrix, rest, kept);
@@ -349,7 +267,7 @@ void DenseSolver::factorise(FullMatrix<double> matrix, const std::vector<unsigne
   if (!rest.empty())
     try
     {
-      rest_factor.reinit(small);
+      rest_factor.reinit(kept.empty() ? last_matrix : small);
     }
     catch (const SolveError &)
     {

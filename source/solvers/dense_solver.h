@@ -1,10 +1,11 @@
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <vector>
+
+#include "solvers/dense_factor.h"
 
 namespace stockwork
 {
@@ -37,23 +38,6 @@ public:
   }
 
 private:
-  /// A factor of a matrix that has been scaled from both sides so that pivoting compares like with
-  /// like (Ruiz 2001).
-  class Factor
-  {
-  public:
-    void reinit(const dealii::FullMatrix<double> &);
-
-    void solve(dealii::Vector<double> &) const;
-
-    /// Each column.
-    void solve(dealii::LAPACKFullMatrix<double> &columns) const;
-
-  private:
-    std::vector<double> scaling;
-    dealii::LAPACKFullMatrix<double> lu;
-  };
-
   /// Whether the kept unknowns are all there, with the same matrix between them; fills `kept`.
   bool find_kept(const dealii::FullMatrix<double> &, const std::vector<unsigned int> &identities);
 
@@ -66,7 +50,7 @@ private:
   // Kept.
   std::vector<unsigned int> kept_identities;
   dealii::FullMatrix<double> kept_matrix; ///< F
-  Factor kept_factor;
+  DenseFactor kept_factor;
   unsigned int rest_when_chosen = 0;
   bool has_chosen = false;    ///< what to keep, and does not wait
   unsigned int n_used = 0;    ///< matrices for which it has been of use
@@ -82,7 +66,7 @@ private:
   dealii::FullMatrix<double> rows;              ///< R
   dealii::FullMatrix<double> eliminated;        ///< F^-1 C, transposed
   dealii::FullMatrix<double> eliminated_by_row; ///< F^-1 C
-  Factor rest_factor;
+  DenseFactor rest_factor;
 
   dealii::FullMatrix<double> full_rows;    ///< those of R that are full,
   dealii::FullMatrix<double> full_product; ///< times F^-1 C
