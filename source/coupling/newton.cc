@@ -293,11 +293,11 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // A tangent that is nearly singular, as where rock yields and does not know yet whether it will
   // be unloaded, sends it further still.
   const unsigned int most_halvings = assembly.nonlinear_rock() != nullptr ? 8 : 4;
+  const double most_growth = iteration < 6 ? 3. : assembly.may_use_secants() ? 2. : 1.;
   move(factor);
   if ((unknowns.n_mechanical_extra() > 0 || assembly.nonlinear_rock() != nullptr) && iteration > 0)
     for (unsigned int halving = 0;
-         halving < most_halvings && !(imbalance(norms) < (iteration < 6 ? 3. : 1.) * before);
-         ++halving)
+         halving < most_halvings && !(imbalance(norms) < most_growth * before); ++halving)
     {
       n_halved += halving == 0;
       factor *= 0.5;

@@ -92,6 +92,12 @@ public:
     return sees_bulk;
   }
 
+  /// See Requirements.
+  bool may_use_secants() const
+  {
+    return model.requirements().may_use_secants;
+  }
+
   /// Whether one iteration solves it.
   bool is_linear() const
   {

@@ -47,6 +47,10 @@ struct Requirements
 
   bool symmetric = true; ///< its own terms keep the matrix symmetric
 
+  /// Where its forces fall faster than the rock around gives way, its derivatives may be secants:
+  /// on the way on to where the rock holds, residuals grow for a while.
+  bool may_use_secants = false;
+
   /// One of the laws that role() may put in place of the rock's; all of them have its history.
   /// Null: there are none. It lives as long as the model.
   const RockLaw *law = nullptr;

@@ -1,4 +1,5 @@
 #include "fracture/peridynamics/peridynamics.h"
+#include "fracture/peridynamics/rows_of_nodes.h"
 
 #include <cmath>
 #include <functional>
@@ -20,7 +21,7 @@ constexpr double little_damage = 0.01;
 template <int dim>
 void Peridynamics<dim>::cut_initial_cracks()
 {
-  for (const auto &crack : scene.cracks)
+  for (const auto &crack : oriented_cracks(lattice))
   {
     const bool is_open = crack.kind == InitialCrack<dim>::Kind::open;
     if (crack.disc)

@@ -19,15 +19,6 @@ using dealii::Tensor;
 
 namespace
 {
-template <int dim>
-Tensor<1, dim> left_of(const Tensor<1, dim> &along)
-{
-  Tensor<1, dim> left;
-  left[0] = -along[1] / along.norm();
-  left[1] = along[0] / along.norm();
-  return left;
-}
-
 /// In-situ stress along a crack less that across it, over the strength, below which pressure and
 /// length are off by less than 1 %.
 constexpr double equal_stress = 0.1;
@@ -382,46 +373,6 @@ std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spaci
   return messages;
 }
 
-template <int dim>
-std::vector<std::string> foresee_rows_of_nodes(const Lattice<dim> &lattice)
-{
-  std::vector<std::string> messages;
-  const auto &cracks = lattice.scene.cracks;
-  if (!lattice.parameters.tracked || lattice.zone.sites().empty())
-    return messages;
-  const Point<dim> node = lattice.zone.position(lattice.zone.sites()[0].place);
-  for (const InitialCrack<dim> &crack : cracks)
-  {
-    if (crack.points.size() != 2)
-      continue;
-    const Tensor<1, dim> along = crack.points[1] - crack.points[0];
-    const Tensor<1, dim> left = left_of(along);
-    const double rows = (node - crack.points[0]) * left / lattice.zone.spacing();
-    if (std::abs(along[0] * along[1]) > same_place * along.norm_square() ||
-        std::abs(rows - std::round(rows)) > same_place)
-      continue;
-    const bool met_from_left = std::any_of(
-      cracks.begin(), cracks.end(),
-      [&](const InitialCrack<dim> &other)
-      {
-        return std::any_of(other.points.begin(), other.points.end(),
-                           [&](const Point<dim> &point)
-                           { return (point - crack.points[0]) * left > lattice.zone.spacing(); });
-      });
-    if (met_from_left)
-      messages.push_back(
-        "The crack '" + crack.text +
-        "' lies on a row of nodes, which belong to its left side, and another crack is there. If a "
-        "fracture comes from there and meets it, the opening where they meet is read far too small "
-        "(with a pressure at the well 30 % too high). List its ends in the other order, or move it "
-        "by a part of a "
-        "cell.");
-  }
-  return messages;
-}
-
-template std::vector<std::string> foresee_rows_of_nodes(const Lattice<2> &);
-template std::vector<std::string> foresee_rows_of_nodes(const Lattice<3> &);
 template std::optional<analytical::KgdParameters> driven_fracture(const Scene<2> &);
 template std::optional<analytical::KgdParameters> driven_fracture(const Scene<3> &);
 template void refuse_what_bonds_do_not_know(const Parameters<2> &, const Scene<2> &);

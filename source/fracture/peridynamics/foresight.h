@@ -27,9 +27,4 @@ void refuse_explicit_steps(const Parameters<dim> &parameters, const Scene<dim> &
 /// @throws InputError for what cannot come to an end
 template <int dim>
 std::vector<std::string> foresee(const Lattice<dim> &lattice, double spacing);
-
-/// The same of straight cracks on rows of nodes that another one may meet.
-/// @param lattice with its zone
-template <int dim>
-std::vector<std::string> foresee_rows_of_nodes(const Lattice<dim> &lattice);
 } // namespace stockwork::peridynamics

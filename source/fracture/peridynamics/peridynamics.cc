@@ -3,6 +3,7 @@
 #include "discontinuity/contact.h"
 #include "flow/permeability_tensor.h"
 #include "fracture/peridynamics/foresight.h"
+#include "fracture/peridynamics/rows_of_nodes.h"
 #include "fracture/peridynamics/wording.h"
 #include "mesh/box_list.h"
 #include "stockwork/base/error.h"
@@ -63,6 +64,7 @@ Requirements Peridynamics<dim>::requirements() const
 {
   Requirements requirements;
   requirements.symmetric = false;
+  requirements.may_use_secants = !lattice.softening.brittle();
   requirements.pore_pressure = requirements.fluid_in_pores = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
   requirements.may_grow = parameters.growth;
@@ -142,7 +144,7 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     if constexpr (dim == 2)
       if (parameters.tracked)
       {
-        paths.reinit(scene.cracks, lattice.zone.spacing(),
+        paths.reinit(oriented_cracks(lattice), lattice.zone.spacing(),
                      [&](const Point<dim> &end)
                      { return lattice.zone.is_inside(end, same_place * lattice.zone.spacing()); });
         if (const auto place = paths.overlap())

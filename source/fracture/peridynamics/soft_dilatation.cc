@@ -235,7 +235,8 @@ void Peridynamics<dim>::assemble_law(const unsigned int n,
                stretch = per_elongation * driving.value,
                kappa = softening_bonds.maximum_stretch(softening_bonds[n], stretch),
                damage = lattice.softening.damage(kappa);
-  const double slope = kappa > 0. && stretch > softening_bonds[n].committed - kink_width
+  const bool softens = kappa > 0. && stretch > softening_bonds[n].committed - kink_width;
+  const double slope = softening_bonds.follows_tangent(n, kappa, softens) && softens
                          ? (lattice.softening.slope(kappa) - damage) / kappa *
                              softening_bonds.relaxation() * per_elongation
                          : 0.;

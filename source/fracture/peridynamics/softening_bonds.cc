@@ -4,6 +4,16 @@
 
 namespace stockwork::peridynamics
 {
+namespace
+{
+/// Changes from one leg of its law to another, within a solve, of a bond that is not coming to
+/// rest.
+constexpr unsigned int most_turns = 4;
+/// Times that it is on one leg, after which it has come to rest.
+constexpr unsigned int until_rest = 3;
+} // namespace
+
+
 template <int dim>
 SofteningBonds<dim>::SofteningBonds(const Lattice<dim> &lattice)
   : lattice(lattice)
@@ -43,12 +53,38 @@ double SofteningBonds<dim>::maximum_stretch(const SofteningBond &bond, const dou
 
 
 template <int dim>
+bool SofteningBonds<dim>::follows_tangent(const unsigned int number,
+                                          const double kappa,
+                                          const bool softens) const
+{
+  const SofteningLaw &law = lattice.softening;
+  const Leg leg = kappa >= law.last              ? Leg::broken
+                  : softens && kappa > law.first ? Leg::softens
+                                                 : Leg::elastic;
+  Turns &own = turns[number];
+  const bool turns_now = own.leg != Leg::none && own.leg != leg;
+  own.number += turns_now;
+  own.since = turns_now ? 0 : own.since + 1;
+  own.leg = leg;
+  return own.number < most_turns || own.since >= until_rest;
+}
+
+
+template <int dim>
+void SofteningBonds<dim>::begin_solve()
+{
+  turns.assign(bonds.size(), Turns());
+}
+
+
+template <int dim>
 void SofteningBonds<dim>::begin_attempt(const unsigned int attempt, const bool converged)
 {
   if (attempt == 0)
     relaxation_now = std::min(1., 1.25 * committed.relaxation);
   else if (attempt > 1 && !converged) // half of the step may do
     relaxation_now *= 0.5;
+  begin_solve();
 }
 
 
@@ -58,6 +94,7 @@ void SofteningBonds<dim>::replace(std::vector<SofteningBond> others)
   bonds = std::move(others);
   std::sort(bonds.begin(), bonds.end(),
             [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
+  begin_solve();
 }
 
 
