@@ -4,16 +4,6 @@
 
 namespace stockwork::peridynamics
 {
-namespace
-{
-/// Changes from one leg of its law to another, within a solve, of a bond that is not coming to
-/// rest.
-constexpr unsigned int most_turns = 4;
-/// Times that it is on one leg, after which it has come to rest.
-constexpr unsigned int until_rest = 3;
-} // namespace
-
-
 template <int dim>
 SofteningBonds<dim>::SofteningBonds(const Lattice<dim> &lattice)
   : lattice(lattice)
@@ -57,16 +47,10 @@ bool SofteningBonds<dim>::follows_tangent(const unsigned int number,
                                           const double kappa,
                                           const bool softens) const
 {
-  const SofteningLaw &law = lattice.softening;
-  const Leg leg = kappa >= law.last              ? Leg::broken
-                  : softens && kappa > law.first ? Leg::softens
-                                                 : Leg::elastic;
-  Turns &own = turns[number];
-  const bool turns_now = own.leg != Leg::none && own.leg != leg;
-  own.number += turns_now;
-  own.since = turns_now ? 0 : own.since + 1;
-  own.leg = leg;
-  return own.number < most_turns || own.since >= until_rest;
+  return turns[number].follows_tangent(kappa >= lattice.softening.last ? Turns::Leg::broken
+                                       : softens && kappa > lattice.softening.first
+                                         ? Turns::Leg::softens
+                                         : Turns::Leg::elastic);
 }
 
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fracture/peridynamics/lattice.h"
+#include "fracture/peridynamics/turns.h"
 
 #include <array>
 #include <utility>
@@ -95,15 +96,12 @@ public:
     return relaxation_now;
   }
 
-  /// Whether Newton's method is to use the tangent of a bond's law at this greatest stretch; else
-  /// the secant. Where the force falls faster than the rock around gives way, the tangent leads
-  /// back to where the bond does not soften, and from there to where it does, without end; the
-  /// secant leads on to where the rock holds, slowly. So a bond that comes and goes is given the
-  /// secant, until it stays.
+  /// Of Newton's method, see Turns.
+  /// @param kappa greatest stretch
   /// @param softens the stretch is the greatest so far
   bool follows_tangent(unsigned int number, double kappa, bool softens) const;
 
-  /// A solve begins: no bond has come and gone.
+  /// A solve begins.
   void begin_solve();
 
   /// @param attempt at the step, 0 for the first
@@ -124,21 +122,6 @@ private:
   const Lattice<dim> &lattice;
   std::vector<SofteningBond> bonds;
   double relaxation_now = 1.;
-
-  enum class Leg
-  {
-    none,
-    elastic,
-    softens,
-    broken
-  };
-  /// The leg of its law on which a bond was last, how often that was another one than before, and
-  /// for how many looks it has not been.
-  struct Turns
-  {
-    Leg leg = Leg::none;
-    unsigned int number = 0, since = 0;
-  };
   mutable std::vector<Turns> turns; ///< of the bonds of this rank's rows
 };
 } // namespace stockwork::peridynamics

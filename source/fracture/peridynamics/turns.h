@@ -1,0 +1,45 @@
+#pragma once
+
+namespace stockwork::peridynamics
+{
+/// A bond in Newton's method for one solve. Where its force falls faster than the rock around gives
+/// way, the tangent of its law leads back to where it does not soften, and from there to where it
+/// does, without end; the secant leads on to where the rock holds, slowly. So a bond that comes and
+/// goes is given the secant, until it stays.
+class Turns
+{
+public:
+  /// The legs of its law.
+  enum class Leg
+  {
+    elastic, ///< or unloaded
+    softens,
+    broken
+  };
+
+  /// Whether to use the tangent; else the secant. To be asked in each iteration.
+  bool follows_tangent(const Leg now)
+  {
+    if (asked && now != leg)
+    {
+      if (n_turns >= most_turns && since >= until_rest)
+        until_rest *= 2; // the tangent has led back once more
+      ++n_turns;
+      since = 0;
+    }
+    else
+      ++since;
+    leg = now;
+    asked = true;
+    return n_turns < most_turns || since >= until_rest;
+  }
+
+private:
+  /// So often does a bond that comes to rest by itself pass from one leg to another, at most.
+  static constexpr unsigned int most_turns = 4;
+  bool asked = false;
+  Leg leg = Leg::elastic;
+  unsigned int n_turns = 0, since = 0;
+  unsigned int until_rest = 3; ///< iterations on one leg, after which the tangent is tried again
+};
+} // namespace stockwork::peridynamics
