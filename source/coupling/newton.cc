@@ -282,22 +282,28 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // nothing.
   const double of_mass =
     assembly.nonlinear_rock() != nullptr && greatest.mass > 0. ? 1. / mass_scale() : 0.;
-  const auto imbalance = [&](const ResidualNorms &n)
+  const auto of_fluid = [&](const ResidualNorms &n)
   {
     const bool has_fluid = n.fracture_fluid > of_pores && greatest.fracture_fluid > 0.;
-    return std::hypot(n.momentum, n.extra) / force + of_mass * n.mass +
-           (has_fluid ? n.fracture_fluid / greatest.fracture_fluid : 0.);
+    return has_fluid ? n.fracture_fluid / greatest.fracture_fluid : 0.;
   };
+  const auto imbalance = [&](const ResidualNorms &n)
+  { return std::hypot(n.momentum, n.extra) / force + of_mass * n.mass + of_fluid(n); };
   // What is below the tolerance is none, and may grow.
   const double before = std::max(imbalance(norms), parameters.tolerance);
   // A tangent that is nearly singular, as where rock yields and does not know yet whether it will
   // be unloaded, sends it further still.
   const unsigned int most_halvings = assembly.nonlinear_rock() != nullptr ? 8 : 4;
-  const double most_growth = iteration < 6 ? 3. : assembly.may_use_secants() ? 2. : 1.;
+  // Where secants are used, forces have to grow on the way, but the fluid's imbalance need not.
+  const double of_all = iteration < 6 ? 3. : 1., of_forces = assembly.uses_secants() ? 2. : 1.;
+  const auto is_near = [&]()
+  {
+    return imbalance(norms) < std::max(of_all, of_forces) * before &&
+           of_fluid(norms) < of_all * before;
+  };
   move(factor);
   if ((unknowns.n_mechanical_extra() > 0 || assembly.nonlinear_rock() != nullptr) && iteration > 0)
-    for (unsigned int halving = 0;
-         halving < most_halvings && !(imbalance(norms) < most_growth * before); ++halving)
+    for (unsigned int halving = 0; halving < most_halvings && !is_near(); ++halving)
     {
       n_halved += halving == 0;
       factor *= 0.5;

@@ -92,10 +92,10 @@ public:
     return sees_bulk;
   }
 
-  /// See Requirements.
-  bool may_use_secants() const
+  /// Whether the model does on any rank, see FractureModel. Collective.
+  bool uses_secants() const
   {
-    return model.requirements().may_use_secants;
+    return dealii::Utilities::MPI::logical_or(model.uses_secants(), run.communicator);
   }
 
   /// Whether one iteration solves it.

@@ -47,10 +47,6 @@ struct Requirements
 
   bool symmetric = true; ///< its own terms keep the matrix symmetric
 
-  /// Where its forces fall faster than the rock around gives way, its derivatives may be secants:
-  /// on the way on to where the rock holds, residuals grow for a while.
-  bool may_use_secants = false;
-
   /// One of the laws that role() may put in place of the rock's; all of them have its history.
   /// Null: there are none. It lives as long as the model.
   const RockLaw *law = nullptr;
@@ -171,10 +167,18 @@ public:
   }
 
   /// Add the model's other terms (cohesive tractions, released stress); not the fluid, not the
-  /// bulk. A function of committed history and of the state alone: it may be called any number of
-  /// times.
+  /// bulk. A function of committed history and of the state alone, but for derivatives, see
+  /// uses_secants(): it may be called any number of times.
   virtual void assemble(const StepContext &, const State &, Sink &) const
   {
+  }
+
+  /// Whether in the last assemble() derivatives were secants, as where forces fall faster than the
+  /// rock around gives way: on the way on to where it holds, residuals grow for a while. On this
+  /// rank.
+  virtual bool uses_secants() const
+  {
+    return false;
   }
 
   /// The unknowns have converged: grow?

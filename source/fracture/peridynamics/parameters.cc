@@ -123,10 +123,9 @@ void Parameters<dim>::declare(dealii::ParameterHandler &prm)
   prm.declare_entry("Growth", "true", Patterns::Bool(), "Whether bonds may break.");
   prm.declare_entry(
     "Tracking", "auto", Patterns::Selection("auto|none|path"),
-    "auto: path where fluid drives the fracture in rock without pore pressure; else where a crack "
-    "is oblique to the mesh, or the in-situ stress along it is not that across it, or viscosity "
-    "dominates (K_m < 2, bonds beside the crack might break), and with 'Closure = in bonds' or "
-    "bonds that are state-based; and only if it can be: in two dimensions, around "
+    "auto: path where fluid drives the fracture; where its pressure is given if a crack is oblique "
+    "to the mesh, or the in-situ stress along it is not that across it, and with 'Closure = in "
+    "bonds'; and only if it can be: in two dimensions, around "
     "cracks that the deck gives and fluid presses open, with bonds that soften, fluid in the "
     "segments, neither another closure nor inertia, Poisson's ratios not negative; "
     "else none. none: any bond softens that is stretched too far; where nothing guides it, the "
@@ -203,10 +202,6 @@ bool may_be_in_bonds(const Rock &rock)
 }
 
 
-/// K_m below which bonds that are left to themselves may break beside a fracture. On cells of 0.5 m
-/// they hold at 1.5; larger cells hold less (doc/laboratory/viscous_bonds.md).
-constexpr double viscous = 2.;
-
 /// Whether the way of a fracture is tracked by default, and why.
 template <int dim>
 std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm,
@@ -235,15 +230,9 @@ std::pair<bool, std::string> is_tracked_by_default(dealii::ParameterHandler &prm
     return {true, why};
   if (prm.get("Closure") == "in bonds")
     return {true, "the pressure is in the bonds"};
-  if (std::isnan(scene.crack_pressure) && !scene.has_pore_pressure)
+  if (std::isnan(scene.crack_pressure))
     return {true, "fluid drives the fracture, and on a path stress along it does not count"};
-  if (const auto fracture = driven_fracture(scene);
-      fracture && fracture->dimensionless_toughness() < viscous)
-    return {true, "the fluid is viscous (K_m = " + text(fracture->dimensionless_toughness()) +
-                    "), and its pressure may break bonds beside the crack"};
-  if (p.state_based && std::isnan(scene.crack_pressure))
-    return {true, "bonds are state-based, and without a path their pressures may be 6 % off"};
-  return {false, "cracks lie along the mesh, in isotropic stress"};
+  return {false, "cracks whose pressure is given lie along the mesh, in isotropic stress"};
 }
 
 

@@ -64,7 +64,6 @@ Requirements Peridynamics<dim>::requirements() const
 {
   Requirements requirements;
   requirements.symmetric = false;
-  requirements.may_use_secants = !lattice.softening.brittle();
   requirements.pore_pressure = requirements.fluid_in_pores = parameters.tensor_fluid;
   requirements.has_fracture = !scene.cracks.empty() || parameters.growth;
   requirements.may_grow = parameters.growth;

@@ -50,6 +50,11 @@ public:
 
   void assemble(const StepContext &context, const State &state, Sink &sink) const override;
 
+  bool uses_secants() const override
+  {
+    return softening_bonds.uses_secants();
+  }
+
   std::vector<ExtraUnknown> extra_unknowns() const override;
 
   Verdict

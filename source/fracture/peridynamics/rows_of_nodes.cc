@@ -10,32 +10,35 @@ using dealii::Tensor;
 
 namespace
 {
-/// Where other cracks are as seen from one along a row of nodes, farther away than a cell.
+/// Where other cracks are as seen from the legs of one that are along rows of nodes, farther away
+/// than a cell.
 struct Others
 {
   bool left = false, right = false;
 };
 
-/// Of a crack that is not a straight one along a row of nodes on a path: nowhere.
+/// Of a crack without such legs, or that is no path: nowhere.
 template <int dim>
 Others others_beside(const InitialCrack<dim> &crack, const Lattice<dim> &lattice)
 {
   Others others;
   if constexpr (dim == 2)
-    if (lattice.parameters.tracked && !lattice.zone.sites().empty() && crack.points.size() == 2)
+    for (unsigned int leg = 0; leg + 1 < crack.points.size(); ++leg)
     {
+      if (!lattice.parameters.tracked || lattice.zone.sites().empty())
+        return others;
       const double h = lattice.zone.spacing();
-      const Tensor<1, dim> along = crack.points[1] - crack.points[0],
+      const Tensor<1, dim> along = crack.points[leg + 1] - crack.points[leg],
                            left = cross_product_2d(-along) / along.norm();
       const double rows =
-        (lattice.zone.position(lattice.zone.sites()[0].place) - crack.points[0]) * left / h;
+        (lattice.zone.position(lattice.zone.sites()[0].place) - crack.points[leg]) * left / h;
       if (std::abs(along[0] * along[1]) > same_place * along.norm_square() ||
           std::abs(rows - std::round(rows)) > same_place)
-        return others;
+        continue;
       for (const InitialCrack<dim> &other : lattice.scene.cracks)
         for (const Point<dim> &point : other.points)
         {
-          const double distance = (point - crack.points[0]) * left;
+          const double distance = (point - crack.points[leg]) * left;
           others.left |= distance > h;
           others.right |= distance < -h;
         }
@@ -67,7 +70,7 @@ std::vector<std::string> foresee_rows_of_nodes(const Lattice<dim> &lattice)
         "' lies on a row of nodes, which belong to its left side, between other cracks. If a "
         "fracture comes from the left and meets it, the opening where they meet is read far too "
         "small (with a pressure at the well 30 % too high). If one comes only from there, list its "
-        "ends in the other order; or move it by a part of a cell.");
+        "ends in the other order; or move it to the left by a part of a cell.");
   return messages;
 }
 

@@ -12,7 +12,7 @@ namespace stockwork::peridynamics
 // from there and meets a tracked path, the opening at the place would be read far too small (with a
 // pressure at the well 30 % too high).
 
-/// The cracks of the scene. On a tracked path, a straight one along a row of nodes has its points
+/// The cracks of the scene. On a tracked path, one with legs along rows of nodes has its points
 /// in the order that puts these on the side away from the other cracks, if there is one.
 /// @param lattice with its zone
 template <int dim>

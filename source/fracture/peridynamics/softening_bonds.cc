@@ -55,6 +55,14 @@ bool SofteningBonds<dim>::follows_tangent(const unsigned int number,
 
 
 template <int dim>
+bool SofteningBonds<dim>::uses_secants() const
+{
+  return std::any_of(turns.begin(), turns.end(),
+                     [](const Turns &own) { return !own.follows_tangent(); });
+}
+
+
+template <int dim>
 void SofteningBonds<dim>::begin_solve()
 {
   turns.assign(bonds.size(), Turns());

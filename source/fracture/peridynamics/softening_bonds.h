@@ -101,6 +101,9 @@ public:
   /// @param softens the stretch is the greatest so far
   bool follows_tangent(unsigned int number, double kappa, bool softens) const;
 
+  /// Whether any bond of this rank's rows was given the secant.
+  bool uses_secants() const;
+
   /// A solve begins.
   void begin_solve();
 

@@ -436,21 +436,30 @@ double TrackedPaths::distance(const Point<2> &point) const
 }
 
 
+double TrackedPaths::length(const unsigned int path) const
+{
+  const Path &own = paths[path];
+  double sum = own.ends[0].advance + own.ends[1].advance;
+  for (unsigned int i = own.ends[0].n_points; i < own.n_pieces() - own.ends[1].n_points; ++i)
+    sum += own.length(i);
+  return sum;
+}
+
+
 double TrackedPaths::initial_length() const
 {
   double sum = 0.;
-  for (const Path &path : paths)
-    for (unsigned int i = path.ends[0].n_points; i < path.n_pieces() - path.ends[1].n_points; ++i)
-      sum += path.length(i);
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    sum += length(p) - paths[p].ends[0].advance - paths[p].ends[1].advance;
   return sum;
 }
 
 
 double TrackedPaths::length() const
 {
-  double sum = initial_length();
-  for (const Path &path : paths)
-    sum += path.ends[0].advance + path.ends[1].advance;
+  double sum = 0.;
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    sum += length(p);
   return sum;
 }
 } // namespace stockwork::peridynamics

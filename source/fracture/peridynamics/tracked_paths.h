@@ -231,6 +231,9 @@ public:
   /// Of what the deck gives [m].
   double initial_length() const;
 
+  /// Of one path: its initial crack, and what its tips have advanced by [m].
+  double length(unsigned int path) const;
+
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
   {

@@ -37,6 +37,19 @@ double ring_weight(const Tensor<1, 2> &away, const Tensor<1, 2> &ahead)
   return r * r * std::exp(-0.5 * r * r) * (1.5 - 0.5 * cosine * cosine) * t * t * (3. - 2. * t);
 }
 
+/// The stress ahead of a tip without that share of the shear on the line ahead which is not in
+/// situ.
+SymmetricTensor<2, 2> without_shear(SymmetricTensor<2, 2> stress,
+                                    const SymmetricTensor<2, 2> &in_situ,
+                                    const Tensor<1, 2> &ahead,
+                                    const double share)
+{
+  const Tensor<1, 2> normal({-ahead[1], ahead[0]});
+  const double shear = ahead * ((stress - in_situ) * normal);
+  stress -= 2. * share * shear * symmetrize(outer_product(ahead, normal));
+  return stress;
+}
+
 /// A direction, turned towards another one, by so much at most.
 Tensor<1, 2> turned(const Tensor<1, 2> &from, const Tensor<1, 2> &to, const double most)
 {
@@ -232,6 +245,16 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
     for (const TrackedPaths::End &end : paths.ends())
       if (!paths.is_all_way(end.path) && is_untouched(end) && !paths.is_joined(end))
         paths.forget_way(end);
+    // What a crack that is shorter than a horizon adds to the stress is turned by where the nodes
+    // beside it lie (a notch of a cell, a third of a cell off their middle: by 20 degrees and
+    // more). So it goes straight on, or as the stress in situ turns it, and as its own asks for
+    // from two horizons on.
+    const auto share_to_drop = [&](const TrackedPaths::End &end)
+    {
+      return paths.is_all_way(end.path)
+               ? 0.
+               : std::clamp(2. - paths.length(end.path) / (parameters.horizon * h), 0., 1.);
+    };
     // All ends by turns, so that none finds the others farther on than they find it.
     std::vector<std::pair<TrackedPaths::End, Tensor<1, dim>>> further;
     do
@@ -242,7 +265,8 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
         {
           const Tensor<1, dim> ahead = paths.direction(end);
           const SymmetricTensor<2, dim> stress =
-            stress_ahead(paths.tip(end), ahead, state, of_cells);
+            without_shear(stress_ahead(paths.tip(end), ahead, state, of_cells),
+                          scene.in_situ_stress(paths.tip(end)), ahead, share_to_drop(end));
           further.emplace_back(end, turned(ahead, across_greatest(stress, ahead),
                                            paths.has_set_out(end) ? most_turn : most_first_turn));
         }

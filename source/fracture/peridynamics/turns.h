@@ -31,6 +31,12 @@ public:
       ++since;
     leg = now;
     asked = true;
+    return follows_tangent();
+  }
+
+  /// What it was told last.
+  bool follows_tangent() const
+  {
     return n_turns < most_turns || since >= until_rest;
   }
 
