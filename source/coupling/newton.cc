@@ -294,7 +294,8 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // A tangent that is nearly singular, as where rock yields and does not know yet whether it will
   // be unloaded, sends it further still.
   const unsigned int most_halvings = assembly.nonlinear_rock() != nullptr ? 8 : 4;
-  // Where secants are used, forces have to grow on the way, but the fluid's imbalance need not.
+  // Where secants are used, forces have to grow on the way; the fluid's imbalance must not come to
+  // more than all was.
   const double of_all = iteration < 6 ? 3. : 1., of_forces = assembly.uses_secants() ? 2. : 1.;
   const auto is_near = [&]()
   {

@@ -16,8 +16,12 @@ namespace
 {
 /// A row or column with more entries beside the diagonal is a full one.
 constexpr unsigned int most_few = 8;
-/// Of the greatest of the few entries, what a pivot must have: multiples of rows grow by no more.
-constexpr double least_pivot = 1e-2;
+/// Of the greatest of the few entries, what a pivot must have: what is added to others is no
+/// greater multiple of what is there.
+constexpr double least_pivot = 0.1;
+/// Entries are of order one; a line that has so little left is for the dense factor, which sees
+/// whether it is a zero.
+constexpr double nothing_left = 1e-10;
 
 /// max |a_i| b_i, several at a time.
 double greatest_product(const double *const a, const std::vector<double> &b)
@@ -133,7 +137,7 @@ void DenseFactor::eliminate(FullMatrix<double> &a)
         across.push_back(i);
         greatest = std::max(greatest, entry(i));
       }
-    if (across.size() > most_few || !(greatest > std::numeric_limits<double>::epsilon()))
+    if (across.size() > most_few || !(greatest > nothing_left))
       continue;
     // Of the entries that are great enough, the one across the shortest line.
     unsigned int best = n;

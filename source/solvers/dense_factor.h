@@ -4,6 +4,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace stockwork

@@ -50,10 +50,27 @@ TEST_CASE("A bond whose force falls faster than the rock gives way comes to rest
   CHECK(soft.solve(false, stretch) == 100);
   CHECK(soft.solve(true, stretch) < 60);
   CHECK(stretch == doctest::Approx(21.5).epsilon(1e-12));
+}
 
-  // Before its force is at the greatest it is elastic in both.
-  const Pulled little{0.05, 20.};
-  CHECK(little.solve(true, stretch) < 4);
-  CHECK(stretch == doctest::Approx(0.05 * 20. / 1.05).epsilon(1e-12));
+TEST_CASE("Four turns make a secant, three looks on one leg a tangent, and a turn after that six")
+{
+  using Leg = Turns::Leg;
+  Turns turns;
+  bool on = false;
+  const auto turn = [&]()
+  { return turns.follows_tangent((on = !on) ? Leg::softens : Leg::elastic); };
+  const auto stay = [&]() { return turns.follows_tangent(on ? Leg::softens : Leg::elastic); };
+  CHECK(turn()); // on its first leg
+  for (unsigned int n = 1; n <= 3; ++n)
+    CHECK(turn());
+  CHECK_FALSE(turn());
+  for (const unsigned int rests : {3u, 6u, 12u})
+  {
+    for (unsigned int n = 1; n < rests; ++n)
+      CHECK_FALSE(stay());
+    CHECK(stay());
+    CHECK(stay());
+    CHECK_FALSE(turn());
+  }
 }
 } // namespace stockwork::peridynamics::turns_test

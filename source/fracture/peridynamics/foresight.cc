@@ -6,10 +6,12 @@
 #include "fracture/peridynamics/wording.h"
 #include "stockwork/base/error.h"
 #include "stockwork/fracture/needs.h"
+#include "verification/analytical/kgd.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace stockwork::peridynamics
 {
@@ -211,6 +213,19 @@ double least_compression(const Scene<dim> &scene, const InitialCrack<dim> &crack
   return least > 0. ? least : 0.; // no "-0 MPa"
 }
 
+/// What the scene's greatest rate drives through its rock, as a plane fracture without walls; none
+/// in three dimensions, without a crack or a rate.
+template <int dim>
+std::optional<analytical::KgdParameters> driven_fracture(const Scene<dim> &scene)
+{
+  if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
+    return std::nullopt;
+  const RockProperties &rock = scene.rock.main();
+  return analytical::KgdParameters{rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio,
+                                   scene.rock.fluid().viscosity, rock.toughness(),
+                                   scene.injection_rate};
+}
+
 
 /// The pressure of a fracture in an infinite body is greatest when it is short. It is taken when
 /// each wing has the length of the crack, or of a horizon. Bonds left to themselves hold it if it
@@ -259,18 +274,6 @@ void foresee_pressure(const Lattice<dim> &lattice,
            "'Fracture/peridynamics/Tracking = path' with 'Closure = in bonds'."));
 }
 } // namespace
-
-
-template <int dim>
-std::optional<analytical::KgdParameters> driven_fracture(const Scene<dim> &scene)
-{
-  if (dim != 2 || scene.cracks.empty() || !(scene.injection_rate > 0.))
-    return std::nullopt;
-  const RockProperties &rock = scene.rock.main();
-  return analytical::KgdParameters{rock.young_modulus, rock.plane_stress ? 0. : rock.poisson_ratio,
-                                   scene.rock.fluid().viscosity, rock.toughness(),
-                                   scene.injection_rate};
-}
 
 
 template <int dim>
@@ -373,8 +376,6 @@ std::vector<std::string> foresee(const Lattice<dim> &lattice, const double spaci
   return messages;
 }
 
-template std::optional<analytical::KgdParameters> driven_fracture(const Scene<2> &);
-template std::optional<analytical::KgdParameters> driven_fracture(const Scene<3> &);
 template void refuse_what_bonds_do_not_know(const Parameters<2> &, const Scene<2> &);
 template void refuse_what_bonds_do_not_know(const Parameters<3> &, const Scene<3> &);
 template void refuse_explicit_steps(const Parameters<2> &, const Scene<2> &);

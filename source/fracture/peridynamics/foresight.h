@@ -1,19 +1,12 @@
 #pragma once
 
 #include "fracture/peridynamics/lattice.h"
-#include "verification/analytical/kgd.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace stockwork::peridynamics
 {
-/// What the scene's greatest rate drives through its rock, as a plane fracture without walls; none
-/// in three dimensions, without a crack or a rate.
-template <int dim>
-std::optional<analytical::KgdParameters> driven_fracture(const Scene<dim> &scene);
-
 /// @throws InputError for entries of the deck that bonds would drop without a word
 template <int dim>
 void refuse_what_bonds_do_not_know(const Parameters<dim> &parameters, const Scene<dim> &scene);

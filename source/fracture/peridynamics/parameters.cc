@@ -4,7 +4,6 @@
 #include "discontinuity/contact.h"
 #include "exchange/flat_parts.h"
 #include "flow/permeability_tensor.h"
-#include "fracture/peridynamics/foresight.h"
 #include "fracture/peridynamics/state_based.h"
 #include "fracture/peridynamics/wording.h"
 #include "mesh/box_list.h"

@@ -148,11 +148,12 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
                      { return lattice.zone.is_inside(end, same_place * lattice.zone.spacing()); });
         if (const auto place = paths.overlap())
         {
-          throw InputError("Cracks: at " + in_metres(*place) +
-                           " two of them, or two legs of one, lie upon one another, or cross in "
-                           "the middle of a cell's length of both. With "
-                           "'Fracture/peridynamics/Tracking = path' there must be one crack at a "
-                           "place: leave one out, or move one by a part of a cell.");
+          throw InputError(
+            "Cracks: at " + in_metres(*place) +
+            " two of them, or two legs of one, lie upon one another, or cross in "
+            "the middle of a cell's length of both. With "
+            "'Fracture/peridynamics/Tracking = path' there must be one crack at a "
+            "place: leave one out, or move one by a part of a cell; or set 'Tracking = none'.");
         }
         committed_paths = paths;
         tips.committed_energy.assign(scene.cracks.size(), {{0., 0.}});

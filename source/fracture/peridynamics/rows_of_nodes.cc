@@ -19,14 +19,16 @@ struct Others
 
 /// Of a crack without such legs, or that is no path: nowhere.
 template <int dim>
-Others others_beside(const InitialCrack<dim> &crack, const Lattice<dim> &lattice)
+Others others_beside(const unsigned int number, const Lattice<dim> &lattice)
 {
   Others others;
+  if (!lattice.parameters.tracked || lattice.zone.sites().empty())
+    return others;
+  const std::vector<InitialCrack<dim>> &cracks = lattice.scene.cracks;
+  const InitialCrack<dim> &crack = cracks[number];
   if constexpr (dim == 2)
     for (unsigned int leg = 0; leg + 1 < crack.points.size(); ++leg)
     {
-      if (!lattice.parameters.tracked || lattice.zone.sites().empty())
-        return others;
       const double h = lattice.zone.spacing();
       const Tensor<1, dim> along = crack.points[leg + 1] - crack.points[leg],
                            left = cross_product_2d(-along) / along.norm();
@@ -35,12 +37,12 @@ Others others_beside(const InitialCrack<dim> &crack, const Lattice<dim> &lattice
       if (std::abs(along[0] * along[1]) > same_place * along.norm_square() ||
           std::abs(rows - std::round(rows)) > same_place)
         continue;
-      for (const InitialCrack<dim> &other : lattice.scene.cracks)
-        for (const Point<dim> &point : other.points)
+      for (unsigned int other = 0; other < cracks.size(); ++other)
+        for (const Point<dim> &point : cracks[other].points)
         {
           const double distance = (point - crack.points[leg]) * left;
-          others.left |= distance > h;
-          others.right |= distance < -h;
+          others.left |= other != number && distance > h;
+          others.right |= other != number && distance < -h;
         }
     }
   return others;
@@ -52,9 +54,9 @@ template <int dim>
 std::vector<InitialCrack<dim>> oriented_cracks(const Lattice<dim> &lattice)
 {
   std::vector<InitialCrack<dim>> cracks = lattice.scene.cracks;
-  for (InitialCrack<dim> &crack : cracks)
-    if (const Others others = others_beside(crack, lattice); others.left && !others.right)
-      std::reverse(crack.points.begin(), crack.points.end());
+  for (unsigned int c = 0; c < cracks.size(); ++c)
+    if (const Others others = others_beside(c, lattice); others.left && !others.right)
+      std::reverse(cracks[c].points.begin(), cracks[c].points.end());
   return cracks;
 }
 
@@ -63,10 +65,10 @@ template <int dim>
 std::vector<std::string> foresee_rows_of_nodes(const Lattice<dim> &lattice)
 {
   std::vector<std::string> messages;
-  for (const InitialCrack<dim> &crack : lattice.scene.cracks)
-    if (const Others others = others_beside(crack, lattice); others.left && others.right)
+  for (unsigned int c = 0; c < lattice.scene.cracks.size(); ++c)
+    if (const Others others = others_beside(c, lattice); others.left && others.right)
       messages.push_back(
-        "The crack '" + crack.text +
+        "The crack '" + lattice.scene.cracks[c].text +
         "' lies on a row of nodes, which belong to its left side, between other cracks. If a "
         "fracture comes from the left and meets it, the opening where they meet is read far too "
         "small (with a pressure at the well 30 % too high). If one comes only from there, list its "
@@ -79,4 +81,5 @@ std::vector<std::string> foresee_rows_of_nodes(const Lattice<dim> &lattice)
   template std::vector<std::string> foresee_rows_of_nodes(const Lattice<dim> &);
 INSTANTIATE(2)
 INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace stockwork::peridynamics

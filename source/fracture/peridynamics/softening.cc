@@ -140,12 +140,13 @@ void Peridynamics<dim>::assemble_softening(const State &state, Sink &sink) const
     // its law.
     const double carried = parameters.in_bonds ? total : elongation;
     // Of damage times this elongation by the elongation. What has softened goes on.
-    const bool softens = stretch > committed - kink_width;
-    const double slope =
-      softening_bonds.follows_tangent(n, kappa, softens) && softens && total != 0.
-        ? damage + (lattice.softening.slope(kappa) - damage) * softening_bonds.relaxation() *
-                     stretch / kappa * carried / total
-        : damage;
+    const bool softens = stretch > committed - kink_width,
+               follows_tangent = softening_bonds.follows_tangent(n, kappa, softens);
+    const double slope = follows_tangent && softens && total != 0.
+                           ? damage + (lattice.softening.slope(kappa) - damage) *
+                                        softening_bonds.relaxation() * stretch / kappa * carried /
+                                        total
+                           : damage;
     law_of_bond.extra.resize(1);
     if (parameters.in_bonds)
       for (const auto &[cell, share] : pressure_in_bonds.shares(n))
@@ -226,7 +227,7 @@ bool Peridynamics<dim>::soften_bonds(const std::vector<double> &u,
     return softening_bonds.maximum_stretch(bond,
                                            stretch_of(bond.view, added_stretch(bond, of_cells)));
   };
-  softening_bonds.begin_solve();
+  softening_bonds.forget_turns();
   for (SofteningBond &bond : softening_bonds)
   {
     bond.trial = maximum_stretch(bond);

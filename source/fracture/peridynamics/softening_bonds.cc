@@ -63,7 +63,7 @@ bool SofteningBonds<dim>::uses_secants() const
 
 
 template <int dim>
-void SofteningBonds<dim>::begin_solve()
+void SofteningBonds<dim>::forget_turns()
 {
   turns.assign(bonds.size(), Turns());
 }
@@ -76,7 +76,7 @@ void SofteningBonds<dim>::begin_attempt(const unsigned int attempt, const bool c
     relaxation_now = std::min(1., 1.25 * committed.relaxation);
   else if (attempt > 1 && !converged) // half of the step may do
     relaxation_now *= 0.5;
-  begin_solve();
+  forget_turns();
 }
 
 
@@ -86,7 +86,7 @@ void SofteningBonds<dim>::replace(std::vector<SofteningBond> others)
   bonds = std::move(others);
   std::sort(bonds.begin(), bonds.end(),
             [](const SofteningBond &a, const SofteningBond &b) { return a.view < b.view; });
-  begin_solve();
+  forget_turns();
 }
 
 

@@ -104,8 +104,8 @@ public:
   /// Whether any bond of this rank's rows was given the secant.
   bool uses_secants() const;
 
-  /// A solve begins.
-  void begin_solve();
+  /// Another solve, or other bonds.
+  void forget_turns();
 
   /// @param attempt at the step, 0 for the first
   /// @param converged the last one has, and was rejected for another reason
@@ -125,6 +125,6 @@ private:
   const Lattice<dim> &lattice;
   std::vector<SofteningBond> bonds;
   double relaxation_now = 1.;
-  mutable std::vector<Turns> turns; ///< of the bonds of this rank's rows
+  mutable std::vector<Turns> turns; ///< of each; those of other ranks' rows are not asked
 };
 } // namespace stockwork::peridynamics

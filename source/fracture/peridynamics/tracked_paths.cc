@@ -436,12 +436,11 @@ double TrackedPaths::distance(const Point<2> &point) const
 }
 
 
-double TrackedPaths::length(const unsigned int path) const
+double TrackedPaths::initial_length(const Path &path)
 {
-  const Path &own = paths[path];
-  double sum = own.ends[0].advance + own.ends[1].advance;
-  for (unsigned int i = own.ends[0].n_points; i < own.n_pieces() - own.ends[1].n_points; ++i)
-    sum += own.length(i);
+  double sum = 0.;
+  for (unsigned int i = path.ends[0].n_points; i < path.n_pieces() - path.ends[1].n_points; ++i)
+    sum += path.length(i);
   return sum;
 }
 
@@ -449,17 +448,27 @@ double TrackedPaths::length(const unsigned int path) const
 double TrackedPaths::initial_length() const
 {
   double sum = 0.;
-  for (unsigned int p = 0; p < paths.size(); ++p)
-    sum += length(p) - paths[p].ends[0].advance - paths[p].ends[1].advance;
+  for (const Path &path : paths)
+    sum += initial_length(path);
   return sum;
 }
 
 
 double TrackedPaths::length() const
 {
-  double sum = 0.;
-  for (unsigned int p = 0; p < paths.size(); ++p)
-    sum += length(p);
+  double sum = initial_length();
+  for (const Path &path : paths)
+    sum += path.ends[0].advance + path.ends[1].advance;
   return sum;
+}
+
+
+double TrackedPaths::full_length(const unsigned int path) const
+{
+  const Path &own = paths[path];
+  if (own.ends[0].joined || own.ends[1].joined)
+    return std::numeric_limits<double>::infinity();
+  const bool at_side = !own.ends[0].grows || !own.ends[1].grows;
+  return (at_side ? 2. : 1.) * (initial_length(own) + own.ends[0].advance + own.ends[1].advance);
 }
 } // namespace stockwork::peridynamics

@@ -231,8 +231,9 @@ public:
   /// Of what the deck gives [m].
   double initial_length() const;
 
-  /// Of one path: its initial crack, and what its tips have advanced by [m].
-  double length(unsigned int path) const;
+  /// Of one path, its initial crack and what its tips have advanced by, and as much again where an
+  /// end is at a side of the domain; infinite where it has joined another one [m].
+  double full_length(unsigned int path) const;
 
   template <class Archive>
   void serialize(Archive &ar, const unsigned int)
@@ -307,6 +308,9 @@ private:
     /// Arc at which a piece begins [m].
     double begin(unsigned int piece) const;
   };
+
+  /// Of one path [m].
+  static double initial_length(const Path &path);
 
   /// Whether the initial crack of a path runs along an axis, from its first to its last point.
   bool begins_along_lattice(const Path &path) const;

@@ -247,13 +247,13 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
         paths.forget_way(end);
     // What a crack that is shorter than a horizon adds to the stress is turned by where the nodes
     // beside it lie (a notch of a cell, a third of a cell off their middle: by 20 degrees and
-    // more). So it goes straight on, or as the stress in situ turns it, and as its own asks for
-    // from two horizons on.
+    // more). So it goes straight on, or as the stress in situ turns it; all other stress counts by
+    // its share, in full from two horizons on.
     const auto share_to_drop = [&](const TrackedPaths::End &end)
     {
       return paths.is_all_way(end.path)
                ? 0.
-               : std::clamp(2. - paths.length(end.path) / (parameters.horizon * h), 0., 1.);
+               : std::clamp(2. - paths.full_length(end.path) / (parameters.horizon * h), 0., 1.);
     };
     // All ends by turns, so that none finds the others farther on than they find it.
     std::vector<std::pair<TrackedPaths::End, Tensor<1, dim>>> further;

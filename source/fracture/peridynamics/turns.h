@@ -17,7 +17,8 @@ public:
     broken
   };
 
-  /// Whether to use the tangent; else the secant. To be asked in each iteration.
+  /// Whether to use the tangent; else the secant. To be asked whenever the law is assembled, also
+  /// for an increment that is taken back.
   bool follows_tangent(const Leg now)
   {
     if (asked && now != leg)
@@ -41,8 +42,9 @@ public:
   }
 
 private:
-  /// So often does a bond that comes to rest by itself pass from one leg to another, at most.
+  /// A bond that comes to rest by itself passes from one leg to another less often.
   static constexpr unsigned int most_turns = 4;
+
   bool asked = false;
   Leg leg = Leg::elastic;
   unsigned int n_turns = 0, since = 0;
