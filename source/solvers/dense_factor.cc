@@ -22,6 +22,8 @@ constexpr double least_pivot = 0.1;
 /// Entries are of order one; a line that has so little left is for the dense factor, which sees
 /// whether it is a zero.
 constexpr double nothing_left = 1e-10;
+/// Unknowns below which a dense factorisation takes no time to speak of.
+constexpr unsigned int worth_while = 128;
 
 /// max |a_i| b_i, several at a time.
 double greatest_product(const double *const a, const std::vector<double> &b)
@@ -105,7 +107,7 @@ void DenseFactor::eliminate(FullMatrix<double> &a)
     bool is_row;
   };
   std::vector<Line> lines;
-  for (unsigned int k = 0; k < n; ++k)
+  for (unsigned int k = 0; k < n && n >= worth_while; ++k)
   {
     if (in_row[k] <= most_few)
       lines.push_back({in_row[k], k, true});

@@ -235,9 +235,7 @@ void Peridynamics<dim>::assemble_law(const unsigned int n,
                stretch = per_elongation * driving.value,
                kappa = softening_bonds.maximum_stretch(softening_bonds[n], stretch),
                damage = lattice.softening.damage(kappa);
-  const bool softens = kappa > 0. && stretch > softening_bonds[n].committed - kink_width,
-             follows_tangent = softening_bonds.follows_tangent(n, kappa, softens);
-  const double slope = follows_tangent && softens
+  const double slope = kappa > 0. && stretch > softening_bonds[n].committed - kink_width
                          ? (lattice.softening.slope(kappa) - damage) / kappa *
                              softening_bonds.relaxation() * per_elongation
                          : 0.;
