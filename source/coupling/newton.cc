@@ -297,13 +297,10 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // Where secants are used, forces have to grow on the way; the fluid's imbalance must not come to
   // more than all was.
   const double of_all = iteration < 6 ? 3. : 1., of_forces = assembly.uses_secants() ? 2. : 1.;
-  // Iterations that go to and fro come back to the same residual: rounding must not say whether it
-  // has grown.
-  constexpr double less = 1. - 1e-6;
   const auto is_near = [&]()
   {
-    return imbalance(norms) < less * std::max(of_all, of_forces) * before &&
-           of_fluid(norms) < less * of_all * before;
+    return imbalance(norms) < std::max(of_all, of_forces) * before &&
+           of_fluid(norms) < of_all * before;
   };
   move(factor);
   if ((unknowns.n_mechanical_extra() > 0 || assembly.nonlinear_rock() != nullptr) && iteration > 0)

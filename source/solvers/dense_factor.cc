@@ -23,7 +23,7 @@ constexpr double least_pivot = 0.1;
 /// whether it is a zero.
 constexpr double nothing_left = 1e-10;
 /// Unknowns below which a dense factorisation takes no time to speak of.
-constexpr unsigned int worth_while = 128;
+constexpr unsigned int worth_while = 192;
 
 /// max |a_i| b_i, several at a time.
 double greatest_product(const double *const a, const std::vector<double> &b)
@@ -168,7 +168,7 @@ void DenseFactor::reinit(const FullMatrix<double> &matrix)
   {
     double *const row = &scaled(i, 0);
     for (unsigned int j = 0; j < matrix.n(); ++j)
-      row[j] *= scaling[i] * scaling[j];
+      row[j] = row[j] * scaling[i] * scaling[j];
   }
   eliminate(scaled);
   const unsigned int n_left = rows_left.size();
