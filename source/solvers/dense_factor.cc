@@ -23,7 +23,7 @@ constexpr double least_pivot = 0.1;
 /// whether it is a zero.
 constexpr double nothing_left = 1e-10;
 /// Unknowns below which a dense factorisation takes no time to speak of.
-constexpr unsigned int worth_while = 192;
+constexpr unsigned int worth_while = 256;
 
 /// max |a_i| b_i, several at a time.
 double greatest_product(const double *const a, const std::vector<double> &b)
