@@ -80,8 +80,12 @@ endforeach()
 # A notch of one cell that is off the middle of a row goes straight on: it ended 1.4 m off the axis, with 660 kPa in place of 604 (of the
 # notch on the axis; a row of nodes 676).
 foreach(off 0.0333 0.1)
+  set(near 0.0015) # 6.041e5
+  if(off STREQUAL "0.1")
+    set(near 0.011) # 6.098e5: a row of nodes, of which the lattice has half a cell more on one side
+  endif()
   stockwork_case_test(NAME scenes/short_notch/${off} DECK prm/kgd/sun/peridynamics.prm
     SET "Resolution=coarse" "Time/End time=10 s" "Output/Fields=false" "Cracks/Open=0, ${off} m -> 0.2 m, ${off} m"
         "Wells/Well 1/Perforations=0, ${off} m"
-    EXPECT "final/inlet_pressure = 6.045e5 within 0.012" "final/extent_y < 0.1" "final/fracture_length = 3.70 within 0.02")
+    EXPECT "final/inlet_pressure = 6.045e5 within ${near}" "final/extent_y < 0.06" "final/fracture_length = 3.70 within 0.01")
 endforeach()

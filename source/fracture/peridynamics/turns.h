@@ -5,7 +5,8 @@ namespace stockwork::peridynamics
 /// A bond in Newton's method for one solve. Where its force falls faster than the rock around gives
 /// way, the tangent of its law leads back to where it does not soften, and from there to where it
 /// does, without end; the secant leads on to where the rock holds, slowly. So a bond that comes and
-/// goes is given the secant, until it stays.
+/// goes is given the secant, until it stays. State-based bonds are not: with secants more of their
+/// steps failed (three of scenes/state_based_path/*).
 class Turns
 {
 public:
