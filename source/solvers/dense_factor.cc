@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace stockwork
@@ -25,6 +26,9 @@ constexpr double nothing_left = 1e-10;
 /// Unknowns below which a dense factorisation takes no time to speak of.
 constexpr unsigned int worth_while = 256;
 
+/// Of entries, as wide as these, so that several are counted at a time.
+using Counts = std::vector<std::uint64_t>;
+
 /// max |a_i| b_i, several at a time.
 double greatest_product(const double *const a, const std::vector<double> &b)
 {
@@ -39,6 +43,60 @@ double greatest_product(const double *const a, const std::vector<double> &b)
   return *std::max_element(greatest, greatest + lanes);
 }
 } // namespace
+
+
+/// In which rows columns with few entries have them, so that nobody has to look through a matrix
+/// that is stored by rows.
+class DenseFactor::ShortColumns
+{
+public:
+  /// @param n_entries of each column; nothing if no column is asked for
+  ShortColumns(const FullMatrix<double> &a, const Counts &n_entries)
+    : is_short(a.n(), false)
+    , rows(a.n())
+  {
+    std::vector<unsigned int> columns;
+    for (unsigned int j = 0; j < n_entries.size(); ++j)
+      if (n_entries[j] <= most_few)
+      {
+        is_short[j] = true;
+        columns.push_back(j);
+      }
+    for (unsigned int i = 0; i < a.m() && !columns.empty(); ++i)
+    {
+      const double *const row = &a(i, 0);
+      for (const unsigned int j : columns)
+        if (row[j] != 0.)
+          rows[j].push_back(i);
+    }
+  }
+
+  bool has(const unsigned int column) const
+  {
+    return is_short[column];
+  }
+
+  /// Ascending. What has become zero by chance is still among them.
+  const std::vector<unsigned int> &rows_of(const unsigned int column) const
+  {
+    return rows[column];
+  }
+
+  /// A new entry.
+  void add(const unsigned int row, const unsigned int column)
+  {
+    if (!is_short[column])
+      return;
+    std::vector<unsigned int> &list = rows[column];
+    const auto place = std::lower_bound(list.begin(), list.end(), row);
+    if (place == list.end() || *place != row)
+      list.insert(place, row);
+  }
+
+private:
+  std::vector<bool> is_short;
+  std::vector<std::vector<unsigned int>> rows;
+};
 
 
 void DenseFactor::scale(const FullMatrix<double> &matrix)
@@ -68,6 +126,7 @@ void DenseFactor::scale(const FullMatrix<double> &matrix)
 
 
 void DenseFactor::eliminate(FullMatrix<double> &a,
+                            ShortColumns &short_columns,
                             const unsigned int row,
                             const unsigned int column)
 {
@@ -76,14 +135,26 @@ void DenseFactor::eliminate(FullMatrix<double> &a,
   for (unsigned int j = 0; j < a.n(); ++j)
     if (column_is_left[j] && a(row, j) != 0.)
       upper.push_back({j, a(row, j)});
-  for (unsigned int i = 0; i < a.m(); ++i)
-    if (row_is_left[i] && a(i, column) != 0.)
+  const auto take_off = [&](const unsigned int i)
+  {
+    if (!row_is_left[i] || a(i, column) == 0.)
+      return;
+    const double multiple = a(i, column) * pivot.reciprocal;
+    lower.push_back({i, multiple});
+    for (std::size_t e = pivot.begin_upper; e < upper.size(); ++e)
     {
-      const double multiple = a(i, column) * pivot.reciprocal;
-      lower.push_back({i, multiple});
-      for (std::size_t e = pivot.begin_upper; e < upper.size(); ++e)
-        a(i, upper[e].index) -= multiple * upper[e].value;
+      double &entry = a(i, upper[e].index);
+      if (entry == 0.)
+        short_columns.add(i, upper[e].index);
+      entry -= multiple * upper[e].value;
     }
+  };
+  if (short_columns.has(column))
+    for (const unsigned int i : short_columns.rows_of(column))
+      take_off(i);
+  else
+    for (unsigned int i = 0; i < a.m(); ++i)
+      take_off(i);
   pivots.push_back(pivot);
 }
 
@@ -91,19 +162,23 @@ void DenseFactor::eliminate(FullMatrix<double> &a,
 void DenseFactor::eliminate(FullMatrix<double> &a)
 {
   const unsigned int n = a.m();
-  std::vector<unsigned int> in_row(n, 0), in_column(n, 0);
+  Counts in_row(n, 0), in_column(n, 0);
   for (unsigned int i = 0; i < n; ++i)
   {
     const double *const row = &a(i, 0);
+    std::uint64_t count = 0;
     for (unsigned int j = 0; j < n; ++j)
     {
-      in_row[i] += row[j] != 0.;
-      in_column[j] += row[j] != 0.;
+      const std::uint64_t one = row[j] != 0.;
+      count += one;
+      in_column[j] += one;
     }
+    in_row[i] = count;
   }
   struct Line
   {
-    unsigned int count, index;
+    std::uint64_t count;
+    unsigned int index;
     bool is_row;
   };
   std::vector<Line> lines;
@@ -117,6 +192,7 @@ void DenseFactor::eliminate(FullMatrix<double> &a)
   std::stable_sort(lines.begin(), lines.end(),
                    [](const Line &l, const Line &m) { return l.count < m.count; });
 
+  ShortColumns short_columns(a, lines.empty() ? Counts() : in_column);
   row_is_left.assign(n, true);
   column_is_left.assign(n, true);
   pivots.clear();
@@ -130,15 +206,22 @@ void DenseFactor::eliminate(FullMatrix<double> &a)
     // By now there may be more entries, or fewer.
     const auto entry = [&](const unsigned int i) { return std::abs(is_row ? a(k, i) : a(i, k)); };
     const std::vector<bool> &others_left = is_row ? column_is_left : row_is_left;
-    const std::vector<unsigned int> &in_other = is_row ? in_column : in_row;
+    const Counts &in_other = is_row ? in_column : in_row;
     across.clear();
     double greatest = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      if (others_left[i] && entry(i) != 0.)
-      {
-        across.push_back(i);
-        greatest = std::max(greatest, entry(i));
-      }
+    const auto look_at = [&](const unsigned int i)
+    {
+      if (!others_left[i] || entry(i) == 0.)
+        return;
+      across.push_back(i);
+      greatest = std::max(greatest, entry(i));
+    };
+    if (is_row)
+      for (unsigned int i = 0; i < n; ++i)
+        look_at(i);
+    else
+      for (const unsigned int i : short_columns.rows_of(k))
+        look_at(i);
     if (across.size() > most_few || !(greatest > nothing_left))
       continue;
     // Of the entries that are great enough, the one across the shortest line.
@@ -146,7 +229,7 @@ void DenseFactor::eliminate(FullMatrix<double> &a)
     for (const unsigned int i : across)
       if (entry(i) >= least_pivot * greatest && (best == n || in_other[i] < in_other[best]))
         best = i;
-    eliminate(a, is_row ? k : best, is_row ? best : k);
+    eliminate(a, short_columns, is_row ? k : best, is_row ? best : k);
   }
   rows_left.clear();
   columns_left.clear();
@@ -160,17 +243,16 @@ void DenseFactor::eliminate(FullMatrix<double> &a)
 }
 
 
-void DenseFactor::reinit(const FullMatrix<double> &matrix)
+void DenseFactor::reinit(FullMatrix<double> matrix)
 {
   scale(matrix);
-  FullMatrix<double> scaled(matrix);
   for (unsigned int i = 0; i < matrix.m(); ++i)
   {
-    double *const row = &scaled(i, 0);
+    double *const row = &matrix(i, 0);
     for (unsigned int j = 0; j < matrix.n(); ++j)
       row[j] = row[j] * scaling[i] * scaling[j];
   }
-  eliminate(scaled);
+  eliminate(matrix);
   const unsigned int n_left = rows_left.size();
   if (n_left == 0)
     return;
@@ -178,7 +260,7 @@ void DenseFactor::reinit(const FullMatrix<double> &matrix)
   lu.reinit(n_left, n_left);
   for (unsigned int i = 0; i < n_left; ++i)
     for (unsigned int j = 0; j < n_left; ++j)
-      lu(j, i) = scaled(rows_left[i], columns_left[j]);
+      lu(j, i) = matrix(rows_left[i], columns_left[j]);
   try
   {
     lu.compute_lu_factorization();

@@ -16,7 +16,7 @@ class DenseFactor
 {
 public:
   /// @throws SolveError when the matrix is singular
-  void reinit(const dealii::FullMatrix<double> &);
+  void reinit(dealii::FullMatrix<double>);
 
   /// x := A^-1 x
   void solve(dealii::Vector<double> &x) const;
@@ -37,8 +37,13 @@ private:
   /// Eliminate by rows and columns of the scaled matrix that have few entries; fills all but `lu`.
   void eliminate(dealii::FullMatrix<double> &scaled);
 
+  class ShortColumns;
+
   /// Eliminate the unknown of a column by a row.
-  void eliminate(dealii::FullMatrix<double> &scaled, unsigned int row, unsigned int column);
+  void eliminate(dealii::FullMatrix<double> &scaled,
+                 ShortColumns &,
+                 unsigned int row,
+                 unsigned int column);
 
   /// Scale a right-hand side and take the pivots' rows off what is left.
   void forward(double *x, double *of_left) const;

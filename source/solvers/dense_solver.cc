@@ -64,8 +64,9 @@ void DenseSolver::forget()
   kept.clear();
   kept_identities.clear();
   last_identities.clear();
-  waits = n_used = 0;
-  waits_for = 1;
+  if (n_used > 0)
+    waits_for = 1; // otherwise there is no more use for one after this than before
+  n_used = 0;
   has_chosen = false;
   columns.reinit(0, 0);
 }
@@ -262,12 +263,19 @@ void DenseSolver::factorise(FullMatrix<double> matrix, const std::vector<unsigne
           small(full[i], j) -= full_product(i, j);
     }
   }
-  last_matrix = std::move(matrix);
-  last_identities = identities;
+  if (kept.empty())
+    small = waits > 0 ? std::move(matrix) : matrix;
+  // What comes while one waits is not compared with this one.
+  last_identities.clear();
+  if (waits == 0)
+  {
+    last_matrix = std::move(matrix);
+    last_identities = identities;
+  }
   if (!rest.empty())
     try
     {
-      rest_factor.reinit(kept.empty() ? last_matrix : small);
+      rest_factor.reinit(std::move(small));
     }
     catch (const SolveError &)
     {

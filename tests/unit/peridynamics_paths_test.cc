@@ -194,6 +194,18 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
   paths.set_advances([](const TrackedPaths::End &) { return 0.; }, none_ahead);
   CHECK(!paths.let_fluid_back());
   CHECK(paths.wet_pieces().size() == 3);
+  // It stays where it has gone by itself: it would go there again.
+  const auto half = [](const TrackedPaths::End &) { return 0.5; };
+  CHECK(paths.set_advances([](const TrackedPaths::End &) { return 1.25; }, none_ahead, true));
+  CHECK(!paths.set_advances(half, none_ahead, true));
+  CHECK(!paths.let_fluid_back());
+  CHECK(paths.wet_pieces().size() == 4);
+  // What softened after it is another matter.
+  paths.extend({{end, up}});
+  CHECK(paths.set_advances([](const TrackedPaths::End &) { return 2.25; }, none_ahead));
+  CHECK(!paths.set_advances(half, none_ahead, true));
+  CHECK(paths.let_fluid_back());
+  CHECK(paths.wet_pieces().size() == 3);
 }
 
 

@@ -194,7 +194,8 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
         return tip;
       const double end_of_zone = 3. * rounded(to_come[end.path][end.side] / unit);
       return tip + h * std::max(least_lead, end_of_zone - share_in_zone);
-    });
+    },
+    about_to_soften.empty() && !lattice.softening.brittle());
 }
 
 

@@ -300,7 +300,7 @@ void TrackedPaths::forget_way(const End &end)
   else
     path.points.resize(path.points.size() - growth.n_points);
   growth.n_points = 0;
-  growth.advance = growth.wet = growth.kept = growth.front = 0.;
+  growth.advance = growth.wet = growth.kept = growth.front = growth.asked_for = 0.;
 }
 
 

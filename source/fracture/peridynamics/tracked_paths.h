@@ -113,20 +113,25 @@ public:
 
   /// How far the tip of an end has come, on the way that is there [m], and fluid where it is ahead
   /// of that.
+  /// @param same_bonds none softens that did not when the fluid was where it has been so far
   /// @return whether fluid has reached other pieces than before
   bool set_advances(const std::function<double(const End &)> &advance,
-                    const std::function<double(const End &)> &fluid);
+                    const std::function<double(const End &)> &fluid,
+                    bool same_bonds = false);
 
   /// A step is accepted: fluid stays where it is.
   void keep_fluid()
   {
     for (Path &path : paths)
       for (Growth &growth : path.ends)
+      {
         growth.kept = growth.wet;
+        growth.asked_for = 0.;
+      }
   }
 
   /// Fluid leaves pieces that it has reached in this step, and that its front, by the tips as they
-  /// are, is not in.
+  /// are, is not in. But where nothing has changed except that fluid is there, it would come back.
   /// @return whether there are any
   bool let_fluid_back();
 
@@ -265,6 +270,7 @@ private:
     double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
     double kept = 0.;              ///< of the fluid at the last step [m]
     double front = 0.;             ///< of the fluid by the tip as it is; not kept [m]
+    double asked_for = 0.;         ///< front with the same bonds and the fluid behind; not kept [m]
     bool joined = false;           ///< it has met another path
     bool passes = false;           ///< and came past it
     unsigned int joined_path = 0;  ///< which

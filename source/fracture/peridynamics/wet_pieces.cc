@@ -139,7 +139,8 @@ void TrackedPaths::find_wet_pieces()
 
 
 bool TrackedPaths::set_advances(const std::function<double(const End &)> &advance,
-                                const std::function<double(const End &)> &fluid)
+                                const std::function<double(const End &)> &fluid,
+                                const bool same_bonds)
 {
   for (unsigned int p = 0; p < paths.size(); ++p)
     for (const unsigned int side : {0u, 1u})
@@ -151,7 +152,12 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
       growth.front = std::clamp(fluid({p, side}), growth.advance, way({p, side}));
       growth.wet = std::max(growth.wet, growth.front);
     }
-  return wets_others();
+  const bool changed = wets_others();
+  if (changed)
+    for (Path &path : paths)
+      for (Growth &growth : path.ends)
+        growth.asked_for = same_bonds ? growth.front : 0.;
+  return changed;
 }
 
 
@@ -176,7 +182,7 @@ bool TrackedPaths::let_fluid_back()
     for (const unsigned int side : {0u, 1u})
       if (Growth &growth = paths[p].ends[side];
           !growth.joined && !is_joined({p, side})) // the other path would be cut off
-        growth.wet = std::max(growth.kept, growth.front);
+        growth.wet = std::max({growth.kept, growth.front, growth.asked_for});
   return wets_others();
 }
 
