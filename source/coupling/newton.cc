@@ -294,9 +294,11 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // A tangent that is nearly singular, as where rock yields and does not know yet whether it will
   // be unloaded, sends it further still.
   const unsigned int most_halvings = assembly.nonlinear_rock() != nullptr ? 8 : 4;
-  // Where secants are used, forces have to grow on the way; the fluid's imbalance must not come to
-  // more than all was.
-  const double of_all = iteration < 6 ? 3. : 1., of_forces = assembly.uses_secants() ? 2. : 1.;
+  // Where secants are used, forces have to grow on the way, but not at its end, or a solve might go
+  // to and fro; the fluid's imbalance must not come to more than all was.
+  const bool at_end = 4 * iteration >= 3 * parameters.max_iterations;
+  const double of_all = iteration < 6 ? 3. : 1.,
+               of_forces = assembly.uses_secants() && !at_end ? 2. : 1.;
   const auto is_near = [&]()
   {
     return imbalance(norms) < std::max(of_all, of_forces) * before &&

@@ -203,7 +203,7 @@ std::vector<std::pair<const ExtraSchur::SparseVector *, double>> ExtraSchur::col
   return result;
 }
 
-dealii::FullMatrix<double> ExtraSchur::product() const
+dealii::FullMatrix<double> ExtraSchur::product(const double factor) const
 {
   const unsigned int n = found.size();
   dealii::FullMatrix<double> result(n, n);
@@ -211,9 +211,10 @@ dealii::FullMatrix<double> ExtraSchur::product() const
     if (found[i].place != no_place)
     {
       const std::vector<double> &row = products[found[i].place];
+      const double of_row = factor * found[i].row;
       for (unsigned int j = 0; j < n; ++j)
         if (found[j].place != no_place)
-          result(i, j) = found[i].row * found[j].column * row[found[j].place];
+          result(i, j) = of_row * found[j].column * row[found[j].place];
     }
   return result;
 }
@@ -258,8 +259,7 @@ void ExtraSchur::update(const SystemOperator &op,
                { return a.row == b.row && a.column == b.column && a.value == b.value; });
   if (same)
     return;
-  dealii::FullMatrix<double> s = product();
-  s *= -1.;
+  dealii::FullMatrix<double> s = product(-1.);
   for (const auto &e : corner)
     s(e.row, e.column) += e.value;
   factorise(std::move(s));

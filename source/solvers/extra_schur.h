@@ -51,8 +51,8 @@ public:
                      bool symmetric_bulk,
                      const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
 
-  /// C A^-1 B of the border of the last update.
-  dealii::FullMatrix<double> product() const;
+  /// C A^-1 B of the border of the last update, times a factor.
+  dealii::FullMatrix<double> product(double factor = 1.) const;
 
   /// Factorise S = D - C A^-1 B with that border, the same on every rank. Throws SolveError when S
   /// is singular.

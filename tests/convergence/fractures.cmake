@@ -83,13 +83,19 @@ foreach(poisson_ratio 0.15 0.25 0.35)
            "errors/net_inlet_pressure/mean < 0.03" "fluid_balance/relative_error < 1e-8")
 endforeach()
 stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics DECK prm/kgd/sun/peridynamics.prm LABELS nightly
-  SET "Output/Fields=false" SERIES "Resolution=coarse" "Resolution=medium" TOLERANCE 0.3
+  SET "Output/Fields=false" "Fracture/peridynamics/Tracking=none"
+  SERIES "Resolution=coarse" "Resolution=medium" TOLERANCE 0.3
   ORDER "errors/equivalent_length/mean=1" "errors/inlet_aperture/mean=1" "errors/net_inlet_pressure/mean=1")
-# The zone that grows with the fracture does what one does that has been there before.
+# On a path, aperture and pressure begin with smaller errors and fall more slowly (doc/cases/kgd_sun.md).
+stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics/path DECK prm/kgd/sun/peridynamics.prm LABELS nightly
+  SET "Output/Fields=false" SERIES "Resolution=coarse" "Resolution=medium" TOLERANCE 0.3
+  ORDER "errors/equivalent_length/mean=1")
+# The zone that grows with the fracture does what one does that has been there before. How far it strays from its
+# axis, 3 mm of 3 m for the box is higher below, is the same to a hundredth only.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone LABELS nightly
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
   SECOND_SET "Fracture/peridynamics/Zone=(0, -1.1 m) to (7.2 m, 0.9 m)"
-  TOLERANCE 1e-3 IGNORE "error")
+  TOLERANCE 1e-3 IGNORE "error|extent_y")
 # A hydraulic fracture joins a natural crack across its way: a T, which holds what was injected.
 stockwork_case_test(NAME convergence/natural_crack/peridynamics
   DECK tests/data/natural_crack.prm

@@ -50,14 +50,13 @@ std::optional<std::array<double, 2>> TrackedPaths::meet(const Point<2> &a,
 }
 
 
-double TrackedPaths::Path::begin(const unsigned int piece) const
+void TrackedPaths::Path::find_arcs()
 {
-  double arc = 0.;
-  for (unsigned int i = ends[0].n_points; i < piece; ++i)
-    arc += length(i);
-  for (unsigned int i = piece; i < ends[0].n_points; ++i)
-    arc -= length(i);
-  return arc;
+  arcs.assign(points.size(), 0.);
+  for (unsigned int i = ends[0].n_points; i < n_pieces(); ++i)
+    arcs[i + 1] = arcs[i] + length(i);
+  for (unsigned int i = ends[0].n_points; i > 0; --i)
+    arcs[i - 1] = arcs[i] - length(i - 1);
 }
 
 
@@ -88,6 +87,7 @@ void TrackedPaths::reinit(const std::vector<InitialCrack<2>> &cracks,
         path.points.push_back({{point[0], point[1]}});
       }
     }
+    path.find_arcs();
     paths.push_back(path);
   }
   for (unsigned int p = 0; p < paths.size(); ++p)
@@ -300,6 +300,7 @@ void TrackedPaths::forget_way(const End &end)
   else
     path.points.resize(path.points.size() - growth.n_points);
   growth.n_points = 0;
+  path.find_arcs();
   growth.advance = growth.wet = growth.kept = growth.front = growth.asked_for = 0.;
 }
 
@@ -343,6 +344,7 @@ void TrackedPaths::begin_beyond(const Meeting &meeting, const Tensor<1, 2> &dire
   path.ends[0].joined_arc = met.joined_arc;
   path.ends[1].grows = true;
   path.ends[1].n_points = 1;
+  path.find_arcs();
   path.dry = paths[meeting.end.path].dry && paths[met.joined_path].dry;
 }
 
@@ -355,6 +357,7 @@ void TrackedPaths::begin_at(const Point<2> &place, const Tensor<1, 2> &direction
   path.points.insert(path.points.begin(), std::array<double, 2>{{from[0], from[1]}});
   path.ends[0].grows = true;
   path.ends[0].n_points = 1;
+  path.find_arcs();
 }
 
 
@@ -367,6 +370,7 @@ void TrackedPaths::begin_at_side(const Point<2> &place,
   path.points = {{{place[0], place[1]}}, {{to[0], to[1]}}};
   path.ends[1].grows = true;
   path.ends[1].n_points = 1;
+  path.find_arcs();
   path.dry = dry;
   paths.push_back(path);
 }

@@ -294,6 +294,8 @@ private:
     void serialize(Archive &ar, const unsigned int)
     {
       ar &points &ends &dry;
+      if (Archive::is_loading::value)
+        find_arcs();
     }
 
     unsigned int n_pieces() const
@@ -311,8 +313,18 @@ private:
       return point(piece).distance(point(piece + 1));
     }
 
-    /// Arc at which a piece begins [m].
-    double begin(unsigned int piece) const;
+    /// Arc at which a piece begins; that of the last point, for one beyond the last [m].
+    double begin(const unsigned int piece) const
+    {
+      AssertDimension(arcs.size(), points.size());
+      return arcs[piece];
+    }
+
+    /// To be called when points have changed.
+    void find_arcs();
+
+  private:
+    std::vector<double> arcs; ///< of the points
   };
 
   /// Of one path [m].

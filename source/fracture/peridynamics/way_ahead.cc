@@ -106,6 +106,7 @@ bool TrackedPaths::lead_to(const End &end, const Point<2> &place)
     path.points[last] = added;
   else
     return false;
+  path.find_arcs();
   return true;
 }
 
