@@ -200,12 +200,21 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
   CHECK(!paths.set_advances(half, none_ahead, true));
   CHECK(!paths.let_fluid_back());
   CHECK(paths.wet_pieces().size() == 4);
-  // What softened after it is another matter.
+  // But where something has softened since, it might not,
+  CHECK(!paths.set_advances(half, none_ahead));
+  CHECK(paths.let_fluid_back());
+  CHECK(paths.wet_pieces().size() == 3);
+  // nor where something softened with it,
   paths.extend({{end, up}});
   CHECK(paths.set_advances([](const TrackedPaths::End &) { return 2.25; }, none_ahead));
   CHECK(!paths.set_advances(half, none_ahead, true));
   CHECK(paths.let_fluid_back());
   CHECK(paths.wet_pieces().size() == 3);
+  // nor back to where it has not been.
+  CHECK(paths.set_advances([](const TrackedPaths::End &) { return 2.25; }, none_ahead, true));
+  CHECK(!paths.set_advances([](const TrackedPaths::End &) { return 1.25; }, none_ahead, true));
+  CHECK(paths.let_fluid_back());
+  CHECK(paths.wet_pieces().size() == 4);
 }
 
 

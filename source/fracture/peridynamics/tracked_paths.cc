@@ -301,7 +301,7 @@ void TrackedPaths::forget_way(const End &end)
     path.points.resize(path.points.size() - growth.n_points);
   growth.n_points = 0;
   path.find_arcs();
-  growth.advance = growth.wet = growth.kept = growth.front = growth.asked_for = 0.;
+  growth.advance = growth.wet = growth.kept = growth.front = 0.;
 }
 
 

@@ -124,14 +124,12 @@ public:
   {
     for (Path &path : paths)
       for (Growth &growth : path.ends)
-      {
         growth.kept = growth.wet;
-        growth.asked_for = 0.;
-      }
+    went_on_from.clear();
   }
 
   /// Fluid leaves pieces that it has reached in this step, and that its front, by the tips as they
-  /// are, is not in. But where nothing has changed except that fluid is there, it would come back.
+  /// are, is not in. But where it went on by itself from what would be left, it would come again.
   /// @return whether there are any
   bool let_fluid_back();
 
@@ -270,7 +268,6 @@ private:
     double advance = 0., wet = 0.; ///< of the tip, and the farthest of the fluid so far [m]
     double kept = 0.;              ///< of the fluid at the last step [m]
     double front = 0.;             ///< of the fluid by the tip as it is; not kept [m]
-    double asked_for = 0.;         ///< front with the same bonds and the fluid behind; not kept [m]
     bool joined = false;           ///< it has met another path
     bool passes = false;           ///< and came past it
     unsigned int joined_path = 0;  ///< which
@@ -393,8 +390,11 @@ private:
   /// Find them again. If all are the same they keep their weights. @return whether there are others
   bool wets_others();
 
+  static bool are_same(const std::vector<Piece> &some, const std::vector<Piece> &others);
+
   double h = 0.;
   std::vector<Path> paths;
   std::vector<Piece> wet;
+  std::vector<Piece> went_on_from; ///< wet before fluid went on without any bond; empty: it did not
 };
 } // namespace stockwork::peridynamics

@@ -152,12 +152,21 @@ bool TrackedPaths::set_advances(const std::function<double(const End &)> &advanc
       growth.front = std::clamp(fluid({p, side}), growth.advance, way({p, side}));
       growth.wet = std::max(growth.wet, growth.front);
     }
+  const std::vector<Piece> before = wet;
   const bool changed = wets_others();
-  if (changed)
-    for (Path &path : paths)
-      for (Growth &growth : path.ends)
-        growth.asked_for = same_bonds ? growth.front : 0.;
+  if (!same_bonds)
+    went_on_from.clear();
+  else if (changed)
+    went_on_from = before;
   return changed;
+}
+
+
+bool TrackedPaths::are_same(const std::vector<Piece> &some, const std::vector<Piece> &others)
+{
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                    [](const Piece &a, const Piece &b)
+                    { return a.path == b.path && a.begin == b.begin && a.end == b.end; });
 }
 
 
@@ -166,9 +175,7 @@ bool TrackedPaths::wets_others()
   std::vector<Piece> before;
   before.swap(wet);
   find_wet_pieces();
-  const auto is_same = [](const Piece &a, const Piece &b)
-  { return a.path == b.path && a.begin == b.begin && a.end == b.end; };
-  if (!std::equal(wet.begin(), wet.end(), before.begin(), before.end(), is_same))
+  if (!are_same(wet, before))
     return true;
   for (unsigned int i = 0; i < wet.size(); ++i)
     wet[i].weight = before[i].weight;
@@ -178,12 +185,22 @@ bool TrackedPaths::wets_others()
 
 bool TrackedPaths::let_fluid_back()
 {
+  const std::vector<Path> paths_before = paths;
+  const std::vector<Piece> wet_before = wet;
   for (unsigned int p = 0; p < paths.size(); ++p)
     for (const unsigned int side : {0u, 1u})
       if (Growth &growth = paths[p].ends[side];
           !growth.joined && !is_joined({p, side})) // the other path would be cut off
-        growth.wet = std::max({growth.kept, growth.front, growth.asked_for});
-  return wets_others();
+        growth.wet = std::max(growth.kept, growth.front);
+  if (!wets_others())
+    return false;
+  const bool would_come_again = !went_on_from.empty() && are_same(wet, went_on_from);
+  if (would_come_again)
+  {
+    paths = paths_before;
+    wet = wet_before;
+  }
+  return !would_come_again;
 }
 
 
