@@ -260,7 +260,7 @@ void PressureInBonds<dim>::follow()
   ByUnknown by_unknown(fracture.cells.size());
   add_broken(across, by_unknown);
   add_softening(by_unknown);
-  if (parameters.tracked && !scene.has_pore_pressure && !lattice.softening.brittle())
+  if (parameters.tracked && !lattice.softening.brittle())
     find_room_before();
 }
 
