@@ -94,7 +94,7 @@ void Newton<dim>::explain(NonlinearReport &report, const ResidualNorms &toleranc
       ? "Try a greater 'Fracture flow/Minimum aperture' or a smaller 'Time/Minimum step'."
     : worst == 2
       ? "Try smaller cells where the fracture is, so that the part of it that still holds is "
-        "resolved, or a smaller 'Time/Minimum step'."
+        "resolved, more 'Nonlinear solver/Maximum iterations', or a smaller 'Time/Minimum step'."
       : "Try a smaller 'Time/Minimum step', or more 'Nonlinear solver/Maximum iterations'.";
 }
 

@@ -294,11 +294,15 @@ void Newton<dim>::take_increment(const unsigned int iteration)
   // A tangent that is nearly singular, as where rock yields and does not know yet whether it will
   // be unloaded, sends it further still.
   const unsigned int most_halvings = assembly.nonlinear_rock() != nullptr ? 8 : 4;
-  // Where secants are used, forces have to grow on the way, but not at its end, or a solve might go
-  // to and fro; the fluid's imbalance must not come to more than all was.
-  const bool at_end = 4 * iteration >= 3 * parameters.max_iterations;
+  // Where secants are used, forces have to grow on the way, but not where they go to and fro; the
+  // fluid's imbalance must not come to more than all was.
+  constexpr double same_again = 1e-3;
+  constexpr unsigned int many_returns = 2; // once may be by chance
+  n_returns += std::abs(before - last_but_one) < same_again * before;
+  last_but_one = last_imbalance;
+  last_imbalance = before;
   const double of_all = iteration < 6 ? 3. : 1.,
-               of_forces = assembly.uses_secants() && !at_end ? 2. : 1.;
+               of_forces = assembly.uses_secants() && n_returns < many_returns ? 2. : 1.;
   const auto is_near = [&]()
   {
     return imbalance(norms) < std::max(of_all, of_forces) * before &&

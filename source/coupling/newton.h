@@ -168,6 +168,8 @@ private:
   double force = 0.;          ///< scale of residual forces
   unsigned int n_limited = 0; ///< iterations that 'Maximum pressure change' shortened
   unsigned int n_halved = 0;  ///< iterations that were shortened because the residual grew
+  double last_imbalance = 0., last_but_one = 0.; ///< before increments
+  unsigned int n_returns = 0; ///< imbalances that were those of two increments before
   double last_force = 0.;     ///< residual forces before the last iteration, where rock yields
   ForcingTerm forcing_term;   ///< of rock that yields
   BlockVector dx_bulk;

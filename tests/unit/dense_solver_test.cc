@@ -156,6 +156,11 @@ TEST_CASE("Where a kept factor was of no use, the next is waited for")
   CHECK(n_kept(4.) == 0); // which was of no use: wait for one
   CHECK(n_kept(4.) == 0);
   CHECK(n_kept(4.) > 0);
+  CHECK(n_kept(5.) == 0); // of no use: wait for two, also where all is forgotten.
+  solver.forget();
+  CHECK(n_kept(5.) == 0);
+  CHECK(n_kept(5.) == 0);
+  CHECK(n_kept(5.) > 0);
 }
 
 

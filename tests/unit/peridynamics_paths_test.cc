@@ -218,6 +218,25 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
 }
 
 
+TEST_CASE("cracks that cross, and such that end on another one")
+{
+  const auto across = [](const double from, const double to)
+  {
+    TrackedPaths paths;
+    paths.reinit({crack({Point<2>(0., 0.), Point<2>(4., 0.)}),
+                  crack({Point<2>(1.8, from), Point<2>(1.8, to)})},
+                 1., [](const Point<2> &) { return true; });
+    return paths.cross();
+  };
+  const auto place = across(-2., 1.);
+  REQUIRE(place);
+  CHECK(place->distance(Point<2>(1.8, 0.)) < 1e-12);
+  CHECK(!across(0., 2.));
+  CHECK(!across(-2., 0.));
+  CHECK(!across(0.5, 2.));
+}
+
+
 TEST_CASE("a way ends where it meets another path, and the fluid goes on there")
 {
   TrackedPaths paths;

@@ -334,8 +334,8 @@ Verdict Peridynamics<dim>::advance(const StepContext &context,
     // rock it belongs there, see Tips.
     if (parameters.tracked && !scene.has_pore_pressure && !has_let_fluid_back)
     {
-      has_let_fluid_back = true;
-      if (paths.let_fluid_back())
+      has_let_fluid_back = paths.let_fluid_back();
+      if (has_let_fluid_back)
       {
         refresh_segments();
         ++passes;

@@ -155,6 +155,16 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
             "'Fracture/peridynamics/Tracking = path' there must be one crack at a "
             "place: leave one out, or move one by a part of a cell; or set 'Tracking = none'.");
         }
+        if (const auto place = paths.cross())
+        {
+          const InitialCrack<dim> &crack = *std::min_element(
+            scene.cracks.begin(), scene.cracks.end(),
+            [&](const auto &a, const auto &b) { return a.distance(*place) < b.distance(*place); });
+          throw EntryError(crack.entry, crack.text,
+                           "a crack that does not cross another one, as at " + in_metres(*place) +
+                             ", with 'Fracture/peridynamics/Tracking = path'; it may end there. "
+                             "Give it as two cracks that do, or set 'Tracking = none'");
+        }
         committed_paths = paths;
         tips.committed_energy.assign(scene.cracks.size(), {{0., 0.}});
       }

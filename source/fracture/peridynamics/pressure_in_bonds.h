@@ -164,8 +164,8 @@ private:
   add_dilatations(const std::vector<BondAcross<dim>> &across, ByDof &by_dof, ByUnknown &by_unknown);
 
   /// Of segments on pieces that fluid has reached within the step: what bonds there read before,
-  /// under the traction of the piece that they belonged to. In porous rock a piece is there before
-  /// it opens, and brittle bonds read nothing before they break.
+  /// under the traction of the piece that they belonged to. Brittle bonds read nothing before they
+  /// break.
   void find_room_before();
 
   /// Force on one end of a bond by the stress that strains the lattice so; by a strain per

@@ -434,6 +434,31 @@ std::optional<Point<2>> TrackedPaths::overlap() const
 }
 
 
+std::optional<Point<2>> TrackedPaths::cross() const
+{
+  const auto ends_at = [&](const Path &path, const Point<2> &place)
+  {
+    return std::min(path.point(0).distance(place), path.point(path.n_pieces()).distance(place)) <
+           same_place_as * h;
+  };
+  for (unsigned int p = 0; p < paths.size(); ++p)
+    for (unsigned int q = p + 1; q < paths.size(); ++q)
+      for (unsigned int i = 0; i < paths[p].n_pieces(); ++i)
+        for (unsigned int j = 0; j < paths[q].n_pieces(); ++j)
+        {
+          const Point<2> from = paths[q].point(j);
+          const auto met = meet(paths[p].point(i), paths[p].point(i + 1), from,
+                                paths[q].point(j + 1), same_spot * h);
+          if (!met)
+            continue;
+          const Point<2> place = from + (*met)[1] * (paths[q].point(j + 1) - from);
+          if (!ends_at(paths[p], place) && !ends_at(paths[q], place))
+            return place;
+        }
+  return {};
+}
+
+
 double TrackedPaths::distance(const Point<2> &point) const
 {
   return nearest(point, paths.size()).second;

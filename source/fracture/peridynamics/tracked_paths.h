@@ -113,7 +113,7 @@ public:
 
   /// How far the tip of an end has come, on the way that is there [m], and fluid where it is ahead
   /// of that.
-  /// @param same_bonds none softens that did not when the fluid was where it has been so far
+  /// @param same_bonds no bond is about to soften that has not been known to
   /// @return whether fluid has reached other pieces than before
   bool set_advances(const std::function<double(const End &)> &advance,
                     const std::function<double(const End &)> &fluid,
@@ -225,6 +225,10 @@ public:
   /// middle of both.
   std::optional<dealii::Point<2>> overlap() const;
 
+  /// Where two of them cross, of which neither ends there: fluid would not pass from one into the
+  /// other.
+  std::optional<dealii::Point<2>> cross() const;
+
   /// Of a point from the nearest piece of any path or way [m].
   double distance(const dealii::Point<2> &point) const;
 
@@ -317,7 +321,7 @@ private:
       return arcs[piece];
     }
 
-    /// To be called when points have changed.
+    /// To be called when points have changed, and how many of them are ahead of the first end.
     void find_arcs();
 
   private:
