@@ -218,6 +218,25 @@ TEST_CASE("a tip goes on its way, and fluid follows it")
 }
 
 
+TEST_CASE("a way turns to a crack that it comes past, and not to one that it leads to")
+{
+  const double angle = M_PI * 25. / 180.;
+  const Tensor<1, 2> along({std::cos(angle), std::sin(angle)}), ahead({1., 0.});
+  const Point<2> met(2. + 1.4 / std::sin(angle), 0.); // 1.4 pieces from the tip, 3.3 ahead
+  const auto joins = [&](const Point<2> &to)
+  {
+    TrackedPaths paths;
+    paths.reinit({crack({Point<2>(0., 0.), Point<2>(2., 0.)}), crack({met - 6. * along, to})}, 1.,
+                 [](const Point<2> &end) { return end[0] > 0.; });
+    const TrackedPaths::End end{0, 1};
+    paths.extend({{end, ahead}});
+    return paths.has_met(end);
+  };
+  CHECK(!joins(met + 4. * along));
+  CHECK(joins(met - along));
+}
+
+
 TEST_CASE("cracks that cross, and such that end on another one")
 {
   const auto across = [](const double from, const double to)

@@ -357,6 +357,11 @@ private:
 
   Extension extension(const End &end, const dealii::Tensor<1, 2> &direction) const;
 
+  /// Whether the line ahead meets a path, so that there is no need to turn to it.
+  bool leads_to(const dealii::Point<2> &head,
+                const dealii::Tensor<1, 2> &direction,
+                unsigned int path) const;
+
   /// The end that grows and has come so far on a path.
   std::optional<End> head_at(const Joint &joint) const;
 

@@ -58,7 +58,8 @@ TrackedPaths::Extension TrackedPaths::extension(const End &end, const Tensor<1, 
   const double towards = across * direction;
   if (away < see_tips * h && towards > least_towards * away && !result.towards)
     result.towards = tip_of(beside);
-  const bool passes = ahead > look_ahead, is_way = end_at(beside).has_value();
+  const bool is_way = end_at(beside).has_value(),
+             passes = ahead > look_ahead && (is_way || !leads_to(head, direction, beside.path));
   if (away < nearly_there * h && towards >= -least_towards * away && (passes || is_way))
   {
     result.joins = result.passes = true;
@@ -68,6 +69,20 @@ TrackedPaths::Extension TrackedPaths::extension(const End &end, const Tensor<1, 
   else if (passes && is_way && away < look_ahead * h && towards > least_towards * away)
     result.next = head + h / away * across;
   return result;
+}
+
+
+bool TrackedPaths::leads_to(const Point<2> &head,
+                            const Tensor<1, 2> &direction,
+                            const unsigned int path) const
+{
+  constexpr double farthest = nearly_there / least_towards;
+  for (unsigned int i = 0; i < paths[path].n_pieces(); ++i)
+    if (const auto met = meet(head, head + farthest * h * direction, paths[path].point(i),
+                              paths[path].point(i + 1), same_spot * h);
+        met && (*met)[0] > 0. && (*met)[0] < 1.)
+      return true;
+  return false;
 }
 
 
