@@ -93,7 +93,7 @@ stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics/path DECK prm/k
 stockwork_case_test(NAME convergence/kgd/sun/peridynamics/path LABELS nightly DECK prm/kgd/sun/peridynamics.prm
   SET "Output/Fields=false" "Resolution=medium" # 0.29, 0.77, 0.22 %
   EXPECT "errors/equivalent_length/mean < 0.004" "errors/inlet_aperture/mean < 0.01" "errors/net_inlet_pressure/mean < 0.003"
-         "final/extent_y < 0.01")
+         "final/extent_y < 0.02") # 0.0167 of 5.7 m: the box is higher below
 # The zone that grows with the fracture does what one does that has been there before. How far it strays from its
 # axis, 3 mm of 3 m for the box is higher below, is the same to a hundredth only.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone LABELS nightly
