@@ -145,6 +145,9 @@ foreach(scheme "backward Euler" BDF2)
     EXPECT "minimum/minimum_pressure > -1e6" "final/inlet_pressure = 1.117e6 within 0.02"
            "fluid_balance/relative_error < 1e-8") # 1.101 MPa
 endforeach()
+stockwork_same_test(NAME convergence/kgd/sun/permeable/ranks DECK prm/kgd/sun/permeable/peridynamics.prm RANKS 1,2
+  SET "Resolution=coarse" "Output/Fields=false" "Time/Maximum step=50 ms" "Time/End time=1.5 s"
+  TOLERANCE 1e-6 IGNORE "balance_error|defect")
 
 # In porous rock pores and fracture at one pressure open nothing; with half of it in the fracture, its faces touch. At once, it
 # is a crack in the undrained rock, see above.

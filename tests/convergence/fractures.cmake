@@ -93,9 +93,9 @@ stockwork_order_test(NAME convergence/order/kgd/sun/peridynamics/path DECK prm/k
 stockwork_case_test(NAME convergence/kgd/sun/peridynamics/path LABELS nightly DECK prm/kgd/sun/peridynamics.prm
   SET "Output/Fields=false" "Resolution=medium" # 0.29, 0.77, 0.22 %
   EXPECT "errors/equivalent_length/mean < 0.004" "errors/inlet_aperture/mean < 0.01" "errors/net_inlet_pressure/mean < 0.003"
-         "final/extent_y < 0.02") # 0.0167 of 5.7 m: the box is higher below
-# The zone that grows with the fracture does what one does that has been there before. How far it strays from its
-# axis, 3 mm of 3 m for the box is higher below, is the same to a hundredth only.
+         "final/extent_y < 0.02") # 0.0167 of 5.7 m: the box reaches farther down than up
+# The zone that grows with the fracture does what one does that has been there before. The fracture strays from its axis by 3 mm of 3 m,
+# since the box reaches farther down than up; these 3 mm are the same to a hundredth only.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/growing_zone LABELS nightly
   DECK prm/kgd/sun/peridynamics.prm SET "Resolution=coarse" "Time/End time=5 s"
   SECOND_SET "Fracture/peridynamics/Zone=(0, -1.1 m) to (7.2 m, 0.9 m)"
@@ -146,7 +146,7 @@ stockwork_case_test(NAME convergence/natural_crack/30 DECK prm/natural_crack/30/
 # third of a cell farther. It turned to it by 60 degrees from a piece and a half off, and had 0.891.
 stockwork_case_test(NAME convergence/natural_crack/30/shifted DECK tests/data/natural_crack_30_shifted.prm
   SET "Output/Fields=false" "Time/End time=4 s" EXPECT "final/net_inlet_pressure = 7.12e5 within 0.06")
-# Newton's method goes to and fro there where forces may grow for ever: 11 steps were rejected.
+# Where Newton's method let forces grow again and again it came to no end here, and 11 steps were rejected.
 stockwork_case_test(NAME convergence/natural_crack/45 DECK prm/natural_crack/45/peridynamics.prm
   SET "Output/Fields=false" "Time/End time=5 s" EXPECT "rejected_steps < 3" "fluid_balance/relative_error < 1e-8") # 0
 # Inertia that is too small to matter changes nothing: Newmark's scheme with gamma = 1 against the

@@ -253,6 +253,11 @@ TEST_CASE("cracks that cross, and such that end on another one")
   CHECK(!across(0., 2.));
   CHECK(!across(-2., 0.));
   CHECK(!across(0.5, 2.));
+  TrackedPaths loop;
+  loop.reinit({crack({Point<2>(0., 0.), Point<2>(4., 0.), Point<2>(4., 3.), Point<2>(1.7, -2.)})},
+              1., [](const Point<2> &) { return true; });
+  REQUIRE(loop.cross());
+  CHECK(std::abs((*loop.cross())[1]) < 1e-12);
 }
 
 

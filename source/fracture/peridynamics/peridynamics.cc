@@ -161,7 +161,8 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
             scene.cracks.begin(), scene.cracks.end(),
             [&](const auto &a, const auto &b) { return a.distance(*place) < b.distance(*place); });
           throw EntryError(crack.entry, crack.text,
-                           "a crack that does not cross another one, as at " + in_metres(*place) +
+                           "a crack that does not cross another one or itself, as at " +
+                             in_metres(*place) +
                              ", with 'Fracture/peridynamics/Tracking = path'; it may end there. "
                              "Give it as two cracks that do, or set 'Tracking = none'");
         }

@@ -442,9 +442,9 @@ std::optional<Point<2>> TrackedPaths::cross() const
            same_place_as * h;
   };
   for (unsigned int p = 0; p < paths.size(); ++p)
-    for (unsigned int q = p + 1; q < paths.size(); ++q)
+    for (unsigned int q = p; q < paths.size(); ++q)
       for (unsigned int i = 0; i < paths[p].n_pieces(); ++i)
-        for (unsigned int j = 0; j < paths[q].n_pieces(); ++j)
+        for (unsigned int j = p == q ? i + 2 : 0; j < paths[q].n_pieces(); ++j)
         {
           const Point<2> from = paths[q].point(j);
           const auto met = meet(paths[p].point(i), paths[p].point(i + 1), from,

@@ -225,8 +225,8 @@ public:
   /// middle of both.
   std::optional<dealii::Point<2>> overlap() const;
 
-  /// Where two of them cross, of which neither ends there: fluid would not pass from one into the
-  /// other.
+  /// Where two of them cross, of which neither ends there, or one crosses itself: fluid would not
+  /// pass over.
   std::optional<dealii::Point<2>> cross() const;
 
   /// Of a point from the nearest piece of any path or way [m].
