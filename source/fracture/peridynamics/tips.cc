@@ -7,10 +7,11 @@ namespace stockwork::peridynamics
 {
 namespace
 {
-/// Of the fluid over the tip, in spacings. Where viscosity dominates nothing softens ahead of the
-/// tip, and with less the fracture becomes too long (doc/laboratory/peridynamics_paths.md, The
+/// Of the fluid over the tip, in spacings, at least, and over that of the equivalent elastic crack
+/// at most. Where viscosity dominates nothing softens ahead of the tip, and with less the fracture
+/// becomes too long; where the zone is long, with more (doc/laboratory/peridynamics_paths.md, The
 /// front of the fluid).
-constexpr double least_lead = 0.25;
+constexpr double lead_of_fluid = 0.25;
 /// Share of a piece that lies in the process zone when fluid gets into it. With all of it the
 /// pressure is a little too low, see there.
 constexpr double share_in_zone = 0.8;
@@ -155,7 +156,7 @@ Tips<dim>::fluid_ahead(const TrackedPaths &paths,
 /// In elastic rock fluid is in pieces most of which lie in the process zone. If the force falls
 /// linearly over a zone of length L, the energy dissipated puts the tip at L/2, and that of the
 /// elastic crack that is the same from afar is L/6 ahead of it: the end of the zone three times as
-/// far.
+/// far. It goes not much farther than that elastic crack, which has all of the pressure in it.
 ///
 /// Where a way meets another path, the bonds across both belong to that one, so its last part takes
 /// less than G_c; the less, the smaller the angle is. A tip is at the end when all of what there is
@@ -192,8 +193,9 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
       if (tip == 0. || paths.is_all_way(end.path) || paths.has_met(end) ||
           lattice.scene.leaks_by_carter || lattice.softening.brittle())
         return tip;
-      const double end_of_zone = 3. * rounded(to_come[end.path][end.side] / unit);
-      return tip + h * std::max(least_lead, end_of_zone - share_in_zone);
+      const double elastic_tip = rounded(to_come[end.path][end.side] / unit),
+                   of_zone = 3. * elastic_tip - share_in_zone;
+      return tip + h * std::clamp(of_zone, lead_of_fluid, elastic_tip + lead_of_fluid);
     },
     about_to_soften.empty() && !lattice.softening.brittle());
 }
