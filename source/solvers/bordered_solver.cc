@@ -20,6 +20,9 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int max_refinements = 4;
+/// Share of a residual that the Schur complement of the iteration before may be trusted to leave
+/// near the end of Newton's iterations.
+constexpr double by_last_factor = 1e-3;
 /// Right-hand sides solved for at once, as the memory of their dense solutions permits [numbers]:
 /// a factor is read once for all of them.
 constexpr std::size_t least_batch = 32, greatest_batch = 256, memory_of_batch = 1 << 22;
@@ -411,6 +414,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);
   LinearReport report;
   SystemOperator::Border border;
+  bool has_last_factor = false;
   const auto prepare = [&](const bool anew)
   {
     if (anew)
@@ -423,7 +427,11 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     border = border_with_changes(*op);
     if (border.n == 0)
       return;
-    schur.update(*op, border, op->n_bulk(), system.definite, &factor_scaling.bulk);
+    schur.update_border(*op, border, op->n_bulk(), system.definite, &factor_scaling.bulk);
+    has_last_factor = !anew && system.rock_change == nullptr && tolerance >= by_last_factor &&
+                      schur.has_similar_factor();
+    if (!has_last_factor)
+      schur.update_factor(border);
     if (anew)
       most_solutions = 2 * solutions.size();
   };
@@ -457,7 +465,12 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     const double now = op->scaled_norm(r);
     report.relative_residual = now / size;
     report.converged = now <= tolerance * size;
-    if (!report.converged && !(now < 0.5 * last))
+    if (!report.converged && has_last_factor)
+    {
+      schur.update_factor(border);
+      has_last_factor = false;
+    }
+    else if (!report.converged && !(now < 0.5 * last))
     {
       if (report.factorised || system.rock_change != nullptr)
         break;
