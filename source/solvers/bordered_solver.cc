@@ -482,7 +482,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     }
     last = now;
   }
-  if (system.rock_change == nullptr && !(report.relative_residual < 1e-3))
+  if (system.rock_change == nullptr && !report.converged && !(report.relative_residual < 1e-3))
     ExtraSchur::throw_singular();
   dx_bulk = dx.bulk;
   dx_extra = dx.extra;
