@@ -244,12 +244,15 @@ struct Run
   std::shared_ptr<LinearSystem> system; ///< whose matrix a preconditioner that is kept refers to
 };
 
-inline Run solve(LinearSolver &solver, const DenseSystem &d, const SystemStamps &stamps)
+inline Run solve(LinearSolver &solver,
+                 const DenseSystem &d,
+                 const SystemStamps &stamps,
+                 const double tolerance = 1e-12)
 {
   std::shared_ptr<LinearSystem> system = distribute(d);
   TrilinosWrappers::MPI::BlockVector bulk(system->residual_bulk);
   std::vector<double> extra;
-  const auto report = solver.solve(*system, stamps, 1e-12, bulk, extra);
+  const auto report = solver.solve(*system, stamps, tolerance, bulk, extra);
   return {report, error(d, bulk, extra), system};
 }
 } // namespace stockwork::dense_system
