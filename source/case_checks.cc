@@ -271,8 +271,9 @@ void check_random_rock(ParameterHandler &prm,
       warnings.push_back(
         "The rock varies from place to place, but its strength is the model's, and hangs on the "
         "size of the cells: with a deviation of a third the pressure of a fracture differed by "
-        "17 % between cells of 0.2 and 0.1 m, with a strength that the deck gives by 3 %. Give "
-        "'Rock/Tensile strength' for an answer that does not hang on the mesh.");
+        "17 % between cells of 0.2 and 0.1 m, with a strength that the deck gives by 3 %. For an "
+        "answer that does not hang on the mesh give 'Rock/Tensile strength', with a model that "
+        "takes one ('cohesive_xfem', 'damage').");
     if (rock.random->varies(RandomField::permeability) &&
         (leak_off == "resolved" || leak_off == "filter cake"))
       refuse("a list without 'permeability' with 'Fracture flow/Leak-off = " + leak_off +
@@ -291,8 +292,9 @@ namespace
 template <int dim>
 bool is_of_growing_fracture(const ReferenceSolution<dim> &reference, const double time)
 {
-  const std::map<std::string, double> before = reference.values(0.5 * time),
-                                      after = reference.values(time);
+  const double last = std::min(time, reference.valid_until());
+  const std::map<std::string, double> before = reference.values(0.5 * last),
+                                      after = reference.values(last);
   const auto length = after.find("equivalent_length");
   return length != after.end() && length->second > before.at("equivalent_length");
 }
@@ -325,6 +327,13 @@ void check_reference(ParameterHandler &prm,
       "'none': the crack begins on a side that is no plane of symmetry ('Boundary "
       "conditions/Roller'), and the solution is of a fracture in an unbounded body, of which "
       "symmetry shows a part");
+  if (const double until = the_case.reference->valid_until();
+      until < the_case.control.end_time * (1. - 1e-9))
+    warnings.push_back(
+      "The reference, " + the_case.reference->name() + ", holds until " +
+      to_string(until, dimension::time) +
+      " only, for then its fracture is near to the walls, or was not found: errors "
+      "are of the time before ('at the end' is at that time).");
   if (!the_case.scene.cracks.empty() && !the_case.model->requirements().may_grow &&
       is_of_growing_fracture(*the_case.reference, the_case.control.end_time))
     warnings.push_back("The reference, " + the_case.reference->name() +

@@ -463,10 +463,12 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     errors->add_fields(time, step_report.dt, mapping, system.bulk_dofs(), stepper.committed,
                        [this](const auto &cell) { return model.role(cell); });
     errors->add_values(time, step_report.dt, observed);
-    for (const auto &[name, error] : errors->errors())
-      set("error_" + name, error.final);
-    for (const auto &[name, value] : reference->values(time))
-      set("reference_" + name, value);
+    if (errors->compares(time))
+      for (const auto &[name, error] : errors->errors())
+        set("error_" + name, error.final);
+    if (errors->compares(time) || !reference->compares_every_step)
+      for (const auto &[name, value] : reference->values(time))
+        set("reference_" + name, value);
   }
   statistics.end_row();
 

@@ -51,7 +51,9 @@ void ErrorRecord<dim>::add(const std::string &quantity,
 template <int dim>
 bool ErrorRecord<dim>::compares(const double time) const
 {
-  return reference.compares_every_step || time >= end_time * (1. - 1e-12);
+  constexpr double same_time = 1e-12;
+  return time <= reference.valid_until() * (1. + same_time) &&
+         (reference.compares_every_step || time >= end_time * (1. - same_time));
 }
 
 

@@ -76,9 +76,11 @@ public:
     archive &all &peak &peak_reference;
   }
 
-private:
+  /// Whether errors are formed at a time: it may be the last one only, or the reference may not
+  /// reach so far.
   bool compares(double time) const;
 
+private:
   /// @param error against the reference times a factor
   void add(const std::string &quantity,
            double time,

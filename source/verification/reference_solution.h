@@ -59,6 +59,12 @@ public:
   {
   }
 
+  /// The time after which there is nothing to compare with [s].
+  virtual double valid_until() const
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+
   /// Scalars at a time, by the names of the columns of the statistics.
   virtual std::map<std::string, double> values(double /*time*/) const
   {

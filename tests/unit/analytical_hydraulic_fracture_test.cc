@@ -77,6 +77,19 @@ TEST_CASE("KGD between rollers")
                [&](const auto i) { return fracture.inlet_pressure(time(i)); });
   CHECK_COLUMN(table, "V_both_wings_m2", tolerance, each,
                [&](const auto i) { return fracture.fracture_volume(time(i)); });
+  CHECK(fracture.valid_until() == doctest::Approx(time(table.rows() - 1)));
+
+  // To a time at which the walls are passed: it ends before, and until then it is the same.
+  const HydraulicFracture longer({fluid, 0., 8., 8.}, 100.);
+  const double last = longer.valid_until();
+  CHECK(longer.half_length(last) < 0.8 * 8.);
+  CHECK(longer.half_length(last) > 0.7 * 8.);
+  for (const double t : {0.5 * last, 0.9 * last, last})
+  {
+    const HydraulicFracture until({fluid, 0., 8., 8.}, t);
+    CHECK(longer.half_length(t) == doctest::Approx(until.half_length(t)).epsilon(tolerance));
+    CHECK(longer.inlet_pressure(t) == doctest::Approx(until.inlet_pressure(t)).epsilon(tolerance));
+  }
 }
 
 namespace

@@ -1,5 +1,6 @@
 #include "verification/analytical/hydraulic_fracture.h"
 
+#include "stockwork/base/error.h"
 #include "verification/analytical/constants.h"
 #include "verification/analytical/fracture_front.h"
 #include "verification/analytical/roller_walls.h"
@@ -23,6 +24,10 @@ constexpr double short_step = 0.1, short_span = 14.;
 
 // Half length over half width below which walls do nothing: their share grows as its square.
 constexpr double no_walls = 1e-3;
+
+// That above which it is too near to them, and steps that interpolation takes.
+constexpr double near_walls = 0.8;
+constexpr std::size_t least_steps = 4;
 
 // Weights of equally spaced values in the polynomial through them, at `position` in steps from
 // the first.
@@ -176,7 +181,18 @@ HydraulicFracture::Steps::Steps(const HydraulicFractureParameters &parameters,
       memory.remember({{-2. / time_step, earlier}, {0.5 / time_step, two_earlier}});
     if (step > 1)
       front = extrapolated(earlier, two_earlier);
-    solve_front(grid, toughness(t), memory, front);
+    try
+    {
+      solve_front(grid, toughness(t), memory, front);
+    }
+    catch (const SolveError &)
+    {
+      if (step < least_steps)
+        throw;
+      return;
+    }
+    if (step >= least_steps && front.gamma * scale > near_walls * parameters.half_width)
+      return;
 
     path.log_time.push_back(tau);
     path.log_length.push_back(std::log(front.gamma * scale));
@@ -279,6 +295,14 @@ const HydraulicFracture::Steps &HydraulicFracture::steps() const
   if (!marched)
     marched = std::make_unique<Steps>(parameters, last_time);
   return *marched;
+}
+
+
+double HydraulicFracture::valid_until() const
+{
+  const Steps &all = steps();
+  const double taken = all.log_gamma.size() - 1.;
+  return std::min(last_time, std::exp(all.first_log_time + taken * all.time_step));
 }
 
 

@@ -29,10 +29,10 @@ struct HydraulicFractureParameters
 
 
 /// Marched once in the logarithm of time, by the backward differentiation formula of second order,
-/// when the first number is asked for (some 0.5 s). Valid from 1e-6 of the last time to the last
-/// time; accurate to 2e-4 in length, opening and pressure, with walls as long as the fracture stays
-/// below 0.8 of the width. "Half length" is the radius of a radial fracture; its pressure has a
-/// logarithmic singularity at the inlet, where inlet_pressure means nothing.
+/// when the first number is asked for (some 0.5 s). Valid from 1e-6 of the last time to
+/// valid_until(); accurate to 2e-4 in length, opening and pressure. "Half length" is the radius of
+/// a radial fracture; its pressure has a logarithmic singularity at the inlet, where inlet_pressure
+/// means nothing.
 class HydraulicFracture
 {
 public:
@@ -40,6 +40,10 @@ public:
   ~HydraulicFracture();
   HydraulicFracture(HydraulicFracture &&) noexcept;
   HydraulicFracture &operator=(HydraulicFracture &&) noexcept;
+
+  /// The last time, or the one after which the fracture is longer than 0.8 of the width, or is not
+  /// found [s].
+  double valid_until() const;
 
   double half_length(double t) const;
   double inlet_opening(double t) const;

@@ -159,6 +159,11 @@ public:
     return title;
   }
 
+  double valid_until() const override
+  {
+    return kgd.valid_until();
+  }
+
   std::map<std::string, double> values(const double time) const override
   {
     std::map<std::string, double> result = {

@@ -29,6 +29,11 @@ public:
     return "Radial fracture (Savitski & Detournay 2002, any toughness)";
   }
 
+  double valid_until() const override
+  {
+    return fracture.valid_until();
+  }
+
   /// The length of a fracture in space is its area.
   std::map<std::string, double> values(const double time) const override
   {
