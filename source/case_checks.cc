@@ -327,13 +327,12 @@ void check_reference(ParameterHandler &prm,
       "'none': the crack begins on a side that is no plane of symmetry ('Boundary "
       "conditions/Roller'), and the solution is of a fracture in an unbounded body, of which "
       "symmetry shows a part");
-  if (const double until = the_case.reference->valid_until();
-      until < the_case.control.end_time * (1. - 1e-9))
+  if (!the_case.reference->reaches(the_case.control.end_time))
     warnings.push_back(
       "The reference, " + the_case.reference->name() + ", holds until " +
-      to_string(until, dimension::time) +
-      " only, for then its fracture is near to the walls, or was not found: errors "
-      "are of the time before ('at the end' is at that time).");
+      to_string(the_case.reference->valid_until(), dimension::time) +
+      " only, for then its fracture is near to the walls, or no solution was found: errors are of "
+      "the time before.");
   if (!the_case.scene.cracks.empty() && !the_case.model->requirements().may_grow &&
       is_of_growing_fracture(*the_case.reference, the_case.control.end_time))
     warnings.push_back("The reference, " + the_case.reference->name() +
@@ -363,7 +362,6 @@ void check_reference(ParameterHandler &prm,
   // More than a deck's rounding of a direction: a tenth of a degree where stresses differ by half.
   constexpr double noticeable = 1e-3;
   for (const InitialCrack<dim> &crack : the_case.scene.cracks)
-    // Whether it grows comes last: some solutions take half a second for their first number.
     if (const double shear = shear_stress(the_case.scene, crack);
         shear > noticeable * std::abs(closing_stress(the_case.scene, crack)) &&
         is_of_growing_fracture(*the_case.reference, the_case.control.end_time))

@@ -466,7 +466,7 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     if (errors->compares(time))
       for (const auto &[name, error] : errors->errors())
         set("error_" + name, error.final);
-    if (errors->compares(time) || !reference->compares_every_step)
+    if (reference->reaches(time))
       for (const auto &[name, value] : reference->values(time))
         set("reference_" + name, value);
   }
@@ -569,9 +569,11 @@ void Report<dim>::finish(const unsigned long n_cells)
   if (const std::string choices = system.solver_choices(); !choices.empty())
     run.out << "Linear systems ('Linear solver/Type = auto'): " << choices << ".\n";
   run.timers.print(run.out.get_stream(), run.communicator, steps_of_run);
+  const bool to_the_end = !reference || reference->reaches(control.end_time);
+  const std::string when = to_the_end ? " % at the end, " : " % where the reference ends, ";
   for (const auto &[name, error] : summary.errors)
-    run.out << "error of " << name << ": " << 100. * error.final << " % at the end, "
-            << 100. * error.mean << " % on average (" << error.reference << ")\n";
+    run.out << "error of " << name << ": " << 100. * error.final << when << 100. * error.mean
+            << " % on average (" << error.reference << ")\n";
   run.out << std::flush;
 }
 

@@ -145,11 +145,14 @@ double Newton<dim>::linear_tolerance(const ResidualNorms &allowed)
   add(norms.extra, force, allowed.extra);
   add(norms.mass, mass_scale(), allowed.mass);
   add(norms.fracture_fluid, greatest.fracture_fluid, allowed.fracture_fluid);
-  // Where the rock's factor solves the system, a looser one saves something at the end only: what
-  // the iteration before has factorised will do.
-  const LinearSystem &system = assembly.linear_system();
-  if (system.rock_change == nullptr && !solver.wants_hierarchy(system.residual_bulk.size()))
-    return ForcingTerm::last(excess);
+  // Where the rock's factor solves the system, a looser one would save nothing, but for the last
+  // one: what the iteration before has factorised may do.
+  LinearSystem &system = assembly.linear_system();
+  const bool by_factor =
+    system.rock_change == nullptr && !solver.wants_hierarchy(system.residual_bulk.size());
+  system.enough = by_factor ? ForcingTerm::last(excess) : 0.;
+  if (by_factor)
+    return ForcingTerm::exact;
   return forcing_term.next(residual, excess, n_halved > 0);
 }
 

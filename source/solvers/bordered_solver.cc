@@ -20,8 +20,8 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int max_refinements = 4;
-/// Share of a residual that the Schur complement of the iteration before may be trusted to leave
-/// near the end of Newton's iterations.
+/// Share of a residual that the Schur complement of the iteration before is likely to leave where
+/// Newton's method has nearly converged: it is not tried where less is wanted.
 constexpr double by_last_factor = 1e-3;
 /// Right-hand sides solved for at once, as the memory of their dense solutions permits [numbers]:
 /// a factor is read once for all of them.
@@ -428,8 +428,8 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     if (border.n == 0)
       return;
     schur.update_border(*op, border, op->n_bulk(), system.definite, &factor_scaling.bulk);
-    has_last_factor = !anew && system.rock_change == nullptr && tolerance >= by_last_factor &&
-                      schur.has_similar_factor();
+    has_last_factor =
+      !anew && !took_last_factor && system.enough >= by_last_factor && schur.has_similar_factor();
     if (!has_last_factor)
       schur.update_factor(border);
     if (anew)
@@ -464,13 +464,19 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     op->residual(r, dx);
     const double now = op->scaled_norm(r);
     report.relative_residual = now / size;
-    report.converged = now <= tolerance * size;
+    report.converged = now <= (has_last_factor ? system.enough : tolerance) * size;
+    took_last_factor = has_last_factor && report.converged;
     if (!report.converged && has_last_factor)
     {
+      // From the beginning: what the earlier factor has left may be of any size.
       schur.update_factor(border);
       has_last_factor = false;
+      dx = op->make_vector();
+      r = op->load();
+      last = size;
+      continue;
     }
-    else if (!report.converged && !(now < 0.5 * last))
+    if (!report.converged && !(now < 0.5 * last))
     {
       if (report.factorised || system.rock_change != nullptr)
         break;
@@ -482,7 +488,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     }
     last = now;
   }
-  if (system.rock_change == nullptr && !report.converged && !(report.relative_residual < 1e-3))
+  if (system.rock_change == nullptr && !took_last_factor && !(report.relative_residual < 1e-3))
     ExtraSchur::throw_singular();
   dx_bulk = dx.bulk;
   dx_extra = dx.extra;

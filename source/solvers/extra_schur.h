@@ -44,8 +44,9 @@ public:
               bool symmetric_bulk,
               const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
 
-  /// Whether the factor is of a Schur complement between the same unknowns as the last border, of
-  /// which only D and factors of rows and columns may have changed: the last iteration's.
+  /// Whether the factor is of a Schur complement with the same borders as the last one, up to
+  /// factors of rows and columns: that of an earlier iteration, as a rule. How good it is,
+  /// residuals say.
   bool has_similar_factor() const;
 
   /// The first half of update(): the products.

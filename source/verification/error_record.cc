@@ -52,7 +52,7 @@ template <int dim>
 bool ErrorRecord<dim>::compares(const double time) const
 {
   constexpr double same_time = 1e-12;
-  return time <= reference.valid_until() * (1. + same_time) &&
+  return reference.reaches(time) &&
          (reference.compares_every_step || time >= end_time * (1. - same_time));
 }
 

@@ -65,6 +65,12 @@ public:
     return std::numeric_limits<double>::infinity();
   }
 
+  /// Whether there is something to compare with at a time.
+  bool reaches(const double time) const
+  {
+    return time <= valid_until() * (1. + 1e-9);
+  }
+
   /// Scalars at a time, by the names of the columns of the statistics.
   virtual std::map<std::string, double> values(double /*time*/) const
   {

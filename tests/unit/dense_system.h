@@ -247,12 +247,13 @@ struct Run
 inline Run solve(LinearSolver &solver,
                  const DenseSystem &d,
                  const SystemStamps &stamps,
-                 const double tolerance = 1e-12)
+                 const double enough = 0.)
 {
   std::shared_ptr<LinearSystem> system = distribute(d);
+  system->enough = enough;
   TrilinosWrappers::MPI::BlockVector bulk(system->residual_bulk);
   std::vector<double> extra;
-  const auto report = solver.solve(*system, stamps, tolerance, bulk, extra);
+  const auto report = solver.solve(*system, stamps, 1e-12, bulk, extra);
   return {report, error(d, bulk, extra), system};
 }
 } // namespace stockwork::dense_system

@@ -7,11 +7,15 @@ namespace stockwork::peridynamics
 {
 namespace
 {
-/// Of the fluid over the tip, in spacings, at least, and over that of the equivalent elastic crack
-/// at most. Where viscosity dominates nothing softens ahead of the tip, and with less the fracture
-/// becomes too long; where the zone is long, with more (doc/laboratory/peridynamics_paths.md, The
-/// front of the fluid).
-constexpr double lead_of_fluid = 0.25;
+// How far the fluid is ahead, in spacings (doc/laboratory/peridynamics_paths.md, The front of the
+// fluid).
+
+/// Of the tip, at least. Where viscosity dominates nothing softens ahead of it, and with less the
+/// fracture becomes too long.
+constexpr double least_lead = 0.25;
+/// Of the tip of the equivalent elastic crack, at most. With more the net pressure is too low where
+/// the process zone is long.
+constexpr double most_over_elastic_tip = 0.25;
 /// Share of a piece that lies in the process zone when fluid gets into it. With all of it the
 /// pressure is a little too low, see there.
 constexpr double share_in_zone = 0.8;
@@ -195,7 +199,7 @@ bool Tips<dim>::advance(TrackedPaths &paths, const std::vector<BondView> &about_
         return tip;
       const double elastic_tip = rounded(to_come[end.path][end.side] / unit),
                    of_zone = 3. * elastic_tip - share_in_zone;
-      return tip + h * std::clamp(of_zone, lead_of_fluid, elastic_tip + lead_of_fluid);
+      return tip + h * std::clamp(of_zone, least_lead, elastic_tip + most_over_elastic_tip);
     },
     about_to_soften.empty() && !lattice.softening.brittle());
 }

@@ -191,7 +191,7 @@ HydraulicFracture::Steps::Steps(const HydraulicFractureParameters &parameters,
         throw;
       return;
     }
-    if (step >= least_steps && front.gamma * scale > near_walls * parameters.half_width)
+    if (step >= least_steps && !(front.gamma * scale <= near_walls * parameters.half_width))
       return;
 
     path.log_time.push_back(tau);

@@ -41,8 +41,8 @@ public:
   HydraulicFracture(HydraulicFracture &&) noexcept;
   HydraulicFracture &operator=(HydraulicFracture &&) noexcept;
 
-  /// The last time, or the one after which the fracture is longer than 0.8 of the width, or is not
-  /// found [s].
+  /// The last time, or that of the last step (a tenth of the time) at which the fracture is shorter
+  /// than 0.8 of the width, and found [s].
   double valid_until() const;
 
   double half_length(double t) const;
