@@ -87,6 +87,7 @@ void TrackedPaths::reinit(const std::vector<InitialCrack<2>> &cracks,
         path.points.push_back({{point[0], point[1]}});
       }
     }
+    path.cemented = crack.kind == InitialCrack<2>::Kind::cohesive;
     path.find_arcs();
     paths.push_back(path);
   }
@@ -123,8 +124,18 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
 {
   const double reach = 0.5 * a.distance(b) + h;
   const Point<2> middle = a + 0.5 * (b - a);
+  // Bonds across an open crack are cut already. Across cement they hold, and those of them that a
+  // fracture opens which meets it are in its way, under the stress across it and not across the
+  // cement.
   std::optional<Crossing> found;
-  double nearest = 2.;
+  double nearest = 0., slant_of_nearest = 0.;
+  const auto is_better = [&](const unsigned int path, const double away, const double slant)
+  {
+    if (found && path != found->path && (paths[path].cemented || paths[found->path].cemented) &&
+        std::abs(slant - slant_of_nearest) > same_spot)
+      return slant < slant_of_nearest;
+    return !found || away < nearest - same_spot;
+  };
   for (unsigned int p = 0; p < paths.size(); ++p)
   {
     const Path &path = paths[p];
@@ -135,11 +146,16 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
           std::min(c[1], d[1]) > middle[1] + reach || std::max(c[1], d[1]) < middle[1] - reach)
         continue;
       if (const auto shares = meet(a, b, c, d, same_spot * h))
-        if (const double away = std::abs((*shares)[0] - 0.5); away < nearest - same_spot)
+      {
+        const double away = std::abs((*shares)[0] - 0.5),
+                     slant = std::abs((b - a) * (d - c)) / (a.distance(b) * c.distance(d));
+        if (is_better(p, away, slant))
         {
           nearest = away;
+          slant_of_nearest = slant;
           found = Crossing{p, path.begin(i) + (*shares)[1] * path.length(i)};
         }
+      }
     }
   }
   return found;

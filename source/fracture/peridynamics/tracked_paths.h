@@ -62,7 +62,8 @@ public:
               double spacing,
               const std::function<bool(const dealii::Point<2> &)> &may_grow);
 
-  /// Of the line from a to b, nearest to its middle; nothing if it crosses no path.
+  /// Of the line from a to b, nearest to its middle; of two paths of which one is cemented, that
+  /// which it crosses more squarely. Nothing if it crosses no path.
   std::optional<Crossing> crossing(const dealii::Point<2> &a, const dealii::Point<2> &b) const;
 
   /// Whether the line from a to b crosses an initial crack, not its ways.
@@ -289,12 +290,13 @@ private:
   {
     std::vector<std::array<double, 2>> points; ///< of the ways as well
     std::array<Growth, 2> ends;
-    bool dry = false; ///< as long as no path with fluid has joined it
+    bool dry = false;      ///< as long as no path with fluid has joined it
+    bool cemented = false; ///< an initial crack across which bonds hold
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &points &ends &dry;
+      ar &points &ends &dry &cemented;
       if (Archive::is_loading::value)
         find_arcs();
     }
