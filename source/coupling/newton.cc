@@ -150,7 +150,10 @@ double Newton<dim>::linear_tolerance(const ResidualNorms &allowed)
   LinearSystem &system = assembly.linear_system();
   const bool by_factor =
     system.rock_change == nullptr && !solver.wants_hierarchy(system.residual_bulk.size());
-  system.enough = by_factor ? ForcingTerm::last(excess) : 0.;
+  // (Rock that may yield, and does not, gives the digits of elastic rock, whose system is
+  // condensed.)
+  system.enough =
+    by_factor && assembly.nonlinear_rock() == nullptr ? ForcingTerm::last(excess) : 0.;
   if (by_factor)
     return ForcingTerm::exact;
   return forcing_term.next(residual, excess, n_halved > 0);
