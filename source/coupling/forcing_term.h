@@ -37,15 +37,9 @@ public:
       eta = exact;
     // An evaluation of the rock costs two back-substitutions or more, so the last iterations
     // should not miss their end.
-    eta = std::max(eta, last(excess));
+    if (excess > 0.)
+      eta = std::max(eta, end / excess);
     return std::clamp(eta, exact, loosest);
-  }
-
-  /// What is enough if this iteration is to be the last, by the greatest ratio of a residual to
-  /// what counts as none.
-  static double last(const double excess)
-  {
-    return excess > 0. ? std::clamp(end / excess, exact, loosest) : exact;
   }
 
 private:

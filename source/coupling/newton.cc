@@ -133,6 +133,10 @@ double Newton<dim>::linear_tolerance(const ResidualNorms &allowed)
 {
   if (linear)
     return parameters.tolerance;
+  // Where the rock's factor solves the system, a looser one would save nothing.
+  const LinearSystem &system = assembly.linear_system();
+  if (system.rock_change == nullptr && !solver.wants_hierarchy(system.residual_bulk.size()))
+    return ForcingTerm::exact;
   double residual = 0., excess = 0.;
   const auto add = [&](const double norm, const double scale, const double allowed)
   {
@@ -145,17 +149,6 @@ double Newton<dim>::linear_tolerance(const ResidualNorms &allowed)
   add(norms.extra, force, allowed.extra);
   add(norms.mass, mass_scale(), allowed.mass);
   add(norms.fracture_fluid, greatest.fracture_fluid, allowed.fracture_fluid);
-  // Where the rock's factor solves the system, a looser one would save nothing, but for the last
-  // one: what the iteration before has factorised may do.
-  LinearSystem &system = assembly.linear_system();
-  const bool by_factor =
-    system.rock_change == nullptr && !solver.wants_hierarchy(system.residual_bulk.size());
-  // (Rock that may yield, and does not, gives the digits of elastic rock, whose system is
-  // condensed.)
-  system.enough =
-    by_factor && assembly.nonlinear_rock() == nullptr ? ForcingTerm::last(excess) : 0.;
-  if (by_factor)
-    return ForcingTerm::exact;
   return forcing_term.next(residual, excess, n_halved > 0);
 }
 

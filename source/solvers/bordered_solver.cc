@@ -20,9 +20,6 @@ namespace stockwork
 namespace
 {
 constexpr unsigned int max_refinements = 4;
-/// Share of a residual that the Schur complement of the iteration before is likely to leave where
-/// Newton's method has nearly converged: it is not tried where less is wanted.
-constexpr double by_last_factor = 1e-3;
 /// Right-hand sides solved for at once, as the memory of their dense solutions permits [numbers]:
 /// a factor is read once for all of them.
 constexpr std::size_t least_batch = 32, greatest_batch = 256, memory_of_batch = 1 << 22;
@@ -414,7 +411,6 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     system, communicator, same_bulk || may_keep ? &factor_scaling.bulk : nullptr);
   LinearReport report;
   SystemOperator::Border border;
-  bool has_last_factor = false;
   const auto prepare = [&](const bool anew)
   {
     if (anew)
@@ -427,11 +423,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     border = border_with_changes(*op);
     if (border.n == 0)
       return;
-    schur.update_border(*op, border, op->n_bulk(), system.definite, &factor_scaling.bulk);
-    has_last_factor =
-      !anew && !took_last_factor && system.enough >= by_last_factor && schur.has_similar_factor();
-    if (!has_last_factor)
-      schur.update_factor(border);
+    schur.update(*op, border, op->n_bulk(), system.definite, &factor_scaling.bulk);
     if (anew)
       most_solutions = 2 * solutions.size();
   };
@@ -464,18 +456,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     op->residual(r, dx);
     const double now = op->scaled_norm(r);
     report.relative_residual = now / size;
-    report.converged = now <= (has_last_factor ? system.enough : tolerance) * size;
-    took_last_factor = has_last_factor && report.converged;
-    if (!report.converged && has_last_factor)
-    {
-      // From the beginning: what the earlier factor has left may be of any size.
-      schur.update_factor(border);
-      has_last_factor = false;
-      dx = op->make_vector();
-      r = op->load();
-      last = size;
-      continue;
-    }
+    report.converged = now <= tolerance * size;
     if (!report.converged && !(now < 0.5 * last))
     {
       if (report.factorised || system.rock_change != nullptr)
@@ -488,7 +469,7 @@ LinearReport BorderedSolver::solve(const LinearSystem &system,
     }
     last = now;
   }
-  if (system.rock_change == nullptr && !took_last_factor && !(report.relative_residual < 1e-3))
+  if (system.rock_change == nullptr && !(report.relative_residual < 1e-3))
     ExtraSchur::throw_singular();
   dx_bulk = dx.bulk;
   dx_extra = dx.extra;

@@ -105,10 +105,6 @@ private:
   bool keeps_values = false; ///< A is not definite; the same on every rank, with rows or without
   std::vector<double> factor_values; ///< then, of this rank's rows
 
-  /// The last solution was found by an earlier dense factor. That does so once, or Newton's method
-  /// might creep.
-  bool took_last_factor = false;
-
   unsigned int values_with_changes = 0; ///< stamp of the values that `changes` belong to
   unsigned int n_changes = 0;           ///< rows, of all ranks
   Triplets change_columns, change_rows; ///< E/d and -d dA, d the scaling; rows numbered from zero

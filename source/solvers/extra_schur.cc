@@ -252,18 +252,6 @@ void ExtraSchur::update(const SystemOperator &op,
                         const dealii::TrilinosWrappers::MPI::BlockVector *bulk_scaling)
 {
   update_border(op, border, end, symmetric_bulk, bulk_scaling);
-  update_factor(border);
-}
-
-bool ExtraSchur::has_similar_factor() const
-{
-  return has_factor &&
-         std::equal(found.begin(), found.end(), found_for_factor.begin(), found_for_factor.end(),
-                    [](const Known &a, const Known &b) { return a.place == b.place; });
-}
-
-void ExtraSchur::update_factor(const SystemOperator::Border &border)
-{
   const auto &corner = border.extra_extra;
   const bool same =
     has_factor && found == found_for_factor &&

@@ -44,20 +44,12 @@ public:
               bool symmetric_bulk,
               const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
 
-  /// Whether the factor is of a Schur complement with the same borders as the last one, up to
-  /// factors of rows and columns: that of an earlier iteration, as a rule. How good it is,
-  /// residuals say.
-  bool has_similar_factor() const;
-
   /// The first half of update(): the products.
   void update_border(const SystemOperator &op,
                      const SystemOperator::Border &border,
                      dealii::types::global_dof_index end,
                      bool symmetric_bulk,
                      const dealii::TrilinosWrappers::MPI::BlockVector *scaling = nullptr);
-
-  /// The other half: the factor.
-  void update_factor(const SystemOperator::Border &border);
 
   /// C A^-1 B of the border of the last update, times a factor.
   dealii::FullMatrix<double> product(double factor = 1.) const;

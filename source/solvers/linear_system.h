@@ -69,9 +69,6 @@ struct LinearSystem
 
   dealii::TrilinosWrappers::MPI::BlockVector residual_bulk; ///< owned entries only
   std::vector<double> residual_extra;
-  /// Share of the residual that may be left where Newton's method is next to its end, so that what
-  /// a solver has at hand may do; 0 elsewhere.
-  double enough = 0.;
   unsigned int n_mechanical_extra = 0; ///< the first extra unknowns move; the rest belong to fluid
 
   /// alpha^2 / (lambda + 2 G / dim) times the mass matrix of the pore pressure, positive, with the

@@ -75,7 +75,7 @@ set(closes "closure/first_contact = 4e6 within 0.02" "closure/g_function = 4e6 w
   "fluid_balance/relative_error < 1e-8")
 stockwork_case_test(NAME convergence/minifrac/peridynamics DECK prm/minifrac/peridynamics.prm
   SET "Resolution=coarse" "Output/Fields=false" EXPECT ${closes} "rejected_steps == 0")
-# The last iterations take the factor of the one before: the answer is that of new ones, also of a fluid that is compressed.
+# What the bordered solver keeps between systems changes nothing, also of a fluid that is compressed.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/direct DECK prm/kgd/sun/peridynamics.prm
   SET "Resolution=coarse" "Output/Fields=false" "Time/End time=2 s" "Fluid/Bulk modulus=50 GPa"
   SECOND_SET "Linear solver/Type=direct" TOLERANCE 1e-6 IGNORE "balance_error|error_fracture_volume|cost")

@@ -244,13 +244,9 @@ struct Run
   std::shared_ptr<LinearSystem> system; ///< whose matrix a preconditioner that is kept refers to
 };
 
-inline Run solve(LinearSolver &solver,
-                 const DenseSystem &d,
-                 const SystemStamps &stamps,
-                 const double enough = 0.)
+inline Run solve(LinearSolver &solver, const DenseSystem &d, const SystemStamps &stamps)
 {
   std::shared_ptr<LinearSystem> system = distribute(d);
-  system->enough = enough;
   TrilinosWrappers::MPI::BlockVector bulk(system->residual_bulk);
   std::vector<double> extra;
   const auto report = solver.solve(*system, stamps, 1e-12, bulk, extra);

@@ -175,33 +175,6 @@ TEST_CASE("the bordered solver keeps the rock's factor while the fracture change
   }
 }
 
-TEST_CASE("where a loose solution will do, the dense factor of the system before may serve")
-{
-  for (const auto &[bulk, border] : asymmetries)
-  {
-    CAPTURE(bulk);
-    CAPTURE(border);
-    constexpr double loose = 0.05;
-    auto solver = make(Type::bordered);
-    auto d = make_dense(31, 0, 6, 0., bulk, border);
-    const SystemStamps stamps;
-    CHECK(solve(*solver, d, stamps).report.converged);
-
-    d.J(31, 31) *= 1.05;
-    auto run = solve(*solver, d, stamps, loose);
-    CHECK(run.report.converged);
-    CHECK(run.report.relative_residual < loose);
-    CHECK(run.report.relative_residual > 1e-3);            // it did
-    CHECK(solve(*solver, d, stamps, loose).error < 1e-10); // but once only
-
-    // What has changed too much for it gets its own factor.
-    d.J(31, 31) *= 30.;
-    run = solve(*solver, d, stamps, loose);
-    CHECK(run.report.converged);
-    CHECK(run.report.relative_residual < 1e-9);
-  }
-}
-
 TEST_CASE(
   "the bordered solver keeps the factor of an unsymmetric rock while a few of its rows change")
 {

@@ -124,9 +124,9 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
 {
   const double reach = 0.5 * a.distance(b) + h;
   const Point<2> middle = a + 0.5 * (b - a);
-  // Bonds across an open crack are cut already. Across cement they hold, and those of them that a
-  // fracture opens which meets it are in its way, under the stress across it and not across the
-  // cement.
+  // Bonds across an open crack are cut already. Across cement they hold. Those that also cross the
+  // way of a fracture, and more squarely, are opened by that: they bear the stress across it, and
+  // not that across the cement.
   std::optional<Crossing> found;
   double nearest = 0., slant_of_nearest = 0.;
   const auto is_better = [&](const unsigned int path, const double away, const double slant)
