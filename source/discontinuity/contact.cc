@@ -119,6 +119,25 @@ ContactResponse<dim> FaceContact<dim>::traction(const Discontinuity<dim> &discon
 
 
 template <int dim>
+Tensor<2, dim> FaceContact<dim>::tangent(const CrackPiece<dim> &piece,
+                                         const ContactResponse<dim> &response) const
+{
+  // What slides and is to slide does not turn; with the penalty of cohesive cracks six secants lead
+  // to where faces stick, or nearly (tests/unit/turns_test.cc; the laboratory has what longer and
+  // growing rests do).
+  constexpr unsigned int most_turns = 1, rest = 6, growth = 1;
+  if (response.secant == 0.)
+    return response.tangent;
+  Turns<bool> &turns =
+    sliding.try_emplace(piece.key(domain_size), most_turns, rest, growth).first->second;
+  if (turns.follows_tangent(response.shear * piece.along > 0.))
+    return response.tangent;
+  const Tensor<1, dim> direction = response.shear / response.shear.norm();
+  return response.tangent + response.secant * outer_product(direction, direction);
+}
+
+
+template <int dim>
 void FaceContact<dim>::assemble(const Discontinuity<dim> &discontinuity,
                                 const unsigned int crack,
                                 const unsigned int index,
@@ -130,9 +149,9 @@ void FaceContact<dim>::assemble(const Discontinuity<dim> &discontinuity,
   const ContactResponse<dim> response = traction(discontinuity, crack, index, extra, broken);
   if (index != patch.first || response.normal == 0.)
     return;
-  const Tensor<1, dim> n = discontinuity.paths()[crack].pieces[index].normal();
-  const Tensor<1, dim> force = patch.length * (response.normal * n + response.shear);
-  const Tensor<2, dim> stiffness = patch.length * response.tangent;
+  const CrackPiece<dim> &piece = discontinuity.paths()[crack].pieces[index];
+  const Tensor<1, dim> force = patch.length * (response.normal * piece.normal() + response.shear);
+  const Tensor<2, dim> stiffness = patch.length * tangent(piece, response);
   const auto &jumps = patch.jumps;
   LocalSystem local;
   for (const auto &[unknown, unit] : jumps)

@@ -3,6 +3,7 @@
 #include <boost/serialization/library_version_type.hpp> // Boost 1.74 uses it in the next one and leaves it out
 #include <boost/serialization/unordered_map.hpp>
 
+#include "base/turns.h"
 #include "discontinuity/contact_law.h"
 #include "discontinuity/discontinuity.h"
 #include "stockwork/exchange/sink.h"
@@ -79,6 +80,7 @@ public:
   {
     carried = pressed;
     closing = touched;
+    sliding.clear();
   }
 
   /// Where the faces of a piece press one another though they overlap, or are apart, by more than
@@ -130,6 +132,10 @@ private:
   dealii::Tensor<1, dim> slip(const CrackPiece<dim> &first_of_patch) const;
   double carried_by(const CrackPiece<dim> &first_of_patch) const;
 
+  /// As Newton's method is to take it [Pa/m].
+  dealii::Tensor<2, dim> tangent(const CrackPiece<dim> &first_of_patch,
+                                 const ContactResponse<dim> &response) const;
+
   double friction, stiffness;
   const Rock &rock;
   double domain_size;
@@ -144,5 +150,8 @@ private:
 
   std::unordered_map<std::uint64_t, double> carried; ///< in this step: see press()
   bool closing = false; ///< broken faces had touched when the step began
+  /// Whether faces slide along the crack or against it, in Newton's method. What slides has no
+  /// stiffness, so a span that ought to stick may be sent from the one to the other for ever.
+  mutable std::unordered_map<std::uint64_t, Turns<bool>> sliding;
 };
 } // namespace stockwork

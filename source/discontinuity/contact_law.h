@@ -17,6 +17,7 @@ struct ContactResponse
   dealii::Tensor<1, dim> shear;   ///< along the crack [Pa]
   dealii::Tensor<2, dim> tangent; ///< of both by the jump [Pa/m]
   dealii::Tensor<1, dim> slip;    ///< trial value of the irreversible shear gap [m]
+  double secant = 0.;             ///< where faces slide: shear over what was tried [Pa/m]
   double gap = 0.;                ///< as given [m]
 };
 
@@ -70,7 +71,8 @@ struct ContactLaw
       const dealii::Tensor<1, dim> direction = trial / size;
       response.shear = bound * direction;
       response.tangent -= broken * friction * stiffness * outer_product(direction, n);
-      response.tangent += stiffness * bound / size * (along - outer_product(direction, direction));
+      response.secant = stiffness * bound / size;
+      response.tangent += response.secant * (along - outer_product(direction, direction));
     }
     response.slip = shear_gap - response.shear / stiffness;
     return response;
