@@ -122,18 +122,11 @@ template <int dim>
 Tensor<2, dim> FaceContact<dim>::tangent(const CrackPiece<dim> &piece,
                                          const ContactResponse<dim> &response) const
 {
-  // What slides and is to slide does not turn; with the penalty of cohesive cracks six secants lead
-  // to where faces stick, or nearly (tests/unit/turns_test.cc; the laboratory has what longer and
-  // growing rests do).
-  constexpr unsigned int most_turns = 1, rest = 6, growth = 1;
-  if (response.secant == 0.)
-    return response.tangent;
-  Turns<bool> &turns =
-    sliding.try_emplace(piece.key(domain_size), most_turns, rest, growth).first->second;
-  if (turns.follows_tangent(response.shear * piece.along > 0.))
+  if (response.secant == 0.) // open, or they stick
     return response.tangent;
   const Tensor<1, dim> direction = response.shear / response.shear.norm();
-  return response.tangent + response.secant * outer_product(direction, direction);
+  const double share = sliding[piece.key(domain_size)].share(response.shear * piece.along > 0.);
+  return response.tangent + share * response.secant * outer_product(direction, direction);
 }
 
 

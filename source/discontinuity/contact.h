@@ -3,12 +3,13 @@
 #include <boost/serialization/library_version_type.hpp> // Boost 1.74 uses it in the next one and leaves it out
 #include <boost/serialization/unordered_map.hpp>
 
-#include "base/turns.h"
 #include "discontinuity/contact_law.h"
 #include "discontinuity/discontinuity.h"
+#include "discontinuity/sliding_secant.h"
 #include "stockwork/exchange/sink.h"
 #include "stockwork/exchange/state.h"
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <unordered_map>
@@ -80,7 +81,20 @@ public:
   {
     carried = pressed;
     closing = touched;
+    begin_solve();
+  }
+
+  /// Newton's method begins anew.
+  void begin_solve()
+  {
     sliding.clear();
+  }
+
+  /// Whether in the last assemble() any span of this rank was given any of its secant.
+  bool uses_secants() const
+  {
+    return std::any_of(sliding.begin(), sliding.end(),
+                       [](const auto &own) { return own.second.share() > 0.; });
   }
 
   /// Where the faces of a piece press one another though they overlap, or are apart, by more than
@@ -150,8 +164,7 @@ private:
 
   std::unordered_map<std::uint64_t, double> carried; ///< in this step: see press()
   bool closing = false; ///< broken faces had touched when the step began
-  /// Whether faces slide along the crack or against it, in Newton's method. What slides has no
-  /// stiffness, so a span that ought to stick may be sent from the one to the other for ever.
-  mutable std::unordered_map<std::uint64_t, Turns<bool>> sliding;
+  /// Of spans that slide or have slid in this solve, by first piece's key; this rank's only.
+  mutable std::unordered_map<std::uint64_t, SlidingSecant> sliding;
 };
 } // namespace stockwork

@@ -17,8 +17,8 @@ struct ContactResponse
   dealii::Tensor<1, dim> shear;   ///< along the crack [Pa]
   dealii::Tensor<2, dim> tangent; ///< of both by the jump [Pa/m]
   dealii::Tensor<1, dim> slip;    ///< trial value of the irreversible shear gap [m]
-  double secant = 0.;             ///< where faces slide: shear over what was tried [Pa/m]
-  double gap = 0.;                ///< as given [m]
+  double secant = 0.; ///< where faces slide: shear traction over the gap beyond the slip [Pa/m]
+  double gap = 0.;    ///< as given [m]
 };
 
 /// Unilateral contact with Coulomb's friction, by a penalty K and what the faces carried after the

@@ -35,6 +35,11 @@ public:
     return needs;
   }
 
+  bool uses_secants() const override
+  {
+    return contact.uses_secants();
+  }
+
   void setup(const MeshView<dim> &mesh_view, const Collectives &collectives) override;
 
   void begin_step(const StepContext &context) override;

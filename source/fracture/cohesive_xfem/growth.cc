@@ -506,6 +506,7 @@ CohesiveXFEM<dim>::advance(const StepContext &, const State &state, const Collec
     verdict.reason = reason;
     return verdict;
   };
+  contact.begin_solve(); // if there is another one in this step
   if (const std::string reason = reason_to_stop(state); !reason.empty())
     return stop(reason);
   if (press_faces(state))

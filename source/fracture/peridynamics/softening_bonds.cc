@@ -4,13 +4,6 @@
 
 namespace stockwork::peridynamics
 {
-namespace
-{
-/// A bond that comes to rest by itself passes from one leg to another less often.
-constexpr unsigned int most_turns = 4, rest = 3, growth = 2;
-} // namespace
-
-
 template <int dim>
 SofteningBonds<dim>::SofteningBonds(const Lattice<dim> &lattice)
   : lattice(lattice)
@@ -54,10 +47,10 @@ bool SofteningBonds<dim>::follows_tangent(const unsigned int number,
                                           const double kappa,
                                           const bool softens) const
 {
-  return turns[number].follows_tangent(kappa >= lattice.softening.last ? SofteningLeg::broken
+  return turns[number].follows_tangent(kappa >= lattice.softening.last ? Turns::Leg::broken
                                        : softens && kappa > lattice.softening.first
-                                         ? SofteningLeg::softens
-                                         : SofteningLeg::elastic);
+                                         ? Turns::Leg::softens
+                                         : Turns::Leg::elastic);
 }
 
 
@@ -65,14 +58,14 @@ template <int dim>
 bool SofteningBonds<dim>::uses_secants() const
 {
   return std::any_of(turns.begin(), turns.end(),
-                     [](const SofteningTurns &own) { return !own.follows_tangent(); });
+                     [](const Turns &own) { return !own.follows_tangent(); });
 }
 
 
 template <int dim>
 void SofteningBonds<dim>::forget_turns()
 {
-  turns.assign(bonds.size(), SofteningTurns(most_turns, rest, growth));
+  turns.assign(bonds.size(), Turns());
 }
 
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/turns.h"
 #include "fracture/peridynamics/lattice.h"
+#include "fracture/peridynamics/turns.h"
 
 #include <array>
 #include <utility>
@@ -20,18 +20,6 @@ struct SofteningBond
   /// bonds it is not kept, see Peridynamics::added_stretch().
   double offset = 0.;
 };
-
-
-/// The legs of its law, for Turns: where its force falls faster than the rock around gives way, the
-/// tangent leads back and forth. State-based bonds are given no secants: with them more of their
-/// steps failed (three of scenes/state_based_path/*).
-enum class SofteningLeg
-{
-  elastic, ///< or unloaded
-  softens,
-  broken
-};
-using SofteningTurns = Turns<SofteningLeg>;
 
 
 /// The bonds between whole and broken, sorted by view, as they are in an attempt at a step and as
@@ -137,6 +125,6 @@ private:
   const Lattice<dim> &lattice;
   std::vector<SofteningBond> bonds;
   double relaxation_now = 1.;
-  mutable std::vector<SofteningTurns> turns; ///< of each; those of other ranks' rows are not asked
+  mutable std::vector<Turns> turns; ///< of each; those of other ranks' rows are not asked
 };
 } // namespace stockwork::peridynamics
