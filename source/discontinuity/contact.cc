@@ -119,6 +119,23 @@ ContactResponse<dim> FaceContact<dim>::traction(const Discontinuity<dim> &discon
 
 
 template <int dim>
+void FaceContact<dim>::start(const Discontinuity<dim> &discontinuity,
+                             const std::function<double(const CrackPiece<dim> &)> &in_situ,
+                             const std::function<double(const CrackPiece<dim> &)> &broken)
+{
+  pressed.clear();
+  for (unsigned int c = 0; c < discontinuity.paths().size(); ++c)
+    for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
+    {
+      const CrackPiece<dim> &piece = discontinuity.paths()[c].pieces[i];
+      const double traction = in_situ(piece);
+      if (traction < 0. && broken(piece) >= 1. && i == patch(discontinuity, c, i).first)
+        pressed[piece.key(domain_size)] = traction;
+    }
+}
+
+
+template <int dim>
 Tensor<2, dim> FaceContact<dim>::tangent(const CrackPiece<dim> &piece,
                                          const ContactResponse<dim> &response) const
 {

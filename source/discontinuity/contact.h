@@ -76,6 +76,14 @@ public:
                 Sink &sink,
                 double broken = 1.) const;
 
+  /// Broken faces that have not moved yet carry what presses them in situ. If they had to overlap
+  /// for it, fluid that cannot get out would bear the stress in their place, and they would slide.
+  /// @param in_situ normal traction, tension positive, beyond the fluid's pressure [Pa]
+  /// @param broken see ContactLaw::evaluate
+  void start(const Discontinuity<dim> &discontinuity,
+             const std::function<double(const CrackPiece<dim> &)> &in_situ,
+             const std::function<double(const CrackPiece<dim> &)> &broken);
+
   /// A step begins, perhaps anew.
   void begin_step()
   {

@@ -230,11 +230,17 @@ void CohesiveXFEM<dim>::refresh_segments()
 
 
 template <int dim>
-void CohesiveXFEM<dim>::begin_step(const StepContext &)
+void CohesiveXFEM<dim>::begin_step(const StepContext &context)
 {
   advances.assign(discontinuity.paths().size(), {{0, 0}});
   n_messages_before = messages.size();
   n_presses = 0;
+  if (context.step == 1 && scene.has_pore_pressure)
+    contact.start(
+      discontinuity,
+      [this](const CrackPiece<dim> &piece)
+      { return scene.in_situ_pore_pressure(piece.centre()) - closing_stress(piece); },
+      [this](const CrackPiece<dim> &piece) { return broken_share(piece); });
   contact.begin_step();
 }
 

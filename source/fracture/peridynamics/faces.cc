@@ -142,7 +142,8 @@ void Faces::add_contact(const State &state, Rows &rows) const
   const double c = unit, fluid = state.segment_pressure ? state.segment_pressure(segment) : 0.;
   // The traction by the balance of forces, and that of the law.
   const double balanced = fluid - local.residual(w) / area;
-  const double kept = 1. - softness, normal = kept * balanced + c * now.extra[modes[0].jump];
+  const double kept = 1. - softness,
+               normal = kept * balanced + softness * in_situ_contact + c * now.extra[modes[0].jump];
   if (normal >= -kink_width * (std::abs(fluid) + std::abs(balanced - fluid)))
     return;
   // By each unknown.

@@ -23,13 +23,14 @@ namespace stockwork::peridynamics
 /// Faces whose bonds have broken do not pass through one another, and rub (Coulomb): the tractions
 /// t that they exert on one another are
 ///
-///   t_n = min(0, t_n + c (w - e t_n)),   t_s = t_s + c (s - s_0), where |t_s| <= - mu t_n, else at
-///   that bound,
+///   t_n = min(0, t_n + c (w - e (t_n - t_0))),   t_s = t_s + c (s - s_0), where |t_s| <= - mu t_n,
+///   else at that bound,
 ///
 /// any c > 0, with the slip s_0 of the last step and a little compliance e, or the pressure of
-/// fluid that a closed fracture holds would hang on nothing: Newton's method for the
-/// complementarity, with the t on the right from the balance of forces (an active set; Hueber and
-/// Wohlmuth 2005).
+/// fluid that a closed fracture holds would hang on nothing. It counts from what presses the faces
+/// in situ, t_0, or fluid that cannot get out would bear that from the beginning. Newton's method
+/// for the complementarity, with the t on the right from the balance of forces (an active set;
+/// Hueber and Wohlmuth 2005).
 struct Faces
 {
   struct Mode
@@ -41,11 +42,12 @@ struct Faces
     double constant = 0.;                ///< V by the stress in situ [m^d]
   };
 
-  std::uint64_t segment = 0; ///< key
-  double area = 0.;          ///< A [m^2]
-  double unit = 0.;          ///< 1/(gamma h) [Pa/m]
-  double friction = 0.;      ///< mu
-  bool rub = true;           ///< enough bonds have broken to tell opening from slip
+  std::uint64_t segment = 0;   ///< key
+  double area = 0.;            ///< A [m^2]
+  double unit = 0.;            ///< 1/(gamma h) [Pa/m]
+  double friction = 0.;        ///< mu
+  double in_situ_contact = 0.; ///< t_0 [Pa]
+  bool rub = true;             ///< enough bonds have broken to tell opening from slip
   std::vector<Mode> modes;
   /// Displacements of ends of broken bonds, of state-based ones of all their families.
   std::vector<dealii::types::global_dof_index> ends;

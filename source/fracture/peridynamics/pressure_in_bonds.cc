@@ -316,6 +316,9 @@ void PressureInBonds<dim>::make_faces(const std::vector<double> &broken_share)
     segment.share_of_pores = 0.;
     if (!scene.has_pore_pressure)
       continue;
+    own.in_situ_contact =
+      std::min(0., scene.in_situ_pore_pressure(segment.centre) +
+                     segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
     segment.taken_from_pores = own.biot_coefficient =
       lattice.rock_at(fracture.cells[i].place).biot_coefficient;
     segment.bare_aperture = bare_aperture(i);

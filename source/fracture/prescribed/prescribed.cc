@@ -119,8 +119,18 @@ public:
     }
   }
 
-  void begin_step(const StepContext &) override
+  void begin_step(const StepContext &context) override
   {
+    if (context.step == 1 && scene.has_pore_pressure)
+      contact.start(
+        discontinuity,
+        [this](const CrackPiece<dim> &piece)
+        {
+          const Tensor<1, dim> n = piece.normal();
+          const dealii::Point<dim> centre = piece.centre();
+          return n * (scene.in_situ_stress(centre) * n) + scene.in_situ_pore_pressure(centre);
+        },
+        [](const CrackPiece<dim> &) { return 1.; });
     contact.begin_step();
   }
 
