@@ -163,7 +163,9 @@ void CohesiveXFEM<dim>::warn_of_arrested_tip(const unsigned int crack,
 template <int dim>
 bool CohesiveXFEM<dim>::press_faces(const State &state)
 {
-  constexpr unsigned int enough = 4; // what is left by then goes with the next step
+  // What is left by then goes with the next step. In the first one faces may have to part from all
+  // that presses them in situ.
+  const unsigned int enough = started ? 4 : 100;
   if (n_presses == enough)
     return false;
   const auto &paths = discontinuity.paths();

@@ -47,7 +47,7 @@ void Parameters::declare(dealii::ParameterHandler &prm)
                     "Cells of this size kept ready around a tip.");
   declare_friction(prm);
   prm.declare_entry(
-    "Cohesive energy", "1", Quantity(dimension::number, Range{0., 1., true, false}),
+    "Cohesive energy", "1", Quantity(dimension::number, Range::closed(1e-3, 1.)),
     "What cohesive cracks take to open, over the critical energy release rate of the rock: cement. "
     "Its strengths are the root of that, over the rock's, as with bonds.");
   prm.declare_entry("Straight growth", "false", dealii::Patterns::Bool(),
