@@ -40,7 +40,7 @@ stockwork_case_test(NAME convergence/kgd/viscosity/peridynamics/cavitating NEGAT
   DECK prm/kgd/viscosity/peridynamics.prm SET "Resolution=coarse" "Fracture flow/Vapour pressure=0" "Time/Scheme=backward Euler"
   EXPECT "errors/equivalent_length/mean < 0.045" "errors/inlet_aperture/mean < 0.02" # 0.0379, 0.0164
          "errors/net_inlet_pressure/mean < 0.025" # 0.0213, all of it by the scheme: without the entry the same
-         "fluid_balance/relative_error < 1e-8" "final/extent_y < 0.01" "rejected_steps < 3")
+         "fluid_balance/relative_error < 1e-8" "final/extent_y < 0.01" "rejected_steps < 8")
 # Nothing cavitates here; 21 steps were tried again where segments turned to vapour for a lack of fluid in Newton's iterations.
 stockwork_same_test(NAME convergence/kgd/viscosity/peridynamics/no_vapour DECK prm/kgd/viscosity/peridynamics.prm
   SET "Resolution=coarse" "Time/Scheme=backward Euler" "Time/End time=10 s" SECOND_SET "Fracture flow/Vapour pressure=0"
@@ -181,7 +181,7 @@ stockwork_case_test(NAME convergence/natural_crack/60/sticks/prescribed DECK prm
 stockwork_case_test(NAME convergence/natural_crack/30/weak_cement DECK prm/natural_crack/30/cohesive_xfem.prm
   SET "Output/Fields=false" "In situ/Stress=-2 MPa, -1 MPa" "Cracks/Open=0, 0 -> 0.9 m, 0"
       "Cracks/Cohesive=0.487564 m, -0.7 m -> 2.91244 m, 0.7 m" "Fracture/cohesive_xfem/Cohesive energy=0.1"
-  EXPECT "final/inlet_pressure = 1.793e6 within 0.05" "rejected_steps < 8" "fluid_balance/relative_error < 1e-8") # 1
+  EXPECT "final/inlet_pressure = 1.793e6 within 0.05" "rejected_steps < 3" "fluid_balance/relative_error < 1e-8") # 0
 # Inertia that is too small to matter changes nothing: Newmark's scheme with gamma = 1 against the
 # quasi-static run.
 stockwork_same_test(NAME convergence/kgd/sun/peridynamics/inertia
