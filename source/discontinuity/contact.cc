@@ -1,6 +1,7 @@
 #include "discontinuity/contact.h"
 
 #include "stockwork/base/quantity.h"
+#include "stockwork/exchange/in_situ_contact.h"
 
 #include <algorithm>
 #include <sstream>
@@ -119,8 +120,8 @@ ContactResponse<dim> FaceContact<dim>::traction(const Discontinuity<dim> &discon
 
 
 template <int dim>
-void FaceContact<dim>::start(const Discontinuity<dim> &discontinuity,
-                             const std::function<double(const CrackPiece<dim> &)> &in_situ,
+void FaceContact<dim>::start(const Scene<dim> &scene,
+                             const Discontinuity<dim> &discontinuity,
                              const std::function<double(const CrackPiece<dim> &)> &broken)
 {
   pressed.clear();
@@ -128,7 +129,7 @@ void FaceContact<dim>::start(const Discontinuity<dim> &discontinuity,
     for (unsigned int i = 0; i < discontinuity.paths()[c].pieces.size(); ++i)
     {
       const CrackPiece<dim> &piece = discontinuity.paths()[c].pieces[i];
-      const double traction = in_situ(piece);
+      const double traction = in_situ_contact(scene, piece.centre(), piece.normal());
       if (traction < 0. && broken(piece) >= 1. && i == patch(discontinuity, c, i).first)
         pressed[piece.key(domain_size)] = traction;
     }

@@ -6,6 +6,7 @@
 #include "discontinuity/contact_law.h"
 #include "discontinuity/discontinuity.h"
 #include "discontinuity/sliding_secant.h"
+#include "stockwork/exchange/scene.h"
 #include "stockwork/exchange/sink.h"
 #include "stockwork/exchange/state.h"
 
@@ -78,10 +79,9 @@ public:
 
   /// Broken faces that have not moved yet carry what presses them in situ. If they had to overlap
   /// for it, fluid that cannot get out would bear the stress in their place, and they would slide.
-  /// @param in_situ normal traction, tension positive, beyond the fluid's pressure [Pa]
   /// @param broken see ContactLaw::evaluate
-  void start(const Discontinuity<dim> &discontinuity,
-             const std::function<double(const CrackPiece<dim> &)> &in_situ,
+  void start(const Scene<dim> &scene,
+             const Discontinuity<dim> &discontinuity,
              const std::function<double(const CrackPiece<dim> &)> &broken);
 
   /// A step begins, perhaps anew.

@@ -235,12 +235,9 @@ void CohesiveXFEM<dim>::begin_step(const StepContext &context)
   advances.assign(discontinuity.paths().size(), {{0, 0}});
   n_messages_before = messages.size();
   n_presses = 0;
-  if (context.step == 1 && scene.has_pore_pressure)
-    contact.start(
-      discontinuity,
-      [this](const CrackPiece<dim> &piece)
-      { return scene.in_situ_pore_pressure(piece.centre()) - closing_stress(piece); },
-      [this](const CrackPiece<dim> &piece) { return broken_share(piece); });
+  if (context.step == 1)
+    contact.start(scene, discontinuity,
+                  [this](const CrackPiece<dim> &piece) { return broken_share(piece); });
   contact.begin_step();
 }
 

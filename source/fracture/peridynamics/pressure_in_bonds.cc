@@ -1,6 +1,7 @@
 #include "fracture/peridynamics/pressure_in_bonds.h"
 
 #include "fracture/peridynamics/pores_across.h"
+#include "stockwork/exchange/in_situ_contact.h"
 #include "stockwork/mesh/key.h"
 
 #include <algorithm>
@@ -316,9 +317,7 @@ void PressureInBonds<dim>::make_faces(const std::vector<double> &broken_share)
     segment.share_of_pores = 0.;
     if (!scene.has_pore_pressure)
       continue;
-    own.in_situ_contact =
-      std::min(0., scene.in_situ_pore_pressure(segment.centre) +
-                     segment.normal * (scene.in_situ_stress(segment.centre) * segment.normal));
+    own.in_situ_contact = in_situ_contact(scene, segment.centre, segment.normal);
     segment.taken_from_pores = own.biot_coefficient =
       lattice.rock_at(fracture.cells[i].place).biot_coefficient;
     segment.bare_aperture = bare_aperture(i);

@@ -64,6 +64,11 @@ public:
     return needs;
   }
 
+  bool uses_secants() const override
+  {
+    return contact.uses_secants();
+  }
+
   void setup(const MeshView<dim> &d, const Collectives &collectives) override
   {
     mesh_view = std::make_unique<MeshView<dim>>(d);
@@ -121,16 +126,8 @@ public:
 
   void begin_step(const StepContext &context) override
   {
-    if (context.step == 1 && scene.has_pore_pressure)
-      contact.start(
-        discontinuity,
-        [this](const CrackPiece<dim> &piece)
-        {
-          const Tensor<1, dim> n = piece.normal();
-          const dealii::Point<dim> centre = piece.centre();
-          return n * (scene.in_situ_stress(centre) * n) + scene.in_situ_pore_pressure(centre);
-        },
-        [](const CrackPiece<dim> &) { return 1.; });
+    if (context.step == 1)
+      contact.start(scene, discontinuity, [](const CrackPiece<dim> &) { return 1.; });
     contact.begin_step();
   }
 
