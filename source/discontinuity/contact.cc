@@ -184,18 +184,22 @@ bool FaceContact<dim>::press(const Discontinuity<dim> &discontinuity,
                              const unsigned int index,
                              const std::vector<double> &extra,
                              const double opening,
-                             const double broken)
+                             const double broken,
+                             const Press which)
 {
   if (broken < 1. || index != patch(discontinuity, crack, index).first)
     return false;
   const ContactResponse<dim> response = traction(discontinuity, crack, index, extra, broken);
   const Tensor<1, dim> n = discontinuity.paths()[crack].pieces[index].normal();
   const double gap = std::abs(response.gap);
+  const std::uint64_t key = discontinuity.paths()[crack].pieces[index].key(domain_size);
+  if (which == Press::parting && (response.gap <= 0. || pressed.count(key) == 0))
+    return false;
   // Where faces have not parted yet, what is left of a penalty's overlap is the measure.
   if (response.normal == 0. || gap <= 0.005 * std::max(opening, maximum_opening) ||
       gap * (n * (response.tangent * n)) <= -0.01 * response.normal)
     return false;
-  carried[discontinuity.paths()[crack].pieces[index].key(domain_size)] = response.normal;
+  carried[key] = response.normal;
   return true;
 }
 

@@ -105,6 +105,13 @@ public:
                        [](const auto &own) { return own.second.share() > 0.; });
   }
 
+  /// Which faces press() looks at.
+  enum class Press
+  {
+    all,
+    parting ///< that carried something when the step began and are apart now
+  };
+
   /// Where the faces of a piece press one another though they overlap, or are apart, by more than
   /// half a per cent of the greatest opening, and by more than a hundredth of what the penalty
   /// alone would leave: let them carry what presses them, for the step to be solved again.
@@ -115,7 +122,8 @@ public:
              unsigned int piece,
              const std::vector<double> &extra,
              double opening,
-             double broken = 1.);
+             double broken = 1.,
+             Press which = Press::all);
 
   /// The step is accepted: its slip on a piece is what it was, and its pressure.
   void commit(const Discontinuity<dim> &discontinuity,

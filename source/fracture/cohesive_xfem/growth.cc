@@ -163,11 +163,13 @@ void CohesiveXFEM<dim>::warn_of_arrested_tip(const unsigned int crack,
 template <int dim>
 bool CohesiveXFEM<dim>::press_faces(const State &state)
 {
-  // What is left by then goes with the next step. In the first one faces may have to part from all
+  // What is left by then goes with the next step, except where faces part in the first one from all
   // that presses them in situ.
-  const unsigned int enough = started ? 4 : 100;
-  if (n_presses == enough)
+  constexpr unsigned int enough = 4, enough_to_part = 50;
+  if (n_presses == (started ? enough : enough_to_part))
     return false;
+  const auto which = n_presses < enough ? FaceContact<dim>::Press::all
+                                        : FaceContact<dim>::Press::parting;
   const auto &paths = discontinuity.paths();
   const auto &extra = state.current.extra;
   double opening = 0.;
@@ -178,7 +180,7 @@ bool CohesiveXFEM<dim>::press_faces(const State &state)
   for (unsigned int c = 0; c < paths.size(); ++c)
     for (unsigned int i = 0; i < paths[c].pieces.size(); ++i)
       pressed |=
-        contact.press(discontinuity, c, i, extra, opening, broken_share(paths[c].pieces[i]));
+        contact.press(discontinuity, c, i, extra, opening, broken_share(paths[c].pieces[i]), which);
   n_presses += pressed;
   return pressed;
 }
