@@ -15,7 +15,8 @@ stockwork_same_test(NAME scenes/brittle_path/turned/state_based DECK ${turned} L
 stockwork_same_test(NAME scenes/brittle_path/ranks DECK ${turned} RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error SET ${brittle})
 # In porous rock, at a natural crack.
 stockwork_restart_test(NAME scenes/brittle_path/natural_crack/restart DECK prm/natural_crack/60/peridynamics.prm AFTER 30
-  TOLERANCE 1e-8 IGNORE balance_error SET ${brittle} "Time/End time=4 s" "Output/Fields=false" "Checkpoint/Steps between=1")
+  TOLERANCE 1e-8 IGNORE balance_error LABELS nightly
+  SET ${brittle} "Time/End time=4 s" "Output/Fields=false" "Checkpoint/Steps between=1")
 # Dry until a fracture joins it: what stress in situ does between the faces of a dry path is its bonds'.
 stockwork_case_test(NAME scenes/brittle_path/joined DECK tests/data/soft_spot_ahead.prm SET ${brittle} WARNS "It is dry until a fracture joins it"
   EXPECT "final/extent_x > 1.7" "final/fracture_volume = final/injected_volume within 1e-12" "fluid_balance/relative_error < 1e-12")

@@ -9,14 +9,18 @@ stockwork_same_test(NAME scenes/state_based_path/bond_based DECK ${turned} LABEL
 foreach(setting "0;21.333333" "0.05;21.28" "0.15;20.853333" "0.35;18.72" "0.45;17.013333")
   list(GET setting 0 poisson_ratio)
   list(GET setting 1 modulus)
-  stockwork_case_test(NAME scenes/state_based_path/${poisson_ratio} DECK ${turned}
+  set(label)
+  if(poisson_ratio EQUAL 0.05)
+    set(label nightly)
+  endif()
+  stockwork_case_test(NAME scenes/state_based_path/${poisson_ratio} DECK ${turned} LABELS ${label}
     SET "${state_based}" "Rock/Poisson ratio=${poisson_ratio}" "Rock/Young modulus=${modulus} GPa"
     EXPECT "final/equivalent_length = 3.64 within 0.035" "final/inlet_aperture = 2.05e-4 within 0.025"
            "final/fracture_volume = final/injected_volume within 1e-12" "minimum/minimum_pressure > 0" "rejected_steps < 5")
 endforeach()
 stockwork_same_test(NAME scenes/state_based_path/ranks DECK ${turned} RANKS 1,2 TOLERANCE 1e-6 IGNORE balance_error
   SET "${state_based}" "Rock/Poisson ratio=0.35")
-stockwork_restart_test(NAME scenes/state_based_path/restart DECK ${turned} AFTER 5 TOLERANCE 1e-8 IGNORE balance_error
+stockwork_restart_test(NAME scenes/state_based_path/restart DECK ${turned} AFTER 5 TOLERANCE 1e-8 IGNORE balance_error LABELS nightly
   SET "${state_based}" "Rock/Poisson ratio=0.35" "Checkpoint/Steps between=1")
 # A negative Poisson's ratio is refused with bonds that may break (errors/peridynamics_auxetic), and not with others.
 stockwork_check_test(NAME scenes/state_based_path/negative/whole DECK prm/kgd/sun/peridynamics.prm LABELS quick

@@ -168,8 +168,8 @@ bool CohesiveXFEM<dim>::press_faces(const State &state)
   constexpr unsigned int enough = 4, enough_to_part = 50;
   if (n_presses == (started ? enough : enough_to_part))
     return false;
-  const auto which = n_presses < enough ? FaceContact<dim>::Press::all
-                                        : FaceContact<dim>::Press::parting;
+  const auto which =
+    n_presses < enough ? FaceContact<dim>::Press::all : FaceContact<dim>::Press::parting;
   const auto &paths = discontinuity.paths();
   const auto &extra = state.current.extra;
   double opening = 0.;
