@@ -116,6 +116,7 @@ public:
   /// half a per cent of the greatest opening, and by more than a hundredth of what the penalty
   /// alone would leave: let them carry what presses them, for the step to be solved again.
   /// @param opening the greatest now [m]
+  /// @param which others are left as they are
   /// @return whether they do
   bool press(const Discontinuity<dim> &discontinuity,
              unsigned int crack,

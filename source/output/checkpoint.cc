@@ -31,7 +31,7 @@ using namespace dealii;
 namespace
 {
 /// First line of the file "state"; changes with the format.
-const std::string magic = "Stockwork checkpoint, format 7\n";
+const std::string magic = "Stockwork checkpoint, format 8\n";
 
 /// Checksum as four bytes, the same on every machine.
 std::string seal(const std::string &bytes)

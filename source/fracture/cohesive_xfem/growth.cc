@@ -163,8 +163,8 @@ void CohesiveXFEM<dim>::warn_of_arrested_tip(const unsigned int crack,
 template <int dim>
 bool CohesiveXFEM<dim>::press_faces(const State &state)
 {
-  // What is left by then goes with the next step, except where faces part in the first one from all
-  // that presses them in situ.
+  // What is left after four solves goes with the next step. In the first one faces may part from
+  // all that presses them in situ, which takes more.
   constexpr unsigned int enough = 4, enough_to_part = 50;
   if (n_presses == (started ? enough : enough_to_part))
     return false;

@@ -5,6 +5,7 @@
 
 namespace stockwork::peridynamics
 {
+using dealii::Point;
 using dealii::Tensor;
 
 template <int dim>
@@ -56,6 +57,8 @@ bool CrossingBonds<dim>::follow(const TrackedPaths &paths)
         const Place<dim> &from = lattice.zone.sites()[i].place;
         const FarEnd end = lattice.zone.far_end(i, b);
         const Place<dim> &image = lattice.zone.sites()[end.site].place;
+        std::optional<BondAcross<dim>> across;
+        bool is_cohesive = false;
         for (unsigned int mirrored = 0; mirrored <= end.mirrored; ++mirrored)
         {
           if ((mirrored & ~static_cast<unsigned int>(end.mirrored)) != 0)
@@ -72,19 +75,27 @@ bool CrossingBonds<dim>::follow(const TrackedPaths &paths)
               bond.direction[d] = -bond.direction[d];
             }
           }
-          if (const auto crossing =
-                paths.crossing(lattice.zone.position(first), lattice.zone.position(last)))
+          const Point<dim> start = lattice.zone.position(first), stop = lattice.zone.position(last);
+          const auto crosses = [&](const unsigned int crack, const auto kind)
+          { return cracks[crack].kind == kind && paths.crosses_initial(crack, start, stop); };
+          const auto crossing = paths.crossing(start, stop);
+          for (unsigned int c = 0; c < cracks.size() && crossing; ++c)
           {
-            bond.crossing = *crossing;
-            for (unsigned int c = 0; c < cracks.size(); ++c)
-              bond.was_cut |=
-                (c != crossing->path || paths.end_at(*crossing)) &&
-                cracks[c].kind == InitialCrack<dim>::Kind::open &&
-                paths.crosses_initial(c, lattice.zone.position(first), lattice.zone.position(last));
-            bonds.push_back(bond);
-            break;
+            is_cohesive |= crosses(c, InitialCrack<dim>::Kind::cohesive);
+            bond.was_cut |= (c != crossing->path || paths.end_at(*crossing)) &&
+                            crosses(c, InitialCrack<dim>::Kind::open);
           }
+          if (!crossing || across)
+            continue;
+          bond.crossing = *crossing;
+          across = bond;
         }
+        if (!across)
+          continue;
+        across->cohesive = is_cohesive;
+        if (is_cohesive)
+          across->share = lattice.parameters.cohesive_energy;
+        bonds.push_back(*across);
       }
   }
   return dim == 2;
@@ -92,16 +103,14 @@ bool CrossingBonds<dim>::follow(const TrackedPaths &paths)
 
 
 template <int dim>
-std::optional<TrackedPaths::Crossing> CrossingBonds<dim>::crossing(const unsigned int site,
-                                                                   const unsigned int bond) const
+const BondAcross<dim> *CrossingBonds<dim>::find(const unsigned int site,
+                                                const unsigned int bond) const
 {
   const BondView view(site, bond);
   const auto found =
     std::lower_bound(bonds.begin(), bonds.end(), view,
                      [](const BondAcross<dim> &a, const BondView &b) { return a.view < b; });
-  if (found == bonds.end() || found->view != view)
-    return {};
-  return found->crossing;
+  return found == bonds.end() || found->view != view ? nullptr : &*found;
 }
 
 template class CrossingBonds<2>;

@@ -16,6 +16,8 @@ struct BondAcross
   dealii::Tensor<1, dim> direction; ///< of the bond, or of its image that crosses the path
   TrackedPaths::Crossing crossing;  ///< where it crosses a path
   bool was_cut = false;             ///< by an open crack of the deck, and crosses another or a way
+  bool cohesive = false; ///< crosses a cohesive crack of the deck, whatever else it crosses
+  double share = 1.;     ///< energy that it takes, over that in rock
 };
 
 
@@ -46,8 +48,15 @@ public:
     return bonds;
   }
 
-  /// Where a bond, or its image in the domain, crosses a path.
-  std::optional<TrackedPaths::Crossing> crossing(unsigned int site, unsigned int bond) const;
+  /// A bond that crosses a path, or whose image in the domain does; else null.
+  const BondAcross<dim> *find(unsigned int site, unsigned int bond) const;
+
+  /// Where it does.
+  std::optional<TrackedPaths::Crossing> crossing(unsigned int site, unsigned int bond) const
+  {
+    const BondAcross<dim> *const across = find(site, bond);
+    return across ? std::optional(across->crossing) : std::nullopt;
+  }
 
 private:
   const Lattice<dim> &lattice;

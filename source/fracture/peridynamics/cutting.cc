@@ -10,14 +10,6 @@ namespace stockwork::peridynamics
 using dealii::Point;
 using dealii::Tensor;
 
-namespace
-{
-/// Of the bonds across a cohesive crack. With 'Softening = 4' they have lost a four-hundredth of
-/// their energy by it.
-constexpr double little_damage = 0.01;
-} // namespace
-
-
 template <int dim>
 void Peridynamics<dim>::cut_initial_cracks()
 {
@@ -97,7 +89,8 @@ void Peridynamics<dim>::soften_cohesive_cracks()
       if (cracked.is_broken(i, b) && !lattice.bonds.is_broken(i, b) &&
           lattice.bonds.views_of(i, b).front() == BondView(i, b))
         softening_bonds.committed.bonds.push_back(
-          {lattice.bonds.places(i, b), {{lattice.softening.stretch_of(little_damage), 0.}}});
+          {lattice.bonds.places(i, b),
+           {{lattice.softening.stretch_of(SofteningLaw::damage_at_start), 0.}}});
   restore_softening();
 }
 

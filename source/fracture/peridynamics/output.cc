@@ -41,12 +41,8 @@ FractureSummary Peridynamics<dim>::summary(const State &state, const Collectives
     // tractions. The model's tips are by the energy dissipated, which is less by what would come
     // back.
     double elastic = paths.length();
-    for (unsigned int n = 0; n < softening_bonds.size(); ++n)
-      if (tips.is_across_way(n))
-        elastic += lattice.energy_at_unit_stretch(softening_bonds[n].view) *
-                   (lattice.softening.separation(softening_bonds[n].trial) -
-                    lattice.softening.dissipated(softening_bonds[n].trial)) /
-                   lattice.energy_across;
+    for (const auto &[first, last] : tips.energy_to_come(paths))
+      elastic += (first + last) / lattice.energy_across;
     result.length = paths.length() + tips.half_process_zones(paths);
     result.equivalent_length = elastic - 0.5 * length_that_holds();
     result.broken_length = std::max(0., tips.broken_length(paths) - length_that_holds());

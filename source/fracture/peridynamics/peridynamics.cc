@@ -143,9 +143,11 @@ void Peridynamics<dim>::setup(const MeshView<dim> &mesh_view, const Collectives 
     if constexpr (dim == 2)
       if (parameters.tracked)
       {
-        paths.reinit(oriented_cracks(lattice), lattice.zone.spacing(),
-                     [&](const Point<dim> &end)
-                     { return lattice.zone.is_inside(end, same_place * lattice.zone.spacing()); });
+        paths.reinit(
+          oriented_cracks(lattice), lattice.zone.spacing(),
+          [&](const Point<dim> &end)
+          { return lattice.zone.is_inside(end, same_place * lattice.zone.spacing()); },
+          parameters.cohesive_energy);
         if (const auto place = paths.overlap())
         {
           throw InputError(

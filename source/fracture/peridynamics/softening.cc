@@ -26,14 +26,9 @@ double Peridynamics<dim>::relative_energy(const unsigned int site, const unsigne
 {
   if constexpr (dim == 2)
     if (parameters.tracked && !is_alike())
-      if (const auto crossing = crossing_bonds.crossing(site, bond))
-      {
-        const bool cemented =
-          crossing->path < scene.cracks.size() && !paths.end_at(*crossing) &&
-          scene.cracks[crossing->path].kind == InitialCrack<dim>::Kind::cohesive;
-        return (cemented ? parameters.cohesive_energy : 1.) *
-               lattice.rock_of_bonds.energy(paths.point(*crossing));
-      }
+      // Cement breaks by what it takes itself, also where a fracture's way crosses it.
+      if (const BondAcross<dim> *const across = crossing_bonds.find(site, bond))
+        return across->share * lattice.rock_of_bonds.energy(paths.point(across->crossing));
   return lattice.rock_of_bonds.energy(site, bond);
 }
 

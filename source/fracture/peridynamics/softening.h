@@ -24,6 +24,9 @@ struct SofteningLaw
 {
   /// Damage of the bonds across a cell from which on the fluid gets into it.
   static constexpr double wet_damage = 0.1;
+  /// Of the bonds across a cohesive crack, at the start. With 'Softening = 4' they have lost a
+  /// four-hundredth of their energy by it.
+  static constexpr double damage_at_start = 0.01;
 
   double first = 0., last = 0.; ///< stretches
 

@@ -1,6 +1,7 @@
 #include "fracture/peridynamics/tips.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace stockwork::peridynamics
@@ -36,11 +37,14 @@ Tips<dim>::Tips(const Lattice<dim> &lattice,
 template <int dim>
 void Tips<dim>::look_at(const TrackedPaths &paths)
 {
-  ends.clear();
+  softening.clear();
   for (const SofteningBond &bond : softening_bonds)
   {
-    const auto crossing = crossing_bonds.crossing(bond.view.first, bond.view.second);
-    ends.push_back(crossing ? paths.end_at(*crossing) : std::nullopt);
+    const BondAcross<dim> *const across = crossing_bonds.find(bond.view.first, bond.view.second);
+    softening.push_back({});
+    if (!across)
+      continue;
+    softening.back() = {paths.end_at(across->crossing), across->cohesive, across->share};
   }
 }
 
@@ -58,12 +62,12 @@ typename Tips<dim>::OfEnds Tips<dim>::energy(const TrackedPaths &paths) const
   }
   OfEnds energy = committed_energy;
   energy.resize(paths.n_paths(), {{0., 0.}});
-  for (unsigned int n = 0; n < ends.size(); ++n)
-    if (const auto &end = ends[n])
+  for (unsigned int n = 0; n < softening.size(); ++n)
+    if (const auto &end = softening[n].end)
     {
       const SofteningBond &bond = softening_bonds[n];
       energy[end->path][end->side] +=
-        lattice.energy_at_unit_stretch(bond.view) *
+        softening[n].share * lattice.energy_at_unit_stretch(bond.view) *
         (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
     }
   return energy;
@@ -73,10 +77,15 @@ typename Tips<dim>::OfEnds Tips<dim>::energy(const TrackedPaths &paths) const
 template <int dim>
 bool Tips<dim>::is_untouched(const TrackedPaths::End &end, const OfEnds &energy) const
 {
-  return energy[end.path][end.side] == 0. &&
-         std::none_of(ends.begin(), ends.end(),
-                      [&](const auto &other)
-                      { return other && other->path == end.path && other->side == end.side; });
+  if (energy[end.path][end.side] != 0.)
+    return false;
+  return std::none_of(softening.begin(), softening.end(),
+                      [&](const Softening &bond)
+                      {
+                        // Those across a cohesive crack are there from the start.
+                        return bond.end && bond.end->path == end.path &&
+                               bond.end->side == end.side && !bond.cohesive;
+                      });
 }
 
 
@@ -91,8 +100,8 @@ template <int dim>
 double Tips<dim>::half_process_zones(const TrackedPaths &paths) const
 {
   std::map<std::pair<unsigned int, unsigned int>, double> ahead; // by end
-  for (unsigned int n = 0; n < ends.size(); ++n)
-    if (const auto &end = ends[n]; end && lattice.softening.damage(softening_bonds[n].trial) > 0.)
+  for (unsigned int n = 0; n < softening.size(); ++n)
+    if (const auto &end = softening[n].end; end && damage_of_rock(n) > 0.)
     {
       const auto crossing =
         crossing_bonds.crossing(softening_bonds[n].view.first, softening_bonds[n].view.second);
@@ -107,16 +116,25 @@ double Tips<dim>::half_process_zones(const TrackedPaths &paths) const
 
 
 template <int dim>
+double Tips<dim>::damage_of_rock(const unsigned int bond) const
+{
+  const auto &[end, cohesive, share] = softening[bond];
+  const double damage = lattice.softening.damage(std::sqrt(share) * softening_bonds[bond].trial);
+  return cohesive && damage <= SofteningLaw::damage_at_start ? 0. : damage;
+}
+
+
+template <int dim>
 typename Tips<dim>::OfEnds Tips<dim>::energy_to_come(const TrackedPaths &paths) const
 {
   OfEnds result(paths.n_paths(), {{0., 0.}});
   if (!lattice.softening.brittle())
-    for (unsigned int n = 0; n < ends.size(); ++n)
-      if (const auto &end = ends[n])
+    for (unsigned int n = 0; n < softening.size(); ++n)
+      if (const auto &end = softening[n].end)
       {
         const SofteningBond &bond = softening_bonds[n];
         result[end->path][end->side] +=
-          lattice.energy_at_unit_stretch(bond.view) *
+          softening[n].share * lattice.energy_at_unit_stretch(bond.view) *
           (lattice.softening.separation(bond.trial) - lattice.softening.dissipated(bond.trial));
       }
   return result;
@@ -133,21 +151,24 @@ Tips<dim>::fluid_ahead(const TrackedPaths &paths,
   OfEnds farthest(paths.n_paths(), {{0., 0.}});
   const auto reach = [&](const BondView &view)
   {
-    const auto crossing = crossing_bonds.crossing(view.first, view.second);
-    const auto end = crossing ? paths.end_at(*crossing) : std::nullopt;
+    const BondAcross<dim> *const across = crossing_bonds.find(view.first, view.second);
+    const auto end = across ? paths.end_at(across->crossing) : std::nullopt;
     // What begins beyond another path, or by itself, is dry at first, see TrackedPaths.
     if (!end || (paths.is_all_way(end->path) && !paths.is_wet(end->path)))
       return;
     double &fluid = farthest[end->path][end->side];
-    fluid = std::max(fluid, paths.along_way(*crossing, *end));
+    fluid = std::max(fluid, paths.along_way(across->crossing, *end));
   };
   if (lattice.scene.has_pore_pressure)
   {
-    for (const SofteningBond &bond : softening_bonds)
-      if (rounded(lattice.softening.damage(bond.trial)) > 0.)
-        reach(bond.view);
+    for (unsigned int n = 0; n < softening.size(); ++n)
+      if (rounded(damage_of_rock(n)) > 0.)
+        reach(softening_bonds[n].view);
+    // Cement softens before rock does: its bonds count once rock would have, see above.
     for (const BondView &view : about_to_soften)
-      reach(view);
+      if (const auto *across = crossing_bonds.find(view.first, view.second);
+          across && !across->cohesive)
+        reach(view);
     if (lattice.softening.brittle())
       for (const BondAcross<dim> &bond : crossing_bonds)
         if (!bond.was_cut && is_broken(bond))
@@ -218,7 +239,7 @@ double Tips<dim>::energy_of_bond(const BondAcross<dim> &bond) const
   if (bond.was_cut ||
       lattice.bonds.views_of(bond.view.first, bond.view.second).front() != bond.view)
     return 0.;
-  return lattice.energy_at_unit_stretch(bond.view) *
+  return bond.share * lattice.energy_at_unit_stretch(bond.view) *
          lattice.softening.dissipated(lattice.softening.last);
 }
 

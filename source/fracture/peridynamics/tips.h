@@ -26,12 +26,6 @@ public:
   /// Find whose ways the softening bonds cross, by the bonds that cross these paths.
   void look_at(const TrackedPaths &paths);
 
-  /// Whether a softening bond crosses the way of an end; by its number.
-  bool is_across_way(const unsigned int bond) const
-  {
-    return bond < ends.size() && ends[bond].has_value();
-  }
-
   /// What bonds across the way of each end have dissipated [J/m].
   OfEnds energy(const TrackedPaths &paths) const;
 
@@ -65,6 +59,10 @@ private:
 
   bool is_broken(const BondAcross<dim> &bond) const;
 
+  /// Of a softening bond by its number, if it crossed rock and were stretched as much; nil if it
+  /// crosses a cohesive crack and has lost what all of those have lost at the start.
+  double damage_of_rock(unsigned int bond) const;
+
   /// What a bond takes that crosses the way of an end; nil if an open crack of the deck has cut it,
   /// and as seen from its other ends [J/m].
   double energy_of_bond(const BondAcross<dim> &bond) const;
@@ -76,6 +74,13 @@ private:
   const Lattice<dim> &lattice;
   const SofteningBonds<dim> &softening_bonds;
   const CrossingBonds<dim> &crossing_bonds;
-  std::vector<std::optional<TrackedPaths::End>> ends; ///< of each softening bond
+  /// Of a softening bond.
+  struct Softening
+  {
+    std::optional<TrackedPaths::End> end; ///< whose way it crosses
+    bool cohesive = false;                ///< see BondAcross
+    double share = 1.;                    ///< likewise
+  };
+  std::vector<Softening> softening; ///< by their numbers
 };
 } // namespace stockwork::peridynamics

@@ -62,7 +62,8 @@ void TrackedPaths::Path::find_arcs()
 
 void TrackedPaths::reinit(const std::vector<InitialCrack<2>> &cracks,
                           const double spacing,
-                          const std::function<bool(const Point<2> &)> &may_grow)
+                          const std::function<bool(const Point<2> &)> &may_grow,
+                          const double cement)
 {
   h = spacing;
   paths.clear();
@@ -87,7 +88,8 @@ void TrackedPaths::reinit(const std::vector<InitialCrack<2>> &cracks,
         path.points.push_back({{point[0], point[1]}});
       }
     }
-    path.cemented = crack.kind == InitialCrack<2>::Kind::cohesive;
+    if (crack.kind == InitialCrack<2>::Kind::cohesive)
+      path.cement = cement;
     path.find_arcs();
     paths.push_back(path);
   }
@@ -131,7 +133,8 @@ std::optional<TrackedPaths::Crossing> TrackedPaths::crossing(const Point<2> &a,
   double nearest = 0., slant_of_nearest = 0.;
   const auto is_better = [&](const unsigned int path, const double away, const double slant)
   {
-    if (found && path != found->path && (paths[path].cemented || paths[found->path].cemented) &&
+    if (found && path != found->path &&
+        (paths[path].cement > 0. || paths[found->path].cement > 0.) &&
         std::abs(slant - slant_of_nearest) > same_spot)
       return slant < slant_of_nearest;
     return !found || away < nearest - same_spot;

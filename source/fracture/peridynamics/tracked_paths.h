@@ -24,7 +24,7 @@ dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress
 /// paths: those that a tip has come to; in elastic rock the next one, too, as soon as most of it
 /// lies in the process zone, or a little before the tip comes to it; in porous rock all of the
 /// process zone. Of a path that begins beyond another one, or where there is none, the first when
-/// it has taken a tenth of its energy.
+/// it has taken a tenth of its energy; the sooner, the more cement there is on its way.
 class TrackedPaths
 {
 public:
@@ -58,9 +58,11 @@ public:
 
   /// @param spacing length of pieces [m]
   /// @param may_grow from a point that is the end of a crack
+  /// @param cement of cohesive cracks, see Path
   void reinit(const std::vector<InitialCrack<2>> &cracks,
               double spacing,
-              const std::function<bool(const dealii::Point<2> &)> &may_grow);
+              const std::function<bool(const dealii::Point<2> &)> &may_grow,
+              double cement = 1.);
 
   /// Of the line from a to b, nearest to its middle; of two paths of which one is cemented, that
   /// which it crosses more squarely. Nothing if it crosses no path.
@@ -290,13 +292,14 @@ private:
   {
     std::vector<std::array<double, 2>> points; ///< of the ways as well
     std::array<Growth, 2> ends;
-    bool dry = false;      ///< as long as no path with fluid has joined it
-    bool cemented = false; ///< an initial crack across which bonds hold
+    bool dry = false; ///< as long as no path with fluid has joined it
+    /// Of an initial crack across which bonds hold, their energy over that in rock; 0: all others.
+    double cement = 0.;
 
     template <class Archive>
     void serialize(Archive &ar, const unsigned int)
     {
-      ar &points &ends &dry &cemented;
+      ar &points &ends &dry &cement;
       if (Archive::is_loading::value)
         find_arcs();
     }

@@ -21,9 +21,12 @@ std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p,
       const double length = path.length(side == 0 ? k - 1 : path.n_pieces() - k);
       // Elsewhere fluid is in a piece as soon as its front is. Beyond another path it comes through
       // a face of whole rock, and not by the first bond that is stretched too far: its pressure on
-      // all of the first horizon would part the rest.
+      // all of the first horizon would part the rest. Cement as strong as rock has no such face.
       const bool is_first = is_all_way(p) && k == growth.n_points;
-      if (front <= inner + (is_first ? SofteningLaw::wet_damage * length : same_spot * h))
+      const double cement = path.ends[0].joined ? paths[path.ends[0].joined_path].cement : 0.;
+      if (front <=
+          inner + std::max(same_spot * h,
+                           is_first ? (1. - cement) * SofteningLaw::wet_damage * length : 0.))
         break;
       ++result[side];
       inner += length;
