@@ -120,7 +120,7 @@ double Tips<dim>::damage_of_rock(const unsigned int bond) const
 {
   const auto &[end, cohesive, share] = softening[bond];
   const double damage = lattice.softening.damage(std::sqrt(share) * softening_bonds[bond].trial);
-  return cohesive && damage <= SofteningLaw::damage_at_start ? 0. : damage;
+  return cohesive && damage <= SofteningLaw::damage_at_start * (1. + same_stretch) ? 0. : damage;
 }
 
 
