@@ -172,12 +172,14 @@ stockwork_case_test(NAME convergence/natural_crack/60/weak_cement DECK prm/natur
   SET "Output/Fields=false" "In situ/Stress=-2 MPa, -1 MPa" "Cracks/Open=0, 0 -> 0.9 m, 0"
       "Cracks/Cohesive=1 m, -1.21244 m -> 2.4 m, 1.21244 m" "Fracture/peridynamics/Cohesive energy=0.1"
       "Fracture/peridynamics/Friction coefficient=0.6"
-  EXPECT "final/inlet_pressure = 2.06e6 within 0.04" "fluid_balance/relative_error < 1e-8")
-# Cement as strong as rock is nearly as rock, which has 1.652 MPa at 6 s. Beyond, fluid waited for a tenth of a piece's energy: 2.12 MPa.
+  EXPECT "final/inlet_pressure = 2.06e6 within 0.01" "fluid_balance/relative_error < 1e-8")
+# Cement as strong as rock is nearly as rock, which has 1.652 MPa at 6 s. Beyond, fluid waited for a tenth of a piece's energy: 2.12 MPa. And what holds
+# counted as fracture from the start (4.79 m; the cracks of the deck have 3.7 m).
 stockwork_case_test(NAME convergence/natural_crack/60/cement_as_rock DECK prm/natural_crack/60/peridynamics.prm
   SET "Rock/Bulk model=elastic" "Fracture flow/Leak-off=none" "Output/Fields=false" "Time/End time=6 s" "Cracks/Open=0, 0 -> 0.9 m, 0"
       "Cracks/Cohesive=1 m, -1.21244 m -> 2.4 m, 1.21244 m"
-  EXPECT "final/inlet_pressure = 1.652e6 within 0.04" "minimum/minimum_pressure > -2e6" "fluid_balance/relative_error < 1e-12")
+  EXPECT "final/inlet_pressure = 1.652e6 within 0.04" "minimum/minimum_pressure > -1e6" "minimum/fracture_length < 3.75"
+         "fluid_balance/relative_error < 1e-12")
 # A natural crack that friction holds (0.25 of what presses it acts along it, and its coefficient is 0.6) sticks, with the pores' pressure in it.
 # Faces that had to overlap before they carried anything left the stress to its fluid: at 60 degrees it slid by 0.1 mm in the first step, with
 # 1.0 J/m (cut cells) and 21 J/m (bonds) of friction, at 1.6 MPa.

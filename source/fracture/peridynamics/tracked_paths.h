@@ -24,7 +24,7 @@ dealii::Tensor<1, 2> across_greatest(const dealii::SymmetricTensor<2, 2> &stress
 /// paths: those that a tip has come to; in elastic rock the next one, too, as soon as most of it
 /// lies in the process zone, or a little before the tip comes to it; in porous rock all of the
 /// process zone. Of a path that begins beyond another one, or where there is none, the first when
-/// it has taken a tenth of its energy; the sooner, the more cement there is on its way.
+/// it has taken a tenth of its energy; beyond cement, the less of that, the more the cement takes.
 class TrackedPaths
 {
 public:

@@ -23,10 +23,9 @@ std::array<unsigned int, 2> TrackedPaths::reached(const unsigned int p,
       // a face of whole rock, and not by the first bond that is stretched too far: its pressure on
       // all of the first horizon would part the rest. Cement as strong as rock has no such face.
       const bool is_first = is_all_way(p) && k == growth.n_points;
-      const double cement = began_beyond(p) ? paths[path.ends[0].joined_path].cement : 0.;
-      if (front <=
-          inner + std::max(same_spot * h,
-                           is_first ? (1. - cement) * SofteningLaw::wet_damage * length : 0.))
+      const double cement = began_beyond(p) ? paths[path.ends[0].joined_path].cement : 0.,
+                   least = is_first ? (1. - cement) * SofteningLaw::wet_damage * length : 0.;
+      if (front <= inner + std::max(least, same_spot * h))
         break;
       ++result[side];
       inner += length;
