@@ -15,7 +15,11 @@ template <int dim>
 void add_pore_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numbers);
 
 /// Where the deck gives the pressure in cracks, or in wells that feed them: beside the stress
-/// across the cracks.
+/// across the cracks, and beside what lets them grow.
 template <int dim>
 void add_given_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numbers);
+
+/// What would slide an open crack in situ, and what friction it would take to hold it.
+template <int dim>
+void add_shear_along_cracks(const Case<dim> &the_case, std::vector<SceneNumber> &numbers);
 } // namespace stockwork

@@ -231,13 +231,19 @@ double pressure_diffusivity(const Case<dim> &the_case, const types::material_id 
 
 
 template <int dim>
-double half_length_at_start(const Case<dim> &the_case)
+double half_length(const Case<dim> &the_case, const InitialCrack<dim> &crack)
 {
-  const InitialCrack<dim> &crack = the_case.scene.cracks[0];
   const bool is_half =
     std::any_of(crack.points.begin(), crack.points.end(),
                 [&](const Point<dim> &point) { return the_case.geometry.on_side(point); });
   return (is_half ? 1. : 0.5) * crack.size();
+}
+
+
+template <int dim>
+double half_length_at_start(const Case<dim> &the_case)
+{
+  return half_length(the_case, the_case.scene.cracks[0]);
 }
 
 
@@ -332,6 +338,8 @@ template double pressure_diffusivity<2>(const Case<2> &, types::material_id);
 template double pressure_diffusivity<3>(const Case<3> &, types::material_id);
 template bool wells_are_constant<2>(const Case<2> &);
 template bool wells_are_constant<3>(const Case<3> &);
+template double half_length<2>(const Case<2> &, const InitialCrack<2> &);
+template double half_length<3>(const Case<3> &, const InitialCrack<3> &);
 template double half_length_at_start<2>(const Case<2> &);
 template double half_length_at_start<3>(const Case<3> &);
 template bool begins_on_an_edge<2>(const Case<2> &);

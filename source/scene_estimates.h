@@ -26,7 +26,11 @@ double smallest_extent(const Case<dim> &the_case);
 template <int dim>
 double distance_to_walls(const Case<dim> &the_case);
 
-/// Half length or radius of the first crack, of which symmetry may show one half [m].
+/// Half length or radius of a crack, of which symmetry may show one half [m].
+template <int dim>
+double half_length(const Case<dim> &the_case, const InitialCrack<dim> &crack);
+
+/// Of the first crack.
 template <int dim>
 double half_length_at_start(const Case<dim> &the_case);
 

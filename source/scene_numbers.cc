@@ -338,10 +338,7 @@ Swelling swelling_beside(const Case<dim> &the_case,
 {
   const LinearStiffness<2> stiffness(rock);
   const double uniaxial = stiffness.bulk_modulus() + stiffness.shear_modulus();
-  const bool is_half =
-    std::any_of(crack.points.begin(), crack.points.end(),
-                [&](const Point<dim> &point) { return the_case.geometry.on_side(point); });
-  const double half_length = crack.disc ? crack.disc->radius : (is_half ? 1. : 0.5) * crack.size();
+  const double half_length = stockwork::half_length(the_case, crack);
   const Point<dim> place = crack.disc ? crack.disc->centre : crack.points.front();
   const double net = rock.toughness() / std::sqrt(numbers::PI * half_length);
   const double excess = std::max(
@@ -492,6 +489,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
   if (the_case.elements.has_pore_pressure)
     add_sources(the_case, numbers);
   add_given_pressure(the_case, numbers);
+  add_shear_along_cracks(the_case, numbers);
   for (const auto &[well, pressure] : the_case.network.minimum_well_pressures())
     numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,
                        "at it, what the well takes is what flows (Minimum pressure)"});

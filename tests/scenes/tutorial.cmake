@@ -25,6 +25,19 @@ stockwork_audit_test(near_walls "Warning: distance to walls / final length = [34
 stockwork_check_test(NAME scenes/audit/given_pressure DECK tests/data/pressed_crack.prm LABELS quick
   SET "In situ/Stress=-10 MPa, -20 MPa" SAYS "given pressure / in-situ stress across a crack +0\\.686 +the least, of 1\\.75e.07 Pa: no crack of the deck opens")
 
+# Beside the one with which a crack grows: the roots of the static G/G_c, 1.8 and 0.37 (doc/cases/dry.md).
+stockwork_check_test(NAME scenes/audit/growth_under_given_pressure DECK prm/dry/bridge/1/peridynamics.prm LABELS quick
+  SAYS "net pressure given / needed for growth +1\\.36 +crack 1 grows, and the longer it is the more easily, until walls")
+stockwork_check_test(NAME scenes/audit/no_growth_under_given_pressure DECK prm/dry/bridge/0.45/peridynamics.prm LABELS quick
+  SAYS "net pressure given / needed for growth +0\\.611 +crack 1: no crack of the deck grows")
+# Shear along a natural crack at 60 degrees under 2 and 1 MPa: sin 120 / 2 = 0.433 MPa, beside 1.75 MPa across it.
+stockwork_check_test(NAME scenes/audit/shear_along_a_crack DECK prm/natural_crack/60/cohesive_xfem.prm LABELS quick
+  SAYS "in-situ shear stress along a crack .Pa. +4\\.33e.05 +crack 2: 1\\.75e.06 Pa presses its faces; with a friction coefficient of less than 0\\.247 it slides")
+stockwork_check_test(NAME scenes/audit/nothing_presses_faces DECK prm/natural_crack/cohesive_xfem.prm LABELS quick
+  SET "In situ/Stress=-2 MPa, -1 MPa" "Cracks/Open=2 m, -1 m -> 3.1547 m, 1 m"
+      "Wells/Well 1/Perforations=2.57735 m, 0" "Wells/Well 1/Fraction in model=1"
+  SAYS "in-situ shear stress along a crack .Pa. +4\\.33e.05 +crack 1: its fluid is at the stress across it, for the rock has no pores")
+
 # The whole hour. The stress across the fracture is 18.00 MPa in situ; contrib/back_stress.py reads
 # 18.17 MPa beside it 30 s before it closes. Greatest aperture: 0.907 mm.
 stockwork_case_test(NAME scenes/tutorial/resolved DECK prm/tutorial/cohesive_xfem.prm LABELS nightly TIMEOUT 1800

@@ -56,7 +56,7 @@ ExplicitBonds<dim>::ExplicitBonds(
       continue;
     list(k, bonds);
   }
-  uneven->share_equal();
+  uneven->end_start();
   find_spans();
   for (const BondCoefficients<dim> &bond : coefficients)
     bonds_of_lattice.push_back({bond.stiffness, 1., 0., by_fluid});

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string_view>
-#include <unordered_map>
 
 namespace stockwork::peridynamics
 {
@@ -24,12 +22,13 @@ void UnevenBonds<dim>::add(const std::size_t site)
   unsigned int &row = row_of[site / n_lanes];
   if (row == dealii::numbers::invalid_unsigned_int)
   {
+    if (is_starting && !rows.empty())
+      share(rows.back());
     row = rows.size();
-    rows.push_back({site / n_lanes * n_lanes, static_cast<unsigned int>(n_rows.size()), {}});
-    n_rows.push_back(1);
+    rows.push_back({site / n_lanes * n_lanes, static_cast<unsigned int>(sets.size()), {}});
     Values absent;
     std::fill_n(absent.limit, n_lanes, std::numeric_limits<double>::infinity());
-    values.resize(values.size() + bonds.size(), absent);
+    sets.emplace_back(bonds.size(), absent);
   }
   rows[row].is_one[site % n_lanes] = true;
 }
@@ -42,42 +41,40 @@ void UnevenBonds<dim>::set(const std::size_t site,
                            const double limit)
 {
   Row &row = rows[row_of[site / n_lanes]];
-  if (n_rows[row.set] > 1)
+  if (row.set < n_shared)
   {
-    --n_rows[row.set];
-    const std::size_t begin = row.set * bonds.size();
-    row.set = n_rows.size();
-    n_rows.push_back(1);
-    values.resize(values.size() + bonds.size());
-    std::copy_n(values.begin() + begin, bonds.size(), values.end() - bonds.size());
+    sets.push_back(sets[row.set]);
+    row.set = sets.size() - 1;
   }
-  Values &of_bond = values[row.set * bonds.size() + bond];
+  Values &of_bond = sets[row.set][bond];
   of_bond.stiffness[site % n_lanes] = stiffness;
   of_bond.limit[site % n_lanes] = limit;
 }
 
 
 template <int dim>
-void UnevenBonds<dim>::share_equal()
+void UnevenBonds<dim>::share(Row &row)
 {
-  std::unordered_map<std::string_view, unsigned int> known; // by their bytes
-  std::vector<Values> shared;
-  n_rows.clear();
-  for (Row &row : rows)
-  {
-    const Values *const begin = values_of(row);
-    const std::string_view bytes(reinterpret_cast<const char *>(begin),
-                                 bonds.size() * sizeof(Values));
-    const auto [set, is_new] = known.emplace(bytes, n_rows.size());
-    if (is_new)
-    {
-      shared.insert(shared.end(), begin, begin + bonds.size());
-      n_rows.push_back(0);
-    }
-    row.set = set->second;
-    ++n_rows[row.set];
-  }
-  values = std::move(shared);
+  Assert(row.set + 1 == sets.size(), dealii::ExcMessage("rows are complete before the next"));
+  // A set that has been shared is never written to again.
+  const std::vector<Values> &own = sets[row.set];
+  const auto [found, is_new] = known.emplace(
+    std::string_view(reinterpret_cast<const char *>(own.data()), own.size() * sizeof(Values)),
+    row.set);
+  row.set = found->second;
+  if (!is_new)
+    sets.pop_back();
+  n_shared = sets.size();
+}
+
+
+template <int dim>
+void UnevenBonds<dim>::end_start()
+{
+  if (!rows.empty())
+    share(rows.back());
+  known.clear();
+  is_starting = false;
 }
 
 
@@ -89,7 +86,7 @@ void UnevenBonds<dim>::sweep(const LatticeField<dim> &u,
 {
   for (const Row &row : rows)
   {
-    const Values *bond = values_of(row);
+    const Values *bond = sets[row.set].data();
     Lanes own[dim], sum[dim] = {};
     for (unsigned int d = 0; d < dim; ++d)
       load(own[d], u[d].data() + row.first);
@@ -143,7 +140,7 @@ void UnevenBonds<dim>::energies(const LatticeField<dim> &u, std::vector<double> 
 {
   for (const Row &row : rows)
   {
-    const Values *bond = values_of(row);
+    const Values *bond = sets[row.set].data();
     Lanes sum = {};
     for (unsigned int b = 0; b < bonds.size(); ++b, ++bond)
     {

@@ -3,6 +3,10 @@
 #include "fracture/peridynamics/bond_forces.h"
 #include "fracture/peridynamics/lanes.h"
 
+#include <deque>
+#include <string_view>
+#include <unordered_map>
+
 namespace stockwork::peridynamics
 {
 /// The bonds of sites whose bonds are not all those of the lattice, beside cracks and free
@@ -28,8 +32,9 @@ public:
   /// @param limit elongation beyond which the site is to be looked at [m]
   void set(std::size_t site, unsigned int bond, double stiffness, double limit);
 
-  /// Let rows with the same bonds, as along a straight boundary, keep them together: less to read.
-  void share_equal();
+  /// All sites of the start have been added and set, each row before the next. Until then rows with
+  /// the same bonds, as along a straight boundary, keep them together: less to store and to read.
+  void end_start();
 
   /// The force on these sites.
   /// @param beyond becomes the sites that have a bond longer than its limit; may be null
@@ -55,10 +60,8 @@ private:
     double stiffness[n_lanes] = {}, limit[n_lanes];
   };
 
-  const Values *values_of(const Row &row) const
-  {
-    return values.data() + row.set * bonds.size();
-  }
+  /// The row that was added last is complete: let it have its set together with one like it.
+  void share(Row &row);
 
   template <bool looks>
   void sweep(const LatticeField<dim> &u,
@@ -69,7 +72,9 @@ private:
   std::vector<std::ptrdiff_t> strides;
   std::vector<unsigned int> row_of; ///< of n_lanes sites of the box each
   std::vector<Row> rows;
-  std::vector<Values> values;       ///< in sets, by bond
-  std::vector<unsigned int> n_rows; ///< that have this set
+  std::deque<std::vector<Values>> sets; ///< by bond
+  std::size_t n_shared = 0;             ///< so many sets may be those of several rows
+  std::unordered_map<std::string_view, unsigned int> known; ///< of these, at the start; by bytes
+  bool is_starting = true;
 };
 } // namespace stockwork::peridynamics
