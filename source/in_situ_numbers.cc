@@ -1,6 +1,5 @@
 #include "in_situ_numbers.h"
 
-#include "scales.h"
 #include "scene_estimates.h"
 
 #include "stockwork/base/quantity.h"
@@ -19,15 +18,57 @@ using namespace dealii;
 
 namespace
 {
-/// The least that presses the faces of a crack together in situ, in the middle of its parts [Pa];
-/// infinity without a crack.
+/// Stress in situ on a crack's plane somewhere.
+struct OnPlane
+{
+  double across; ///< compression [Pa]
+  double along;  ///< shear [Pa]
+  double all;    ///< the norm of the stress there [Pa]
+  double pores;  ///< pressure in them [Pa]
+};
+
+/// At the middles and the ends of its flat parts.
+template <int dim>
+std::vector<OnPlane> on_planes(const Scene<dim> &scene, const InitialCrack<dim> &crack)
+{
+  std::vector<OnPlane> result;
+  const auto add = [&](const Point<dim> &place, const Tensor<1, dim> &normal)
+  {
+    const SymmetricTensor<2, dim> stress = scene.in_situ_stress(place);
+    const Tensor<1, dim> traction = stress * normal;
+    result.push_back({-(traction * normal), (traction - (traction * normal) * normal).norm(),
+                      stress.norm(), scene.in_situ_pore_pressure(place)});
+  };
+  for (const auto &[middle, normal] : flat_parts(crack))
+  {
+    add(middle, normal);
+    if (crack.disc)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        Tensor<1, dim> along;
+        along[d] = 1.;
+        along -= (along * normal) * normal;
+        for (const double end : {-1., 1.})
+          if (along.norm() > 1e-6) // not across it
+            add(middle + end * crack.disc->radius / along.norm() * along, normal);
+      }
+  }
+  for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
+    if constexpr (dim == 2)
+      if (const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i]; along.norm() > 0.)
+        for (const unsigned int end : {i, i + 1})
+          add(crack.points[end], cross_product_2d(along) / along.norm());
+  return result;
+}
+
+/// The least that presses the faces of a crack together in situ [Pa]; infinity without a crack.
 template <int dim>
 double least_compression_across_cracks(const Scene<dim> &scene)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const InitialCrack<dim> &crack : scene.cracks)
-    for (const auto &[place, normal] : flat_parts(crack))
-      least = std::min(least, -(normal * (scene.in_situ_stress(place) * normal)));
+    for (const OnPlane &plane : on_planes(scene, crack))
+      least = std::min(least, plane.across);
   return least;
 }
 } // namespace
@@ -72,51 +113,82 @@ void add_pore_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numb
 
 namespace
 {
-/// The given pressure beside the one with which a crack of the deck begins to grow: K_Ic =
-/// p sqrt(pi a), of a disc 2 p sqrt(a/pi) (Tada, Paris & Irwin 2000).
+/// Whether a crack cuts the domain in two: it has no tips.
 template <int dim>
-void add_setting_out(const Case<dim> &the_case,
-                     const double given,
-                     const bool in_cracks,
-                     std::vector<SceneNumber> &numbers)
+bool is_through(const Case<dim> &the_case, const InitialCrack<dim> &crack)
 {
-  const double toughness = the_case.rock.main().toughness();
-  // What a well feeds is the first one.
-  const unsigned int n_cracks = in_cracks ? the_case.scene.cracks.size() : 1;
+  return !crack.points.empty() && the_case.geometry.on_side(crack.points.front()) &&
+         the_case.geometry.on_side(crack.points.back());
+}
+
+/// Whether anything pulls, pushes or moves the boundary.
+template <int dim>
+bool is_loaded(const Case<dim> &the_case)
+{
+  const auto &loads = the_case.boundary_conditions.loads();
+  if (!loads.traction.empty() || !loads.normal_traction.empty())
+    return true;
+  const auto sides = the_case.geometry.side_names();
+  return the_case.scene.moves_side &&
+         std::any_of(sides.begin(), sides.end(),
+                     [&](const std::string &side)
+                     { return the_case.scene.moves_side(the_case.geometry.side(side)); });
+}
+
+/// The given pressure and the shear in situ beside what lets a crack of the deck begin to grow:
+/// K_Ic = p sqrt(pi a), of a disc 2 p sqrt(a/pi), and the same of the shear that an open crack
+/// lets go (Tada, Paris & Irwin 2000; of a disc, but for Poisson's ratio).
+template <int dim>
+void add_growth(const Case<dim> &the_case,
+                const MeshSizes<dim> &mesh,
+                const double given,
+                const bool in_cracks,
+                std::vector<SceneNumber> &numbers)
+{
   double greatest = 0.;
   unsigned int number = 0;
-  for (unsigned int c = 0; c < n_cracks; ++c)
+  for (unsigned int c = 0; c < the_case.scene.cracks.size(); ++c)
   {
     const InitialCrack<dim> &crack = the_case.scene.cracks[c];
-    if (crack.kind != InitialCrack<dim>::Kind::open)
+    if (crack.kind != InitialCrack<dim>::Kind::open || is_through(the_case, crack))
       continue;
+    const RockProperties &rock = the_case.rock(mesh.region_at(flat_parts(crack).front().first));
     const double a = half_length(the_case, crack),
-                 needed = crack.disc ? 0.5 * toughness * std::sqrt(numbers::PI / a)
-                                     : toughness / std::sqrt(numbers::PI * a),
-                 share = (given - closing_stress(the_case.scene, crack)) / needed;
-    if (share > greatest)
-    {
-      greatest = share;
-      number = c + 1;
-    }
+                 needed = crack.disc ? 0.5 * rock.toughness() * std::sqrt(numbers::PI / a)
+                                     : rock.toughness() / std::sqrt(numbers::PI * a);
+    for (const OnPlane &plane : on_planes(the_case.scene, crack))
+      if (const double net = given - plane.across; net > 0. && needed > 0.)
+        if (const double share = std::hypot(net, plane.along) / needed; share > greatest)
+        {
+          greatest = share;
+          number = c + 1;
+        }
   }
   if (number == 0)
     return;
+  // Bonds of a coarse lattice, and a pressure that is put on at once, let cracks grow below what
+  // statics say.
+  constexpr double far_from_it = 0.5;
   std::ostringstream text;
-  text << "crack " << number;
-  if (greatest < 1.)
-    text << (n_cracks > 1 ? " comes nearest to it" : "") << ": no crack of the deck grows";
+  if (greatest >= 1.)
+    text << "crack " << number << " grows"
+         << (in_cracks ? "" : " once fluid comes to it, and as fast as it follows")
+         << ", the longer it is the more easily, until walls or stress stop it, or the run ends";
+  else if (greatest < far_from_it && !is_loaded(the_case))
+    text << "no crack of the deck grows";
   else
-    text
-      << " grows" << (in_cracks ? "" : " as fast as fluid follows")
-      << ", and the longer it is the more easily, until walls or stress stop it, or the run ends";
+    text << "crack " << number
+         << " comes nearest to it; by statics and alone in a large rock it does not grow, but with "
+            "loads on the boundary, walls or cracks nearby, or a sudden pressure it may";
   numbers.push_back({"net pressure given / needed for growth", greatest, text.str()});
 }
 } // namespace
 
 
 template <int dim>
-void add_given_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
+void add_given_pressure(const Case<dim> &the_case,
+                        const MeshSizes<dim> &mesh,
+                        std::vector<SceneNumber> &numbers)
 {
   const bool in_cracks = !std::isnan(the_case.scene.crack_pressure);
   const double given = in_cracks ? the_case.scene.crack_pressure
@@ -135,40 +207,35 @@ void add_given_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &num
     numbers.push_back(
       {"given pressure / in-situ stress across a crack", given / across, text.str()});
   }
-  if (given > across && the_case.model->requirements().may_grow &&
-      the_case.rock.main().toughness() > 0.)
-    add_setting_out(the_case, given, in_cracks, numbers);
+  if (the_case.model->requirements().may_grow)
+    add_growth(the_case, mesh, given, in_cracks, numbers);
 }
 
 
 template <int dim>
 void add_shear_along_cracks(const Case<dim> &the_case, std::vector<SceneNumber> &numbers)
 {
-  constexpr double rounding = 1e-6; // of the stress in situ
+  constexpr double hardly_any = 1e-3; // of the stress in situ
   const Scene<dim> &scene = the_case.scene;
-  // Of the crack that slides most easily.
+  const bool is_given = !std::isnan(scene.crack_pressure);
+  // Where a crack slides most easily.
   double shear = 0., pressing = 1.;
   unsigned int number = 0;
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
-  {
-    const InitialCrack<dim> &crack = scene.cracks[c];
-    if (crack.kind != InitialCrack<dim>::Kind::open)
-      continue; // what holds it is not friction alone
-    const Point<dim> middle = flat_parts(crack).front().first;
-    const double along = shear_stress(scene, crack);
-    if (!(along > rounding * scene.in_situ_stress(middle).norm()))
-      continue;
-    const double of_fluid = !std::isnan(scene.crack_pressure) ? scene.crack_pressure
-                            : scene.has_pore_pressure         ? scene.in_situ_pore_pressure(middle)
-                                                              : closing_stress(scene, crack),
-                 across = std::max(closing_stress(scene, crack) - of_fluid, 0.);
-    if (along * pressing > shear * across)
-    {
-      shear = along;
-      pressing = across;
-      number = c + 1;
-    }
-  }
+    if (scene.cracks[c].kind == InitialCrack<dim>::Kind::open) // no other friction holds
+      for (const OnPlane &plane : on_planes(scene, scene.cracks[c]))
+      {
+        const double of_fluid = is_given                  ? scene.crack_pressure
+                                : scene.has_pore_pressure ? plane.pores
+                                                          : plane.across,
+                     across = std::max(plane.across - of_fluid, 0.);
+        if (plane.along > hardly_any * plane.all && plane.along * pressing > shear * across)
+        {
+          shear = plane.along;
+          pressing = across;
+          number = c + 1;
+        }
+      }
   if (number == 0)
     return;
   std::ostringstream text;
@@ -179,7 +246,7 @@ void add_shear_along_cracks(const Case<dim> &the_case, std::vector<SceneNumber> 
          << shear / pressing << " it slides at the start";
   else
     text << "its fluid is at the stress across it"
-         << (std::isnan(scene.crack_pressure) && !scene.has_pore_pressure
+         << (!is_given && !scene.has_pore_pressure
                ? ", for the rock has no pores that could take it"
                : " or above")
          << ", so nothing presses its faces, and it slides at the start whatever their friction";
@@ -187,9 +254,9 @@ void add_shear_along_cracks(const Case<dim> &the_case, std::vector<SceneNumber> 
 }
 
 template void add_pore_pressure(const Case<2> &, std::vector<SceneNumber> &);
-template void add_given_pressure(const Case<2> &, std::vector<SceneNumber> &);
+template void add_given_pressure(const Case<2> &, const MeshSizes<2> &, std::vector<SceneNumber> &);
 template void add_shear_along_cracks(const Case<2> &, std::vector<SceneNumber> &);
 template void add_pore_pressure(const Case<3> &, std::vector<SceneNumber> &);
-template void add_given_pressure(const Case<3> &, std::vector<SceneNumber> &);
+template void add_given_pressure(const Case<3> &, const MeshSizes<3> &, std::vector<SceneNumber> &);
 template void add_shear_along_cracks(const Case<3> &, std::vector<SceneNumber> &);
 } // namespace stockwork

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh_sizes.h"
 #include "scene_numbers.h"
 
 #include <vector>
@@ -17,7 +18,9 @@ void add_pore_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numb
 /// Where the deck gives the pressure in cracks, or in wells that feed them: beside the stress
 /// across the cracks, and beside what lets them grow.
 template <int dim>
-void add_given_pressure(const Case<dim> &the_case, std::vector<SceneNumber> &numbers);
+void add_given_pressure(const Case<dim> &the_case,
+                        const MeshSizes<dim> &mesh,
+                        std::vector<SceneNumber> &numbers);
 
 /// What would slide an open crack in situ, and what friction it would take to hold it.
 template <int dim>

@@ -488,7 +488,7 @@ std::vector<SceneNumber> scene_numbers(const Case<dim> &the_case, const MeshSize
 
   if (the_case.elements.has_pore_pressure)
     add_sources(the_case, numbers);
-  add_given_pressure(the_case, numbers);
+  add_given_pressure(the_case, mesh, numbers);
   add_shear_along_cracks(the_case, numbers);
   for (const auto &[well, pressure] : the_case.network.minimum_well_pressures())
     numbers.push_back({"minimum pressure in '" + well + "' [Pa]", pressure,

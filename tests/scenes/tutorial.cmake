@@ -27,9 +27,9 @@ stockwork_check_test(NAME scenes/audit/given_pressure DECK tests/data/pressed_cr
 
 # Beside the one with which a crack grows: the roots of the static G/G_c, 1.8 and 0.37 (doc/cases/dry.md).
 stockwork_check_test(NAME scenes/audit/growth_under_given_pressure DECK prm/dry/bridge/1/peridynamics.prm LABELS quick
-  SAYS "net pressure given / needed for growth +1\\.36 +crack 1 grows, and the longer it is the more easily, until walls")
+  SAYS "net pressure given / needed for growth +1\\.36 +crack 1 grows, the longer it is the more easily, until walls")
 stockwork_check_test(NAME scenes/audit/no_growth_under_given_pressure DECK prm/dry/bridge/0.45/peridynamics.prm LABELS quick
-  SAYS "net pressure given / needed for growth +0\\.611 +crack 1: no crack of the deck grows")
+  SAYS "net pressure given / needed for growth +0\\.611 +crack 1 comes nearest to it; by statics and alone in a large rock it does not grow")
 # Shear along a natural crack at 60 degrees under 2 and 1 MPa: sin 120 / 2 = 0.433 MPa, beside 1.75 MPa across it.
 stockwork_check_test(NAME scenes/audit/shear_along_a_crack DECK prm/natural_crack/60/cohesive_xfem.prm LABELS quick
   SAYS "in-situ shear stress along a crack .Pa. +4\\.33e.05 +crack 2: 1\\.75e.06 Pa presses its faces; with a friction coefficient of less than 0\\.247 it slides")

@@ -100,14 +100,15 @@ std::string Peridynamics<dim>::why_sliding_crack_holds() const
         where = paths.point(bond.crossing);
       }
     }
-  if (held <= little_held * dissipated)
+  const double taken = dissipated + softened_in_step();
+  if (held <= little_held * taken)
     return "";
   std::ostringstream reason;
   reason.precision(3);
   reason << "the crack at (" << where
          << ") m is made to slide as it opens. Bonds across it that this presses do not break, and "
             "hold what has parted: they store "
-         << 100. * held / dissipated
+         << 100. * held / taken
          << " % of what the crack has taken, and all that follows would be wrong. Let what pulls "
             "act across the crack, or use 'cohesive_xfem'";
   return reason.str();

@@ -362,6 +362,19 @@ void Peridynamics<dim>::begin_step(const StepContext &context)
 
 
 template <int dim>
+double Peridynamics<dim>::softened_in_step() const
+{
+  double energy = 0.;
+  for (const SofteningBond &bond : softening_bonds)
+    energy +=
+      relative_energy(bond.view.first, bond.view.second) *
+      lattice.energy_at_unit_stretch(bond.view) *
+      (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
+  return energy;
+}
+
+
+template <int dim>
 bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
 {
   if (passes > 0 && !parameters.explicit_steps) // no such step is taken back, see save()
@@ -371,12 +384,9 @@ bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
     paths.keep_fluid();
     committed_paths = paths;
     tips.commit(paths);
+    tell_of_boundary();
   }
-  for (const SofteningBond &bond : softening_bonds)
-    dissipated +=
-      relative_energy(bond.view.first, bond.view.second) *
-      lattice.energy_at_unit_stretch(bond.view) *
-      (lattice.softening.dissipated(bond.trial) - lattice.softening.dissipated(bond.committed));
+  dissipated += softened_in_step();
   softening_bonds.commit();
   if (context.attempt == 0 || fracture.cells.size() > n_segments_before)
     stops_at_rim = 0;

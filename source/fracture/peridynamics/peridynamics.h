@@ -231,6 +231,9 @@ private:
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
 
+  /// Say of each tip once that it has come to a side of the domain.
+  void tell_of_boundary();
+
   /// Paths begin where bonds far from all others are stretched too far.
   /// @return why the run cannot go on; empty: it can
   std::string begin_paths(const StepContext &context, const State &state, const OfCells &of_cells);
@@ -359,6 +362,9 @@ private:
   /// pressed by that do not break, and hold what has parted. A sentence once that counts.
   std::string why_sliding_crack_holds() const;
 
+  /// By bonds that have softened since the step began [J; J/m in 2-D].
+  double softened_in_step() const;
+
   /// Once, when the net pressure is so high that bonds may break where no crack is.
   void warn_of_pressure(const State &state);
 
@@ -429,6 +435,8 @@ private:
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
   bool told_of_rim = false, told_of_pressure = false, told_of_contact = false;
+  std::set<std::pair<unsigned int, unsigned int>>
+    told_of_ends; ///< path and side, see tell_of_boundary()
 
   // Of the current step.
   bool segments_lag = false; ///< other bonds cross paths since they were refreshed

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace stockwork::peridynamics
 {
@@ -107,6 +108,23 @@ void Peridynamics<dim>::find_crossing_bonds()
     {
       new_paths.look_beside(paths);
       segments_lag = true;
+    }
+}
+
+
+template <int dim>
+void Peridynamics<dim>::tell_of_boundary()
+{
+  if constexpr (dim == 2)
+    for (const TrackedPaths::End &end : paths.ends())
+    {
+      const Point<2> tip = paths.tip(end);
+      if (paths.advance(end) == 0. || lattice.zone.is_inside(tip, 0.5 * lattice.zone.spacing()) ||
+          !told_of_ends.insert({end.path, end.side}).second)
+        continue;
+      std::ostringstream text;
+      text << "A crack at (" << tip << ") has reached the boundary of the domain.";
+      messages.push_back(text.str());
     }
 }
 
@@ -278,6 +296,7 @@ void Peridynamics<dim>::track(const State &state, const OfCells &of_cells)
 
 #define INSTANTIATE(dim)                                                                  \
   template void Peridynamics<dim>::find_crossing_bonds();                                 \
+  template void Peridynamics<dim>::tell_of_boundary();                                    \
   template void Peridynamics<dim>::follow_paths();                                        \
   template SymmetricTensor<2, dim> Peridynamics<dim>::stress_ahead(                       \
     const Point<dim> &, const Tensor<1, dim> &, const State &, const OfCells &) const;    \
