@@ -481,8 +481,44 @@ void BoundaryConditions<dim>::check(const Triangulation<dim> &triangulation,
         throw EntryError("Boundary conditions/" + condition.entry, condition.side_name,
                          error.what());
       }
+  refuse_idle_normal_tractions(triangulation);
   if (!inertia)
     check_hold(triangulation);
+}
+
+
+template <int dim>
+void BoundaryConditions<dim>::refuse_idle_normal_tractions(
+  const Triangulation<dim> &triangulation) const
+{
+  for (const auto &[side, traction] : prescribed_loads.normal_traction)
+  {
+    std::set<unsigned int> given;
+    const Dirichlet *last = nullptr;
+    for (const Dirichlet &condition : dirichlet)
+      if (condition.side == side && condition.component < dim)
+      {
+        given.insert(condition.component);
+        last = &condition;
+      }
+    if (last == nullptr)
+      continue;
+    bool is_idle = given.size() == dim;
+    if (!is_idle)
+      try
+      {
+        is_idle = given.count(normal_axis(triangulation, side)) > 0;
+      }
+      catch (const InputError &)
+      {
+        // It has no single normal, and moves along some of it.
+      }
+    if (is_idle)
+      throw EntryError("Boundary conditions/Normal traction", last->side_name,
+                       "other sides than those whose displacement along their normal is given, by "
+                       "'Boundary conditions/" +
+                         last->entry + "': it would do nothing");
+  }
 }
 
 

@@ -171,6 +171,9 @@ private:
 
   void check_hold(const dealii::Triangulation<dim> &triangulation) const;
 
+  /// @throws EntryError for a side with a normal traction that cannot move along its normal
+  void refuse_idle_normal_tractions(const dealii::Triangulation<dim> &triangulation) const;
+
   std::vector<Mention> mentions;
   std::string rollers; ///< as the deck gives them
   std::vector<Dirichlet> dirichlet;
