@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -27,48 +28,69 @@ struct OnPlane
   double pores;  ///< pressure in them [Pa]
 };
 
-/// At the middles and the ends of its flat parts.
-template <int dim>
-std::vector<OnPlane> on_planes(const Scene<dim> &scene, const InitialCrack<dim> &crack)
+/// Of a flat part of a crack.
+struct FlatPart
 {
-  std::vector<OnPlane> result;
-  const auto add = [&](const Point<dim> &place, const Tensor<1, dim> &normal)
+  OnPlane middle;
+  std::vector<OnPlane> ends; ///< of a disc, places on its rim that lie in the domain
+};
+
+template <int dim>
+std::vector<FlatPart> stress_on(const Case<dim> &the_case, const InitialCrack<dim> &crack)
+{
+  const auto on_plane = [&](const Point<dim> &place, const Tensor<1, dim> &normal)
   {
-    const SymmetricTensor<2, dim> stress = scene.in_situ_stress(place);
+    const SymmetricTensor<2, dim> stress = the_case.scene.in_situ_stress(place);
     const Tensor<1, dim> traction = stress * normal;
-    result.push_back({-(traction * normal), (traction - (traction * normal) * normal).norm(),
-                      stress.norm(), scene.in_situ_pore_pressure(place)});
+    return OnPlane{-(traction * normal), (traction - (traction * normal) * normal).norm(),
+                   stress.norm(), the_case.scene.in_situ_pore_pressure(place)};
   };
+  const BoundingBox<dim> domain({the_case.geometry.lower(), the_case.geometry.upper()});
+  std::vector<FlatPart> parts;
   for (const auto &[middle, normal] : flat_parts(crack))
   {
-    add(middle, normal);
-    if (crack.disc)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        Tensor<1, dim> along;
-        along[d] = 1.;
-        along -= (along * normal) * normal;
-        for (const double end : {-1., 1.})
-          if (along.norm() > 1e-6) // not across it
-            add(middle + end * crack.disc->radius / along.norm() * along, normal);
-      }
+    parts.push_back({on_plane(middle, normal), {}});
+    for (unsigned int d = 0; d < dim && crack.disc; ++d)
+    {
+      Tensor<1, dim> along;
+      along[d] = 1.;
+      along -= (along * normal) * normal;
+      if (along.norm() < 1e-6) // across it
+        continue;
+      for (const double end : {-1., 1.})
+        if (const Point<dim> rim = middle + end * crack.disc->radius / along.norm() * along;
+            domain.point_inside(rim, 1e-8))
+          parts.back().ends.push_back(on_plane(rim, normal));
+    }
+    for (const Point<dim> &corner : crack.points)
+      if (const Tensor<1, dim> to = corner - middle;
+          std::abs(to * normal) < 1e-8 * crack.size()) // one of its own
+        parts.back().ends.push_back(on_plane(corner, normal));
   }
-  for (unsigned int i = 0; i + 1 < crack.points.size(); ++i)
-    if constexpr (dim == 2)
-      if (const Tensor<1, dim> along = crack.points[i + 1] - crack.points[i]; along.norm() > 0.)
-        for (const unsigned int end : {i, i + 1})
-          add(crack.points[end], cross_product_2d(along) / along.norm());
-  return result;
+  return parts;
+}
+
+template <int dim>
+void for_each_place(const Case<dim> &the_case,
+                    const InitialCrack<dim> &crack,
+                    const std::function<void(const OnPlane &)> &look_at)
+{
+  for (const FlatPart &part : stress_on(the_case, crack))
+  {
+    look_at(part.middle);
+    for (const OnPlane &end : part.ends)
+      look_at(end);
+  }
 }
 
 /// The least that presses the faces of a crack together in situ [Pa]; infinity without a crack.
 template <int dim>
-double least_compression_across_cracks(const Scene<dim> &scene)
+double least_compression_across_cracks(const Case<dim> &the_case)
 {
   double least = std::numeric_limits<double>::infinity();
-  for (const InitialCrack<dim> &crack : scene.cracks)
-    for (const OnPlane &plane : on_planes(scene, crack))
-      least = std::min(least, plane.across);
+  for (const InitialCrack<dim> &crack : the_case.scene.cracks)
+    for_each_place<dim>(the_case, crack,
+                        [&](const OnPlane &plane) { least = std::min(least, plane.across); });
   return least;
 }
 } // namespace
@@ -126,7 +148,8 @@ template <int dim>
 bool is_loaded(const Case<dim> &the_case)
 {
   const auto &loads = the_case.boundary_conditions.loads();
-  if (!loads.traction.empty() || !loads.normal_traction.empty())
+  if (!loads.traction.empty() || !loads.normal_traction.empty() ||
+      the_case.boundary_conditions.controlled_load())
     return true;
   const auto sides = the_case.geometry.side_names();
   return the_case.scene.moves_side &&
@@ -156,16 +179,27 @@ void add_growth(const Case<dim> &the_case,
     const double a = half_length(the_case, crack),
                  needed = crack.disc ? 0.5 * rock.toughness() * std::sqrt(numbers::PI / a)
                                      : rock.toughness() / std::sqrt(numbers::PI * a);
-    for (const OnPlane &plane : on_planes(the_case.scene, crack))
-      if (const double net = given - plane.across; net > 0. && needed > 0.)
-        if (const double share = std::hypot(net, plane.along) / needed; share > greatest)
-        {
-          greatest = share;
-          number = c + 1;
-        }
+    const auto look_at = [&](const double across, const double along)
+    {
+      if (const double share = std::hypot(given - across, along) / needed;
+          given > across && share > greatest)
+      {
+        greatest = share;
+        number = c + 1;
+      }
+    };
+    // Where the stress differs along it, linearly, K at its tip is that of so much of it.
+    const double of_end = crack.disc ? 2. / 3. : 0.5;
+    for (const FlatPart &part : stress_on(the_case, crack))
+    {
+      look_at(part.middle.across, part.middle.along);
+      for (const OnPlane &end : part.ends)
+        look_at((1. - of_end) * part.middle.across + of_end * end.across,
+                (1. - of_end) * part.middle.along + of_end * end.along);
+    }
   }
   if (number == 0)
-    return;
+    return; // none opens, or nobody knows the rock's toughness
   // Bonds of a coarse lattice, and a pressure that is put on at once, let cracks grow below what
   // statics say.
   constexpr double far_from_it = 0.5;
@@ -175,11 +209,12 @@ void add_growth(const Case<dim> &the_case,
          << (in_cracks ? "" : " once fluid comes to it, and as fast as it follows")
          << ", the longer it is the more easily, until walls or stress stop it, or the run ends";
   else if (greatest < far_from_it && !is_loaded(the_case))
-    text << "no crack of the deck grows";
+    text << "crack " << number << " comes nearest to it, and does not grow";
   else
     text << "crack " << number
          << " comes nearest to it; by statics and alone in a large rock it does not grow, but with "
-            "loads on the boundary, walls or cracks nearby, or a sudden pressure it may";
+            "loads on the boundary, walls or cracks nearby, stress that differs along it, or a "
+            "sudden pressure it may";
   numbers.push_back({"net pressure given / needed for growth", greatest, text.str()});
 }
 } // namespace
@@ -194,7 +229,7 @@ void add_given_pressure(const Case<dim> &the_case,
   const double given = in_cracks ? the_case.scene.crack_pressure
                                  : the_case.network.maximum_pressure().value_or(
                                      std::numeric_limits<double>::quiet_NaN()),
-               across = least_compression_across_cracks(the_case.scene);
+               across = least_compression_across_cracks(the_case);
   if (std::isnan(given) || std::isinf(across))
     return;
   if (across > 0.)
@@ -219,23 +254,27 @@ void add_shear_along_cracks(const Case<dim> &the_case, std::vector<SceneNumber> 
   const Scene<dim> &scene = the_case.scene;
   const bool is_given = !std::isnan(scene.crack_pressure);
   // Where a crack slides most easily.
-  double shear = 0., pressing = 1.;
+  OnPlane worst{0., 0., 0., 0.};
+  double pressing = 1.;
   unsigned int number = 0;
   for (unsigned int c = 0; c < scene.cracks.size(); ++c)
     if (scene.cracks[c].kind == InitialCrack<dim>::Kind::open) // no other friction holds
-      for (const OnPlane &plane : on_planes(scene, scene.cracks[c]))
-      {
-        const double of_fluid = is_given                  ? scene.crack_pressure
-                                : scene.has_pore_pressure ? plane.pores
-                                                          : plane.across,
-                     across = std::max(plane.across - of_fluid, 0.);
-        if (plane.along > hardly_any * plane.all && plane.along * pressing > shear * across)
-        {
-          shear = plane.along;
-          pressing = across;
-          number = c + 1;
-        }
-      }
+      for_each_place<dim>(the_case, scene.cracks[c],
+                          [&](const OnPlane &plane)
+                          {
+                            const double of_fluid = is_given                  ? scene.crack_pressure
+                                                    : scene.has_pore_pressure ? plane.pores
+                                                                              : plane.across,
+                                         across = std::max(plane.across - of_fluid, 0.),
+                                         more = plane.along * pressing - worst.along * across;
+                            if (plane.along > hardly_any * plane.all &&
+                                (more > 0. || (more == 0. && plane.along > worst.along)))
+                            {
+                              worst = plane;
+                              pressing = across;
+                              number = c + 1;
+                            }
+                          });
   if (number == 0)
     return;
   std::ostringstream text;
@@ -243,14 +282,15 @@ void add_shear_along_cracks(const Case<dim> &the_case, std::vector<SceneNumber> 
   if (pressing > 0.)
     text << to_string(pressing, dimension::stress)
          << " presses its faces; with a friction coefficient of less than " << std::setprecision(3)
-         << shear / pressing << " it slides at the start";
+         << worst.along / pressing << " it slides at the start";
   else
-    text << "its fluid is at the stress across it"
-         << (!is_given && !scene.has_pore_pressure
-               ? ", for the rock has no pores that could take it"
-               : " or above")
-         << ", so nothing presses its faces, and it slides at the start whatever their friction";
-  numbers.push_back({"in-situ shear stress along a crack [Pa]", shear, text.str()});
+    text << (worst.across <= 0. ? ""
+             : !is_given && !scene.has_pore_pressure
+               ? "its fluid is at the stress across it, for the rock has no pores that could take "
+                 "it, so "
+               : "its fluid is at the stress across it or above, so ")
+         << "nothing presses its faces, and it slides at the start whatever their friction";
+  numbers.push_back({"in-situ shear stress along a crack [Pa]", worst.along, text.str()});
 }
 
 template void add_pore_pressure(const Case<2> &, std::vector<SceneNumber> &);

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace stockwork
@@ -493,31 +494,27 @@ void BoundaryConditions<dim>::refuse_idle_normal_tractions(
 {
   for (const auto &[side, traction] : prescribed_loads.normal_traction)
   {
-    std::set<unsigned int> given;
-    const Dirichlet *last = nullptr;
+    std::map<unsigned int, const Dirichlet *> given; // by component
     for (const Dirichlet &condition : dirichlet)
       if (condition.side == side && condition.component < dim)
-      {
-        given.insert(condition.component);
-        last = &condition;
-      }
-    if (last == nullptr)
+        given[condition.component] = &condition;
+    if (given.empty())
       continue;
-    bool is_idle = given.size() == dim;
-    if (!is_idle)
-      try
-      {
-        is_idle = given.count(normal_axis(triangulation, side)) > 0;
-      }
-      catch (const InputError &)
-      {
-        // It has no single normal, and moves along some of it.
-      }
-    if (is_idle)
-      throw EntryError("Boundary conditions/Normal traction", last->side_name,
+    // A side that has no single normal moves along some of it, unless it does not move at all.
+    const Dirichlet *idle = given.size() == dim ? given.begin()->second : nullptr;
+    try
+    {
+      const auto along_normal = given.find(normal_axis(triangulation, side));
+      idle = along_normal == given.end() ? nullptr : along_normal->second;
+    }
+    catch (const InputError &)
+    {
+    }
+    if (idle != nullptr)
+      throw EntryError("Boundary conditions/Normal traction", idle->side_name,
                        "other sides than those whose displacement along their normal is given, by "
                        "'Boundary conditions/" +
-                         last->entry + "': it would do nothing");
+                         idle->entry + "': a traction there would do nothing");
   }
 }
 

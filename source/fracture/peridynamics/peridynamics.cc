@@ -382,9 +382,9 @@ bool Peridynamics<dim>::commit(const StepContext &context, const State &state)
   if (parameters.tracked)
   {
     paths.keep_fluid();
+    tell_of_boundary();
     committed_paths = paths;
     tips.commit(paths);
-    tell_of_boundary();
   }
   dissipated += softened_in_step();
   softening_bonds.commit();

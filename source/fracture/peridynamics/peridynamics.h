@@ -231,7 +231,7 @@ private:
   /// Fracture cells and segments are the pieces of paths that fluid has reached.
   void follow_paths();
 
-  /// Say of each tip once that it has come to a side of the domain.
+  /// Say of tips that have come to a side of the domain in this step.
   void tell_of_boundary();
 
   /// Paths begin where bonds far from all others are stretched too far.
@@ -435,8 +435,6 @@ private:
   double committed_energy = 0.;
   bool started = false; ///< the initial cracks are cut
   bool told_of_rim = false, told_of_pressure = false, told_of_contact = false;
-  std::set<std::pair<unsigned int, unsigned int>>
-    told_of_ends; ///< path and side, see tell_of_boundary()
 
   // Of the current step.
   bool segments_lag = false; ///< other bonds cross paths since they were refreshed

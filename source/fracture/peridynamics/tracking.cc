@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace stockwork::peridynamics
@@ -116,16 +117,25 @@ template <int dim>
 void Peridynamics<dim>::tell_of_boundary()
 {
   if constexpr (dim == 2)
-    for (const TrackedPaths::End &end : paths.ends())
+  {
+    const auto beyond = [this](const TrackedPaths &all)
     {
-      const Point<2> tip = paths.tip(end);
-      if (paths.advance(end) == 0. || lattice.zone.is_inside(tip, 0.5 * lattice.zone.spacing()) ||
-          !told_of_ends.insert({end.path, end.side}).second)
-        continue;
-      std::ostringstream text;
-      text << "A crack at (" << tip << ") has reached the boundary of the domain.";
-      messages.push_back(text.str());
-    }
+      std::map<std::pair<unsigned int, unsigned int>, Point<2>> tips;
+      for (const TrackedPaths::End &end : all.ends())
+        if (const Point<2> tip = all.tip(end);
+            all.advance(end) > 0. && !lattice.zone.is_inside(tip, 0.5 * lattice.zone.spacing()))
+          tips[{end.path, end.side}] = tip;
+      return tips;
+    };
+    const auto before = beyond(committed_paths);
+    for (const auto &[end, tip] : beyond(paths))
+      if (before.count(end) == 0)
+      {
+        std::ostringstream text;
+        text << "A crack at (" << tip << ") m has reached the boundary of the domain.";
+        messages.push_back(text.str());
+      }
+  }
 }
 
 

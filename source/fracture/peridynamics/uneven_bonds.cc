@@ -41,7 +41,7 @@ void UnevenBonds<dim>::set(const std::size_t site,
                            const double limit)
 {
   Row &row = rows[row_of[site / n_lanes]];
-  if (row.set < n_shared)
+  if (row.set < n_shared) // it may be another's as well; few rows change, those beside cracks
   {
     sets.push_back(sets[row.set]);
     row.set = sets.size() - 1;
