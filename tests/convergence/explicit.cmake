@@ -112,5 +112,8 @@ stockwork_case_test(NAME convergence/explicit/disc DECK ${deck} SET "Output/Fiel
 stockwork_case_test(NAME convergence/explicit/disc/pressure DECK ${deck} SET "Output/Fields=false" "Cracks/Fluid pressure=2 MPa"
   "Boundary conditions/Normal traction="
   EXPECT "final/energy_balance_error < 1e-10" "final/dissipated_energy > 1")
+# Where both act, bonds break dry, and fluid comes when they have: it has done half of its work there.
+stockwork_case_test(NAME convergence/explicit/disc/pulled_with_pressure DECK ${deck} SET "Output/Fields=false" "Cracks/Fluid pressure=0.3 MPa"
+  EXPECT "final/energy_balance_error < 1e-10" "final/dissipated_energy > 15")
 stockwork_same_test(NAME convergence/explicit/disc.2ranks DECK ${deck} SET "Output/Fields=false"
   RANKS 1,2 TOLERANCE 1e-9 IGNORE "balance_error")

@@ -279,8 +279,8 @@ void ExplicitBonds<dim>::look_at(Listed &site, const bool breaks)
     // The pressure of the fluid is worth this elongation, see pressure_in_bonds.cc.
     const double of_fluid = bond.by_fluid * whole.length;
     const double damage_before = this->damage(bond);
-    const double effective =
-      elongation + (damage_before > 0. || feels_fluid(place, b) ? of_fluid : 0.);
+    const bool has_fluid = damage_before > 0. || feels_fluid(place, b);
+    const double effective = elongation + (has_fluid ? of_fluid : 0.);
     const double stretch = bond.amplification * effective / whole.length;
     double damage = damage_before;
     if (breaks && damage < 1. && stretch > softening.first && stretch > bond.greatest)
@@ -300,7 +300,11 @@ void ExplicitBonds<dim>::look_at(Listed &site, const bool breaks)
       // are effective ones, and the fluid does p dV, V = k D e l / (C11 + (d-1) C12).
       const double half = 0.5 * share * bond.stiffness;
       energy += 0.5 * half * before * effective * (damage - damage_before);
-      work_of_fluid += half * of_fluid * (damage * effective - damage_before * before);
+      // Where a bond has broken dry, fluid comes when it has: its force acts at the end of this
+      // displacement only, which is half of that, and it stores what it does elsewhere.
+      work_of_fluid += half * of_fluid *
+                       (has_fluid ? damage * effective - damage_before * before
+                                  : 0.5 * damage * (effective - before + of_fluid));
     }
     const double force = bond.stiffness * ((1. - damage) * elongation - damage * of_fluid);
     for (unsigned int d = 0; d < dim; ++d)
