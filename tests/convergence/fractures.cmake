@@ -314,7 +314,7 @@ stockwork_stop_test(NAME convergence/peridynamics/layers/apart/rim DECK tests/da
   SAYS "has reached the rim of the peridynamic zone" "let it grow by 'Fracture/peridynamics/Cell size = ")
 stockwork_stop_test(NAME convergence/peridynamics/layers/apart/slides DECK tests/data/layers_apart.prm
   SET ${tall} "Cracks/Cohesive=0, -0.4 m -> 1.6 m, 0.4152 m" SAYS "is made to slide as it opens")
-# Nor does it hang on nodes: upright on a column of them, or between two columns, it runs as on cells of 0.05 m.
+# A crack in principal stresses does not slide, wherever nodes lie: on a column of them, or between two, it runs as on cells of 0.05 m.
 foreach(x 0 0.1)
   stockwork_case_test(NAME convergence/peridynamics/crack_on_nodes/${x} DECK tests/data/crack_on_nodes.prm LABELS quick
     SET "Cracks/Open=${x} m, -1 m -> ${x} m, 1 m"
