@@ -414,6 +414,7 @@ Case<dim>::Case(const Deck &deck, ParameterHandler &prm, const PlugIns &plug_ins
 
   scheme.parse_parameters(prm, !has_fracture && elements.has_pore_pressure && laws.are_linear() &&
                                  !network.may_cavitate());
+  elements.numbered_along_rows = scheme.is_explicit(); // steps sweep the lattice
 
   linear_solver.parse_parameters(prm);
   check_history(prm, *this);

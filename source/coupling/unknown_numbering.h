@@ -27,6 +27,7 @@ struct ElementSettings
   unsigned int displacement_degree = 2;
   bool has_pore_pressure = false;
   PressureStabilisation stabilisation = PressureStabilisation::none;
+  bool numbered_along_rows = false; ///< not cell by cell, for what sweeps rows of a lattice
 };
 
 /// All unknowns of the run: how they are numbered, which are constrained, and vectors of them.
