@@ -147,6 +147,20 @@ double CohesiveXFEM<dim>::strength_of_cells(const double size)
     strength = std::sqrt(plane_modulus * rock.energy_release_rate / (cells * size));
     message << "Tensile strength: " << strength << " Pa, chosen so that the cohesive length is "
             << cells << " cells of " << size << " m.";
+    // At half of the strength a crack's energy release rate is an eighth above that without a
+    // process zone (Dugdale 1960), and beyond that soon any.
+    constexpr double much = 0.5;
+    double net = 0.;
+    if (!std::isnan(scene.crack_pressure) && parameters.growth)
+      for (const auto &path : discontinuity.paths())
+        for (const auto &piece : path.pieces)
+          net = std::max(net, scene.crack_pressure - closing_stress(piece));
+    if (const double share = net / strength; share > much)
+      message
+        << " 'Cracks/Fluid pressure' is " << net
+        << " Pa above the stress across a crack: against so little strength it may grow where "
+           "its toughness would hold it. Use cells of at most "
+        << std::pow(much / share, 2) * size << " m, or give 'Rock/Tensile strength'.";
     messages.push_back(message.str());
   }
   else if (const double length = plane_modulus * rock.energy_release_rate / (strength * strength);
