@@ -6,9 +6,9 @@
     contrib/dry.py draw  [--output DIR]
 
 `run` runs the strip at nine stretches, with cells of 0.1 and 0.05 mm, horizons of 3, 4 and 5 cells, bonds that are brittle
-or soften; the plate of glass, Kalthoff's plate and the notch under a given pressure with fewer of these varied. What is
-finished stays as it is. `table` prints what each crack did, `draw` the energy at which the strip forks. Results are in
-DIR/<case>/<name>.
+or soften, and its notch a row of cells off the middle (moved); the plate of glass, Kalthoff's plate and the notch under
+a given pressure with fewer of these varied. What is finished stays as it is. `table` prints what each crack did, `draw`
+the energy at which the strip forks. Results are in DIR/<case>/<name>.
 
 A crack forks when it becomes broader than three sixteenths of the body, and more than one before its tip has come through
 fifteen sixteenths of its length. Where, and the angle between the arms, are read off breadth over length in between. Arms
@@ -32,6 +32,9 @@ from tips import greatest_speed, rayleigh_speed  # noqa: E402
 
 BONDS = "Fracture/peridynamics/"
 LAWS = {"brittle": [], "soft": [BONDS + "Softening=4"]}  # the decks' bonds are brittle
+# The strip's notch a row of cells off the middle: {resolution: settings}.
+MOVED = {resolution: [f"Cracks/Open=0, {row} mm -> 4 mm, {row} mm"]
+         for resolution, row in (("medium", 16. / 159.), ("fine", 16. / 319.))}
 STRETCHES = (0.028, 0.0305, 0.0325, 0.034, 0.035, 0.0365, 0.038, 0.040, 0.045)  # mm to either side
 HORIZONS = (3, 4, 5)
 HIT = ["Mesh/Side boxes=hit: (-1 mm, -1 mm) to (1 mm, 25 mm)", "Boundary conditions/Displacement x=hit: 16.5*t",
@@ -39,8 +42,9 @@ HIT = ["Mesh/Side boxes=hit: (-1 mm, -1 mm) to (1 mm, 25 mm)", "Boundary conditi
 
 
 def strip(stretch, resolution, horizon, law):
+    more = MOVED[resolution] if law == "moved" else LAWS[law]
     return (f"{stretch:g}_{resolution}_{horizon}_{law}", "pmma_strip/0.040",
-            [f"Resolution={resolution}", f"{BONDS}Horizon={horizon}", *LAWS[law], "Output/Fields=false",
+            [f"Resolution={resolution}", f"{BONDS}Horizon={horizon}", *more, "Output/Fields=false",
              f"Boundary conditions/Displacement y=bottom: {-stretch:g}e-3; top: {stretch:g}e-3"])
 
 
@@ -63,8 +67,10 @@ TWICE = ["Boundary conditions/Normal traction=top: 4 MPa; bottom: 4 MPa"]
 REST = ["Time/Start=in equilibrium"]
 
 # Of each case: (name, deck, settings) of each run.
+STRIPS = [*itertools.product(("medium", "fine"), HORIZONS, LAWS), ("medium", 3, "moved"), ("medium", 5, "moved"),
+          ("fine", 3, "moved"), ("fine", 5, "moved")]  # brittle when moved
 RUNS = {
-    "pmma_strip": [strip(*what) for what in itertools.product(STRETCHES, ("medium", "fine"), HORIZONS, LAWS)],
+    "pmma_strip": [strip(stretch, *what) for stretch, what in itertools.product(STRETCHES, STRIPS)],
     "glass_plate": [*(plate("light", *what) for what in itertools.product(("coarse", "medium"), HORIZONS, LAWS)),
                     plate("heavy", "coarse", 3, "brittle"), plate("heavy", "medium", 3, "brittle"),
                     *(plate("light", resolution, 3, "brittle", TWICE) for resolution in ("coarse", "medium"))],
@@ -126,7 +132,7 @@ def forks_at(found, scale, unit):
 
 def strip_rows(options):
     """(cells, horizon, bonds): {stretch: outcome} of what has run."""
-    for resolution, horizon, law in itertools.product(("medium", "fine"), HORIZONS, LAWS):
+    for resolution, horizon, law in STRIPS:
         found = {}
         for stretch in STRETCHES:
             try:
