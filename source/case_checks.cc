@@ -472,10 +472,6 @@ void check_scheme(const Deck &deck, ParameterHandler &prm, const Case<dim> &the_
   if (the_case.scheme.is_explicit() && !the_case.in_situ.is_zero())
     throw EntryError("Time/Scheme", "explicit",
                      "Newmark with a stress in situ or a pressure there");
-  if (the_case.scheme.is_explicit() && the_case.scene.crack_pressure < 0.)
-    throw EntryError("Cracks/Fluid pressure", value_of(prm, {"Cracks"}, "Fluid pressure"),
-                     "0 or more with 'Time/Scheme = explicit', where nothing keeps the faces of a "
-                     "crack from passing through one another");
   if (the_case.scheme.kind() == TimeScheme::Kind::newmark)
     require(prm, "Rock", "Density", "a density > 0 kg/m^3, such as '2500 kg/m^3', with inertia");
   if (std::isfinite(the_case.control.error_tolerance) &&

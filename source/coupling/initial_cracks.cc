@@ -42,8 +42,8 @@ void declare_initial_cracks(ParameterHandler &prm)
     "backward Euler. 0: the faces touch, and the crack presses on nothing around it.");
   prm.declare_entry(
     "Fluid pressure", "", Patterns::Anything(),
-    "In all cracks, where it is given [Pa]; '0' in a dry case. Empty: computed from "
-    "the flow in the fractures.");
+    "In all cracks, where it is given [Pa]; '0' in a dry case. 0 or more with explicit steps "
+    "('Time/Scheme'). Empty: computed from the flow in the fractures.");
   prm.leave_subsection();
 }
 

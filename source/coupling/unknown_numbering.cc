@@ -1,18 +1,15 @@
 #include "coupling/unknown_numbering.h"
 
 #include "biot/opening_control.h"
+#include "coupling/row_numbering.h"
 #include "coupling/visible_constraints.h"
 
-#include <deal.II/dofs/dof_accessor.h>
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
-#include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace stockwork
 {
@@ -27,35 +24,6 @@ FESystem<dim> make_element(const ElementSettings &elements)
   if (elements.has_pore_pressure)
     return FESystem<dim>(displacement, dim, pressure, 1);
   return FESystem<dim>(displacement, dim);
-}
-
-/// Number this rank's unknowns node by node along the first axis, rows of nodes by the others.
-/// Elements have their nodes at vertices. (DoFRenumbering::downstream() knows one rank only.)
-template <int dim>
-void number_along_rows(const Mapping<dim> &mapping, DoFHandler<dim> &handler)
-{
-  Assert(handler.get_fe().degree == 1, ExcNotImplemented());
-  // Nodes of a row are in line but for rounding.
-  const double unit = 1e-3 * GridTools::minimal_cell_diameter(handler.get_triangulation(), mapping);
-  const IndexSet &own = handler.locally_owned_dofs();
-  using Place = std::array<long long, dim>; // the last axis first
-  std::vector<std::pair<Place, types::global_dof_index>> order(own.n_elements());
-  for (const auto &cell : handler.active_cell_iterators())
-    if (!cell->is_artificial())
-      for (const unsigned int v : cell->vertex_indices())
-      {
-        Place place;
-        for (unsigned int d = 0; d < dim; ++d)
-          place[dim - 1 - d] = std::llround(cell->vertex(v)[d] / unit);
-        for (unsigned int c = 0; c < handler.get_fe().n_dofs_per_vertex(); ++c)
-          if (const auto i = cell->vertex_dof_index(v, c); own.is_element(i))
-            order[own.index_within_set(i)] = {place, own.index_within_set(i)};
-      }
-  std::sort(order.begin(), order.end());
-  std::vector<types::global_dof_index> numbers(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    numbers[order[k].second] = own.nth_index_in_set(k);
-  handler.renumber_dofs(numbers);
 }
 } // namespace
 
@@ -88,7 +56,7 @@ void UnknownNumbering<dim>::number_bulk(const double time)
   // belongs to a row of the lattice one after the other.
   handler.distribute_dofs(fe);
   if (elements.numbered_along_rows)
-    number_along_rows(mapping, handler);
+    number_along_rows(handler);
   std::vector<unsigned int> block_of_component(fe.n_components(), 0);
   if (elements.has_pore_pressure)
     block_of_component[dim] = 1;

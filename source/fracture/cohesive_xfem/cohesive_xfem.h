@@ -86,6 +86,10 @@ private:
   /// Refuse a crack too short for the cells, and say where one is not as long as it is given.
   void check_lengths();
 
+  /// Of the crack with the shortest way from its middle, or its mouth, to a tip that may grow;
+  /// infinite without such a tip [m].
+  double shortest_half_length() const;
+
   /// The tensile strength, chosen for cells of this size if it is not given [Pa]; says what is
   /// coarse.
   double strength_of_cells(double size);

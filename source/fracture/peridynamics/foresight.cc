@@ -5,6 +5,7 @@
 #include "fracture/peridynamics/state_based.h"
 #include "fracture/peridynamics/wording.h"
 #include "stockwork/base/error.h"
+#include "stockwork/base/quantity.h"
 #include "stockwork/fracture/needs.h"
 #include "verification/analytical/kgd.h"
 
@@ -352,6 +353,10 @@ void refuse_explicit_steps(const Parameters<dim> &parameters, const Scene<dim> &
   if (parameters.as_published || parameters.tensor_fluid)
     refuse("Newmark, or 'Fracture/peridynamics/Closure = auto' and 'Fluid = network': no "
            "fluid flows");
+  if (scene.crack_pressure < 0.)
+    throw EntryError("Cracks/Fluid pressure", to_string(scene.crack_pressure, dimension::pressure),
+                     "0 or more with 'Time/Scheme = explicit', where nothing keeps the faces of a "
+                     "crack from passing through one another");
   if (scene.crack_pressure != 0. && parameters.softening > 1.)
     refuse("Newmark, or brittle bonds ('Fracture/peridynamics/Softening = 1'): those that "
            "soften have no given pressure in explicit steps");
