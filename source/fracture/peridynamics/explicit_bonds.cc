@@ -188,10 +188,32 @@ void ExplicitBonds<dim>::set_layout(const Vector &vector)
     for (unsigned int d = 0; d < dim; ++d)
       own_unknowns.back()[d] = partitioner.global_to_local(zone.sites()[site].dofs[d]);
   }
+  find_runs();
   if (by_fluid != 0.)
   {
     wetness.reinit(vector);
     find_wet_sites();
+  }
+}
+
+
+template <int dim>
+void ExplicitBonds<dim>::find_runs()
+{
+  runs.clear();
+  for (unsigned int k = 0; k < own_sites.size(); ++k)
+  {
+    const auto follows = [&](const Run &run)
+    {
+      bool does = run.place + run.length == own_places[k];
+      for (unsigned int d = 0; d < dim; ++d)
+        does = does && run.unknowns[d] + dim * run.length == own_unknowns[k][d];
+      return does;
+    };
+    if (!runs.empty() && follows(runs.back()))
+      ++runs.back().length;
+    else
+      runs.push_back({own_places[k], own_unknowns[k], 1});
   }
 }
 
@@ -320,9 +342,14 @@ void ExplicitBonds<dim>::forces(const Vector &displacement, const bool breaks, V
 {
   if (breaks)
     std::swap(u, u_before);
-  for (unsigned int k = 0; k < own_sites.size(); ++k)
+  for (const Run &run : runs)
     for (unsigned int d = 0; d < dim; ++d)
-      u[d][own_places[k]] = displacement.local_element(own_unknowns[k][d]);
+    {
+      const double *const from = displacement.begin() + run.unknowns[d];
+      double *const to = u[d].data() + run.place;
+      for (unsigned int j = 0; j < run.length; ++j)
+        to[j] = from[dim * j];
+    }
   for (const Source &source : sources)
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -345,9 +372,14 @@ void ExplicitBonds<dim>::forces(const Vector &displacement, const bool breaks, V
       }
   if (breaks && by_fluid != 0.)
     find_wet_sites();
-  for (unsigned int k = 0; k < own_sites.size(); ++k)
+  for (const Run &run : runs)
     for (unsigned int d = 0; d < dim; ++d)
-      force.local_element(own_unknowns[k][d]) = f[d][own_places[k]];
+    {
+      const double *const from = f[d].data() + run.place;
+      double *const to = force.begin() + run.unknowns[d];
+      for (unsigned int j = 0; j < run.length; ++j)
+        to[dim * j] = from[j];
+    }
   for (const unsigned int k : on_planes)
     for (unsigned int d = 0; d < dim; ++d)
       force.local_element(own_unknowns[k][d]) *= own_shares[k];

@@ -127,6 +127,7 @@ private:
   void find_box();
   void find_sources();
   void find_spans();
+  void find_runs();
   void list(unsigned int own, const std::vector<Bond> &bonds);
 
   /// What the sweep is to know of a bond.
@@ -172,6 +173,15 @@ private:
   };
   std::vector<Source> sources;
   std::vector<std::array<unsigned int, dim>> own_unknowns; ///< local numbers
+
+  /// Own sites that follow one another in the box, and whose nodes do in the numbering.
+  struct Run
+  {
+    std::size_t place;                      ///< of the first
+    std::array<unsigned int, dim> unknowns; ///< of the first; each next one has them dim on
+    unsigned int length;
+  };
+  std::vector<Run> runs;
 
   std::unique_ptr<BondForces<dim>> kernel;
   std::unique_ptr<UnevenBonds<dim>> uneven; ///< those of the listed sites
