@@ -74,6 +74,14 @@ std::vector<Assumption> check_assumptions(const Case<dim> &the_case, const Outco
             "bonds' holds them; the greatest opening is ") +
          to_string(outcome.greatest_opening, dimension::length)});
   }
+  // A fluid that is injected keeps tips going; loads that do not give way let them run, and each
+  // step only so far.
+  if (outcome.held_back && the_case.scene.injection_rate == 0. &&
+      the_case.scheme.kind() != TimeScheme::Kind::newmark)
+    assumptions.push_back(
+      {"cracks are at rest at the end; a tip would have grown on", 1., false,
+       "a step lets a tip grow by a few cells only ('Most advances per step'), so this is no "
+       "equilibrium: give the run more steps ('Time/Initial step', 'End time')"});
   if (the_case.scene.cracks.empty() || !(outcome.injected > 0.))
     return assumptions;
   const RockProperties &rock = the_case.rock.main();

@@ -16,6 +16,7 @@ struct Outcome
   double length = 0.;            ///< of all cracks at the end [m]
   double process_zone = 0.;      ///< part of it that still has strength [m]
   unsigned int n_tips = 0;       ///< at the end
+  bool held_back = false;        ///< in the last step a tip would have grown on
   double maximum_tip_speed = 0.; ///< of one tip, averaged over a hundredth of the run [m/s]
   double injected = 0.;          ///< [m^2]
   double leaked = 0.;            ///< [m^2]

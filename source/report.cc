@@ -421,6 +421,7 @@ void Report<dim>::add_step(const unsigned int step, const StepReport &step_repor
     balance_error = moved > 0. ? std::abs(lost) / moved : 0.;
   }
 
+  shown.held_back = step_report.held_back;
   ++summary.steps;
   ++steps_of_run;
   summary.rejected_steps += step_report.rejected;

@@ -401,6 +401,7 @@ StepReport Stepper<dim>::advance(const double time, double dt, const unsigned in
       else if (std::isfinite(control.error_tolerance))
         growth = 1.; // not enough history for an estimate
       report.dt = dt;
+      report.held_back = verdict.held_back;
       report.next_dt = std::min({dt * growth, dt_limit, by_waves, control.maximum_step});
       report.next_dt = std::max(report.next_dt, control.minimum_step);
       return report;

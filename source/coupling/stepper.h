@@ -40,6 +40,7 @@ struct StepReport
   unsigned int rejected = 0; ///< attempts
   unsigned int nonlinear_iterations = 0;
   unsigned int linear_iterations = 0;
+  bool held_back = false; ///< Verdict::held_back
 };
 
 /// Carries the unknowns through one time step: solve, let the fracture grow, solve again; accept,
